@@ -1,0 +1,77 @@
+#ifndef meltfront_cases_case_h
+#define meltfront_cases_case_h
+
+#include <cases/exact_solution.h>
+#include <cases/scene.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meltfront::cases
+{
+  /** What a criterion asks of a quantity. */
+  enum class Statistic
+  {
+    value, ///< the quantity at one n
+    order, ///< the exponent fitted over all n of the table
+    worst  ///< the largest value over all n of the table
+  };
+
+  /** A bound that a result must keep: an acceptance criterion of a case. */
+  struct Criterion
+  {
+    std::string text; ///< as written in the case file
+    std::string method;
+    std::string quantity; ///< a column of the convergence table, e.g. `front_rms`
+    Statistic statistic = Statistic::value;
+    int n = 0; ///< for Statistic::value
+    double lower = -std::numeric_limits<double>::infinity();
+    double upper = std::numeric_limits<double>::infinity();
+    /** Why it is not met and by how much, measured; empty when it is met. Does not make
+     * it pass. */
+    std::string known_shortfall;
+  };
+
+  /** A number printed in a paper that a table restates. */
+  struct PrintedValue
+  {
+    std::string source; ///< e.g. `Monaghan et al. 2005, Table 1`
+    std::string method;
+    std::string quantity;
+    int n = 0;
+    double value = 0;
+  };
+
+  /** How the case is measured. */
+  struct Measurement
+  {
+    int samples = 100; ///< snapshots over the run, at least 50; 0: every step
+    bool square_root_clock = false; ///< samples equidistant in sqrt(t) rather than in t
+    double temperature_from
+        = 0; ///< coordinates between which temperature is compared (m)
+    double temperature_to = std::numeric_limits<double>::infinity();
+    double front_floor
+        = 0; ///< error of the exact solution itself in this domain (m); 0: exact
+    bool monotone_front = true; ///< physics says that the front never turns back
+  };
+
+  /** A scene, what is known of its solution, what to measure and what to accept. */
+  struct Case
+  {
+    Scene scene;
+    std::string title;
+    std::string description;
+    std::vector<std::string> tags;
+    std::vector<std::string> limits; ///< sentences for `limits and omissions`
+    std::shared_ptr<const ExactSolution> exact;
+    Measurement measurement;
+    std::vector<Criterion> criteria;
+    std::vector<PrintedValue> printed;
+    std::string file; ///< path that it was read from
+    std::string text; ///< the file's text, for hashes and records
+  };
+} // namespace meltfront::cases
+
+#endif

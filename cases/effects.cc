@@ -1,0 +1,222 @@
+#include <cases/effects.h>
+#include <cases/scene.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    /** One rule: the reason why a scene calls for the effect, or why it does not. */
+    struct Rule
+    {
+      Effect effect;
+      const char *name;
+      const char *description;
+      EffectDecision (*decide)(const Scene &);
+    };
+
+    EffectDecision
+    decide(Effect effect, bool on, const std::string &why, const std::string &why_not)
+    {
+      return {effect, on, on ? why : why_not};
+    }
+
+    EffectDecision
+    phase_change(const Scene &scene)
+    {
+      return decide(
+          Effect::phase_change, scene.material.latent_heat > 0,
+          fmt::format("the latent heat is {:.6g} J/kg", scene.material.latent_heat),
+          "the material has no latent heat");
+    }
+
+    EffectDecision
+    phase_conductivity(const Scene &scene)
+    {
+      const double solid = scene.material.solid.conductivity;
+      const double liquid = scene.material.liquid.conductivity;
+      return decide(Effect::phase_conductivity, solid != liquid,
+                    fmt::format("the solid conducts {:.6g} W/(m K), the liquid {:.6g}",
+                                solid, liquid),
+                    fmt::format("both phases conduct {:.6g} W/(m K)", solid));
+    }
+
+    EffectDecision
+    phase_heat_capacity(const Scene &scene)
+    {
+      const double solid = scene.material.solid.specific_heat_capacity;
+      const double liquid = scene.material.liquid.specific_heat_capacity;
+      return decide(Effect::phase_heat_capacity, solid != liquid,
+                    fmt::format("the solid stores {:.6g} J/(kg K), the liquid {:.6g}",
+                                solid, liquid),
+                    fmt::format("both phases store {:.6g} J/(kg K)", solid));
+    }
+
+    EffectDecision
+    heat_sources(const Scene &scene)
+    {
+      return decide(Effect::heat_sources, !scene.sources.empty(),
+                    fmt::format("there {} {} point or line source{}",
+                                scene.sources.size() == 1 ? "is" : "are",
+                                scene.sources.size(),
+                                scene.sources.size() == 1 ? "" : "s"),
+                    "there is no source");
+    }
+
+    EffectDecision
+    walls(const Scene &scene, Effect effect, BoundaryKind kind, const char *what)
+    {
+      std::string names;
+      for(const Side side : scene.sides())
+        if(scene.boundary(side).kind == kind)
+          names += fmt::format("{}{}", names.empty() ? "" : ", ", to_string(side));
+      return decide(effect, !names.empty(),
+                    fmt::format("{} is prescribed on {}", what, names),
+                    fmt::format("no wall prescribes {}", what));
+    }
+
+    EffectDecision
+    wall_temperature(const Scene &scene)
+    {
+      return walls(scene, Effect::wall_temperature, BoundaryKind::fixed_temperature,
+                   "a temperature");
+    }
+
+    EffectDecision
+    wall_flux(const Scene &scene)
+    {
+      return walls(scene, Effect::wall_flux, BoundaryKind::flux, "a heat flux");
+    }
+
+    EffectDecision
+    liquid_motion(const Scene &scene)
+    {
+      const double solid = scene.material.solid.density;
+      const double liquid = scene.material.liquid.density;
+      return decide(
+          Effect::liquid_motion, solid != liquid,
+          fmt::format("the solid's density is {:.6g} kg/m^3, the liquid's {:.6g}", solid,
+                      liquid),
+          fmt::format("both phases have the density {:.6g} kg/m^3", solid));
+    }
+
+    constexpr Rule rules[] = {
+        {Effect::phase_change, "phase_change", "Latent heat is exchanged at the front.",
+         phase_change},
+        {Effect::phase_conductivity, "phase_conductivity",
+         "The phases conduct heat differently.", phase_conductivity},
+        {Effect::phase_heat_capacity, "phase_heat_capacity",
+         "The phases store heat differently.", phase_heat_capacity},
+        {Effect::heat_sources, "heat_sources", "Point or line sources and sinks of heat.",
+         heat_sources},
+        {Effect::wall_temperature, "wall_temperature",
+         "Walls with a prescribed temperature.", wall_temperature},
+        {Effect::wall_flux, "wall_flux", "Walls with a prescribed heat flux.", wall_flux},
+        {Effect::liquid_motion, "liquid_motion",
+         "Freezing displaces liquid because the phases' densities differ.",
+         liquid_motion}};
+    static_assert(std::size(rules) == n_effects);
+
+    const Rule &
+    rule(Effect effect)
+    {
+      return rules[static_cast<std::size_t>(effect)];
+    }
+  } // namespace
+
+  const char *
+  to_string(Effect effect)
+  {
+    return rule(effect).name;
+  }
+
+  const char *
+  description(Effect effect)
+  {
+    return rule(effect).description;
+  }
+
+  const std::vector<Effect> &
+  all_effects()
+  {
+    static const std::vector<Effect> list = []
+    {
+      std::vector<Effect> effects;
+      for(const Rule &r : rules)
+        effects.push_back(r.effect);
+      return effects;
+    }();
+    return list;
+  }
+
+  EffectSet::EffectSet(std::vector<EffectDecision> decisions) : list(std::move(decisions))
+  {
+  }
+
+  bool
+  EffectSet::contains(Effect effect) const
+  {
+    return std::any_of(list.begin(), list.end(),
+                       [effect](const EffectDecision &decision)
+                       { return decision.effect == effect && decision.on; });
+  }
+
+  const std::vector<EffectDecision> &
+  EffectSet::decisions() const
+  {
+    return list;
+  }
+
+  EffectSet
+  effects_called_for(const Scene &scene)
+  {
+    std::vector<EffectDecision> decisions;
+    for(const Rule &r : rules)
+    {
+      EffectDecision decision = r.decide(scene);
+      const auto choice = scene.effect_choices.find(r.effect);
+      if(choice != scene.effect_choices.end()
+         && choice->second != EffectChoice::automatic)
+      {
+        decision.on = choice->second == EffectChoice::on;
+        decision.reason = fmt::format("the case file says {} ({})",
+                                      decision.on ? "on" : "off", decision.reason);
+      }
+      decisions.push_back(decision);
+    }
+    return EffectSet(std::move(decisions));
+  }
+
+  Scene
+  simulated_scene(const Scene &scene, const EffectSet &effects)
+  {
+    Scene result = scene;
+    const PhaseProperties &solid = scene.material.solid;
+    PhaseProperties &liquid = result.material.liquid;
+    if(!effects.contains(Effect::phase_change))
+      result.material.latent_heat = 0;
+    if(!effects.contains(Effect::phase_conductivity))
+      liquid.conductivity = solid.conductivity;
+    if(!effects.contains(Effect::phase_heat_capacity))
+      liquid.specific_heat_capacity = solid.specific_heat_capacity;
+    if(!effects.contains(Effect::liquid_motion))
+      liquid.density = solid.density;
+    if(!effects.contains(Effect::heat_sources))
+      result.sources.clear();
+    const auto insulate = [&result](BoundaryKind kind)
+    {
+      for(auto &boundary : result.boundaries)
+        if(boundary && boundary->kind == kind)
+          boundary = Boundary();
+    };
+    if(!effects.contains(Effect::wall_temperature))
+      insulate(BoundaryKind::fixed_temperature);
+    if(!effects.contains(Effect::wall_flux))
+      insulate(BoundaryKind::flux);
+    return result;
+  }
+} // namespace meltfront::cases

@@ -1,0 +1,14 @@
+#include <cases/exact_solution.h>
+
+#include <algorithm>
+
+namespace meltfront::cases
+{
+  double
+  ExactSolution::solid_volume(double lower, double upper, double time) const
+  {
+    const double split = std::clamp(front(time), lower, upper);
+    return solid_at_origin() ? volume_between(symmetry(), lower, split)
+                             : volume_between(symmetry(), split, upper);
+  }
+} // namespace meltfront::cases

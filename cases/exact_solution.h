@@ -1,0 +1,76 @@
+#ifndef meltfront_cases_exact_solution_h
+#define meltfront_cases_exact_solution_h
+
+#include <cases/position.h>
+
+#include <string>
+
+namespace meltfront::cases
+{
+  /**
+   * What is known exactly of a scene: temperature, front and heat content at any point
+   * and time.
+   *
+   * All solutions of this class are symmetric: they depend on one coordinate, x in a
+   * planar scene and the distance r from the axis or the centre in a cylindrical or
+   * spherical one.
+   */
+  class ExactSolution
+  {
+  public:
+    virtual ~ExactSolution() = default;
+
+    /** Its name with the numbers filled in, one line. */
+    virtual std::string description() const = 0;
+
+    virtual Symmetry symmetry() const = 0;
+
+    /** First time at which it may be evaluated (s); usually 0. */
+    virtual double
+    start_time() const
+    {
+      return 0;
+    }
+
+    /** Temperature at a coordinate >= 0 and a time >= start_time(). */
+    virtual double temperature(double coordinate, double time) const = 0;
+
+    /** The coordinate of the front (m). */
+    virtual double front(double time) const = 0;
+
+    /**
+     * Enthalpy per mass times density, integrated over lower <= coordinate <= upper with
+     * the measure of the symmetry (dx, 2 pi r dr, 4 pi r^2 dr); solid at the melting
+     * temperature counts zero. J/m^2, J/m, or J.
+     */
+    virtual double heat_content(double lower, double upper, double time) const = 0;
+
+    /** Volume that is solid between the two coordinates, in the same measure (m, m^2,
+     * m^3). */
+    double solid_volume(double lower, double upper, double time) const;
+
+    /** The same temperature at a point of space. */
+    double
+    temperature(const Position &position, double time) const
+    {
+      return temperature(coordinate(symmetry(), position), time);
+    }
+
+    /** Signed distance to the front (m): negative in the phase that holds the origin. */
+    double
+    signed_distance(const Position &position, double time) const
+    {
+      return coordinate(symmetry(), position) - front(time);
+    }
+
+    /** True where solid holds the origin (freezing from a cold wall or a sink; the usual
+     * case). */
+    virtual bool
+    solid_at_origin() const
+    {
+      return true;
+    }
+  };
+} // namespace meltfront::cases
+
+#endif

@@ -1,0 +1,24 @@
+#include <cases/error.h>
+#include <cases/method.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meltfront::cases
+{
+  void
+  require_effects(const Method &method, const EffectSet &effects)
+  {
+    const auto supported = method.supported_effects();
+    std::string missing;
+    for(const EffectDecision &decision : effects.decisions())
+      if(decision.on
+         && std::find(supported.begin(), supported.end(), decision.effect)
+                == supported.end())
+        missing += fmt::format("{}{} ({})", missing.empty() ? "" : ", ",
+                               to_string(decision.effect), decision.reason);
+    if(!missing.empty())
+      throw Refusal(fmt::format("{} does not simulate {}", method.name(), missing));
+  }
+} // namespace meltfront::cases

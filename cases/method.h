@@ -1,0 +1,136 @@
+#ifndef meltfront_cases_method_h
+#define meltfront_cases_method_h
+
+#include <cases/effects.h>
+#include <cases/options.h>
+#include <cases/snapshot.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace meltfront::cases
+{
+  struct Scene;
+
+  /** How finely, and with which values of its options, a method is to solve a scene. */
+  struct Resolution
+  {
+    int n = 40; ///< particles or cells along the domain's side
+    Options options;
+    std::uint64_t seed = 1; ///< for jittered or random arrangements
+    int threads = 1;
+  };
+
+  /** A parameter that a run used, as the report prints it. */
+  struct Parameter
+  {
+    std::string name;
+    std::string value;
+    std::string unit;
+  };
+
+  /** What a run is going to do, known once its set-up is complete. */
+  struct RunDescription
+  {
+    int dimension = 1; ///< in which the scene is simulated
+    double spacing
+        = 0; ///< particle spacing or cell size (m): the h of convergence tables
+    double smoothing_length = 0; ///< of the particles' kernel (m), 0 for a mesh
+    double time_step = 0;        ///< of a full step (s)
+    long unknowns = 0;
+    std::vector<Parameter> parameters; ///< the scheme in words and numbers
+  };
+
+  /** Who receives snapshots. */
+  class Observer
+  {
+  public:
+    virtual ~Observer() = default;
+
+    /** Called once, after set-up and before the first snapshot. */
+    virtual void
+    begin(const RunDescription &)
+    {
+    }
+
+    /**
+     * Whether a snapshot is wanted of the state after a step (step 0 is the initial
+     * state). Methods ask after every step, at the step's own time, and assemble a
+     * snapshot only when told to.
+     */
+    virtual bool wants(long step, double time) = 0;
+
+    virtual void observe(const Snapshot &snapshot) = 0;
+  };
+
+  /** What one effect cost in a run. */
+  struct EffectCost
+  {
+    Effect effect;
+    long calls = 0;     ///< times that its code was entered
+    long bytes = 0;     ///< memory allocated for it
+    double seconds = 0; ///< wall time spent in it, set-up and stepping
+  };
+
+  /** What a run cost. Times exclude the observer's. */
+  struct Cost
+  {
+    double setup_wall = 0;    ///< s
+    double setup_cpu = 0;     ///< s, all threads
+    double stepping_wall = 0; ///< s
+    double stepping_cpu = 0;  ///< s, all threads
+    long steps = 0;
+    long unknowns = 0;
+    long work = 0; ///< interactions or matrix entries touched; deterministic
+    long solver_iterations
+        = 0; ///< nonlinear or linear iterations, as the method's README says
+    long capped_steps = 0;           ///< steps whose solver met its iteration limit
+    std::vector<EffectCost> effects; ///< of the effects that are on
+  };
+
+  /** An algorithm that solves scenes. */
+  class Method
+  {
+  public:
+    virtual ~Method() = default;
+
+    /** The word that a user types. */
+    virtual std::string name() const = 0;
+
+    /** One sentence. */
+    virtual std::string summary() const = 0;
+
+    /** Name of the method of which this is the form as published (`sph` for `sph-2005`),
+     * or empty. */
+    virtual std::string
+    corrected_form() const
+    {
+      return {};
+    }
+
+    virtual std::vector<Effect> supported_effects() const = 0;
+
+    virtual std::vector<OptionDeclaration> option_declarations() const = 0;
+
+    /**
+     * Solve a scene from its start to its end time, handing snapshots to the observer:
+     * the initial state (step 0), any step that the observer wants, and the end (reached
+     * exactly).
+     *
+     * The scene comes from simulated_scene(); `effects` is the set it was made with. A
+     * method builds only what these effects need.
+     *
+     * @throws Refusal if it cannot treat the scene or an option's value correctly,
+     * @throws NumericalError at the step where a value is not finite or breaks a bound.
+     */
+    virtual Cost solve(const Scene &scene, const EffectSet &effects,
+                       const Resolution &resolution, Observer &observer) const = 0;
+  };
+
+  /** @throws Refusal naming the effects that are on and that the method lacks. */
+  void require_effects(const Method &method, const EffectSet &effects);
+} // namespace meltfront::cases
+
+#endif

@@ -1,0 +1,190 @@
+#include <cases/error.h>
+#include <cases/scene.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace meltfront::cases
+{
+  Field
+  Field::uniform(double value)
+  {
+    return {fmt::format("{}", value), [value](const Position &, double) { return value; },
+            true};
+  }
+
+  double
+  Domain::side() const
+  {
+    return shape == DomainShape::ball ? 2 * radius : upper[0] - lower[0];
+  }
+
+  const char *
+  to_string(Side side)
+  {
+    constexpr const char *names[]
+        = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "outer"};
+    static_assert(std::size(names) == n_sides);
+    return names[static_cast<std::size_t>(side)];
+  }
+
+  const Boundary &
+  Scene::boundary(Side side) const
+  {
+    const auto &found = boundaries[static_cast<std::size_t>(side)];
+    if(!found)
+      throw std::logic_error(fmt::format("the domain has no side {}", to_string(side)));
+    return *found;
+  }
+
+  std::vector<Side>
+  Scene::sides() const
+  {
+    std::vector<Side> result;
+    for(std::size_t s = 0; s < n_sides; ++s)
+      if(boundaries[s])
+        result.push_back(static_cast<Side>(s));
+    return result;
+  }
+
+  namespace
+  {
+    constexpr int samples_across = 33;
+    constexpr int samples_in_time = 65;
+
+    /** The sample points of a line of `samples_across` points in each direction of the
+     * domain. */
+    template <typename Visit>
+    void
+    visit_points(const Domain &domain, const Visit &visit)
+    {
+      const bool ball = domain.shape == DomainShape::ball;
+      std::array<int, 3> count{1, 1, 1};
+      for(int d = 0; d < domain.dimension; ++d)
+        count[d] = samples_across;
+      Position p{};
+      for(int k = 0; k < count[2]; ++k)
+        for(int j = 0; j < count[1]; ++j)
+          for(int i = 0; i < count[0]; ++i)
+          {
+            const std::array<int, 3> index{i, j, k};
+            double squared = 0;
+            for(int d = 0; d < domain.dimension; ++d)
+            {
+              const double lower = ball ? -domain.radius : domain.lower[d];
+              const double upper = ball ? domain.radius : domain.upper[d];
+              p[d] = lower + (upper - lower) * index[d] / (samples_across - 1);
+              squared += p[d] * p[d];
+            }
+            if(!ball || squared <= domain.radius * domain.radius * (1 + 1e-12))
+              visit(p);
+          }
+    }
+
+    bool
+    on_side(const Domain &domain, Side side, const Position &p)
+    {
+      const double tolerance = 1e-9 * domain.side();
+      if(side == Side::outer)
+        return coordinate(
+                   domain.dimension == 2 ? Symmetry::cylindrical : Symmetry::spherical, p)
+               > domain.radius * (1 - 2. / samples_across);
+      const int d = static_cast<int>(side) / 2;
+      const bool upper = static_cast<int>(side) % 2 == 1;
+      return std::abs(p[d] - (upper ? domain.upper[d] : domain.lower[d])) < tolerance;
+    }
+  } // namespace
+
+  TemperatureBounds
+  temperature_bounds(const Scene &scene)
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double lower = infinity, upper = -infinity;
+    const auto include = [&](double temperature)
+    {
+      lower = std::min(lower, temperature);
+      upper = std::max(upper, temperature);
+    };
+    visit_points(scene.domain, [&](const Position &p)
+                 { include(scene.initial.temperature(p, scene.start_time)); });
+    for(const Side side : scene.sides())
+    {
+      const Boundary &boundary = scene.boundary(side);
+      if(boundary.kind != BoundaryKind::fixed_temperature)
+        continue;
+      visit_points(scene.domain,
+                   [&](const Position &p)
+                   {
+                     if(!on_side(scene.domain, side, p))
+                       return;
+                     for(int i = 0; i < (boundary.value.constant ? 1 : samples_in_time);
+                         ++i)
+                       include(boundary.value(p, scene.start_time
+                                                     + (scene.end_time - scene.start_time)
+                                                           * i / (samples_in_time - 1)));
+                   });
+    }
+    const auto widen = [&](double heat)
+    {
+      if(heat > 0)
+        upper = infinity;
+      if(heat < 0)
+        lower = -infinity;
+    };
+    for(int i = 0; i < samples_in_time; ++i)
+    {
+      const double time
+          = scene.start_time
+            + (scene.end_time - scene.start_time) * i / (samples_in_time - 1);
+      for(const PointSource &source : scene.sources)
+        widen(source.power(time));
+      for(const Side side : scene.sides())
+        if(scene.boundary(side).kind == BoundaryKind::flux)
+          visit_points(scene.domain,
+                       [&](const Position &p)
+                       {
+                         if(on_side(scene.domain, side, p))
+                           widen(scene.boundary(side).value(p, time));
+                       });
+    }
+    // Walls that vary are sampled; their extremes may fall between the samples.
+    const bool varying
+        = std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
+                      [](const auto &boundary)
+                      {
+                        return boundary
+                               && boundary->kind == BoundaryKind::fixed_temperature
+                               && !boundary->value.constant;
+                      });
+    const double slack
+        = varying && std::isfinite(upper - lower) ? 1e-3 * (upper - lower) : 0;
+    return {lower - slack, upper + slack};
+  }
+
+  void
+  check_temperature(const TemperatureBounds &bounds, double lowest, double highest,
+                    const std::string &method, long step, double time, double tolerance)
+  {
+    if(!std::isfinite(lowest) || !std::isfinite(highest))
+      throw NumericalError(method, step, time, "temperature", "is not finite");
+    double span = bounds.upper - bounds.lower;
+    if(!std::isfinite(span))
+      span = std::max(std::isfinite(bounds.upper) ? std::abs(bounds.upper) : 0,
+                      std::isfinite(bounds.lower) ? std::abs(bounds.lower) : 0);
+    const double slack = tolerance * std::max(span, 1e-300);
+    if(lowest < bounds.lower - slack)
+      throw NumericalError(
+          method, step, time, "temperature",
+          fmt::format("is {:.9g}, below the lowest initial and wall value {:.9g} "
+                      "(maximum principle)",
+                      lowest, bounds.lower));
+    if(highest > bounds.upper + slack)
+      throw NumericalError(
+          method, step, time, "temperature",
+          fmt::format("is {:.9g}, above the highest initial and wall value {:.9g} "
+                      "(maximum principle)",
+                      highest, bounds.upper));
+  }
+} // namespace meltfront::cases

@@ -1,0 +1,157 @@
+#ifndef meltfront_cases_scene_h
+#define meltfront_cases_scene_h
+
+#include <cases/effects.h>
+#include <cases/exact_solution.h>
+#include <cases/material.h>
+#include <cases/position.h>
+
+#include <array>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meltfront::cases
+{
+  /** A value that may vary in space and time, with the words it was given by. */
+  struct Field
+  {
+    std::string expression;
+    std::function<double(const Position &, double time)> value;
+    bool constant = false; ///< neither space nor time matters
+
+    double
+    operator()(const Position &position, double time) const
+    {
+      return value(position, time);
+    }
+
+    static Field uniform(double value);
+  };
+
+  /** Shape of the domain. */
+  enum class DomainShape
+  {
+    slab, ///< planar: 0 <= x <= length, unbounded (periodic) across
+    box,  ///< lower <= (x, y, z) <= upper in `dimension` dimensions
+    ball  ///< distance from the origin <= radius: a disk in 2D, a ball in 3D
+  };
+
+  struct Domain
+  {
+    DomainShape shape = DomainShape::slab;
+    int dimension = 1; ///< of the shape: 1 for a slab, 2 or 3 for box and ball
+    Position lower{};  ///< corner of a box; (0, 0, 0) for a slab (m)
+    Position upper{};  ///< opposite corner of a box; (length, 0, 0) for a slab (m)
+    double radius = 0; ///< of a ball (m)
+
+    /** The length that a resolution n divides: slab length, box side along x, or ball
+     * diameter (m). */
+    double side() const;
+  };
+
+  enum class BoundaryKind
+  {
+    insulated,
+    fixed_temperature, ///< `value` is the temperature; constant, an expression, or the
+                       ///< exact solution
+    flux,              ///< `value` is the heat flux into the domain, W/m^2
+    periodic
+  };
+
+  struct Boundary
+  {
+    BoundaryKind kind = BoundaryKind::insulated;
+    Field value;        ///< temperature or flux, empty otherwise
+    bool exact = false; ///< the temperature is taken from the exact solution
+  };
+
+  /** Names of the sides of a slab or a box; a ball has the one side `outer`. */
+  enum class Side
+  {
+    x_min,
+    x_max,
+    y_min,
+    y_max,
+    z_min,
+    z_max,
+    outer
+  };
+  inline constexpr std::size_t n_sides = 7;
+  const char *to_string(Side side);
+
+  /** A source of heat at a point: a point in 3D, a line across the plane in 2D; a sink is
+   * negative. */
+  struct PointSource
+  {
+    Position position{};
+    std::string expression;                   ///< the strength as it was given
+    std::function<double(double time)> power; ///< W (3D), W/m (2D)
+    std::function<double(double time)>
+        energy; ///< integral of power from the scene's start (J, J/m)
+  };
+
+  struct InitialState
+  {
+    Field temperature;
+    /** Solid fraction of a point whose temperature is the melting point. */
+    double solid_fraction_at_melting = 0;
+    /**
+     * The exact solution that the state is taken from, if it is: lets a method start from
+     * exact cell averages (heat_content) instead of point values.
+     */
+    std::shared_ptr<const ExactSolution> exact;
+  };
+
+  /** Physics to simulate: no parameter of any method stands here. SI units, or as `units`
+   * says. */
+  struct Scene
+  {
+    std::string name;
+    std::string units = "SI";
+    Symmetry symmetry = Symmetry::none;
+    Domain domain;
+    Material material;
+    InitialState initial;
+    std::array<std::optional<Boundary>, n_sides>
+        boundaries; ///< by Side; those the shape has
+    std::vector<PointSource> sources;
+    double start_time = 0;                         ///< s
+    double end_time = 1;                           ///< s
+    std::map<Effect, EffectChoice> effect_choices; ///< absent means automatic
+
+    const Boundary &boundary(Side side) const;
+
+    /** The sides that the domain's shape has, in the order of Side. */
+    std::vector<Side> sides() const;
+  };
+
+  /** Bounds that the maximum principle sets on the temperature of a scene; infinite where
+   * none. */
+  struct TemperatureBounds
+  {
+    double lower = -std::numeric_limits<double>::infinity();
+    double upper = std::numeric_limits<double>::infinity();
+  };
+
+  /**
+   * Extremes of initial and wall temperatures, sampled over the domain and time. A sink
+   * removes the lower bound, a source the upper one, an inward (outward) flux the upper
+   * (lower) one.
+   */
+  TemperatureBounds temperature_bounds(const Scene &scene);
+
+  /**
+   * Throw NumericalError unless lowest and highest are finite and within the bounds,
+   * widened by `tolerance` times the bounds' span.
+   */
+  void check_temperature(const TemperatureBounds &bounds, double lowest, double highest,
+                         const std::string &method, long step, double time,
+                         double tolerance = 1e-9);
+} // namespace meltfront::cases
+
+#endif

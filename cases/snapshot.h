@@ -1,0 +1,62 @@
+#ifndef meltfront_cases_snapshot_h
+#define meltfront_cases_snapshot_h
+
+#include <array>
+#include <span>
+
+namespace meltfront::cases
+{
+  /**
+   * Where the heat is. Extensive values in the measure of the scene (see
+   * Snapshot::weights), counted from the start of the run; J, J/m or J/m^2.
+   */
+  struct HeatBudget
+  {
+    double stored = 0;   ///< sensible heat now: sum of rho c (T - T_m) over the domain
+    double latent = 0;   ///< latent heat now: sum of rho L (1 - solid fraction)
+    double boundary = 0; ///< heat in through walls since the start
+    double sources = 0;  ///< heat from sources since the start (negative for sinks)
+    double initial = 0;  ///< stored + latent at the start
+
+    /**
+     * |stored + latent - initial - boundary - sources| over the largest magnitude among
+     * these terms: round-off for a method that conserves heat.
+     */
+    double defect() const;
+  };
+
+  /**
+   * The state at a time in the form that every method shares. Views into the method's own
+   * arrays, valid during Observer::observe only.
+   */
+  struct Snapshot
+  {
+    long step = 0;
+    double time = 0;
+    int dimension = 1; ///< of the sites
+
+    /** Coordinates of the sites (particles, nodes or quadrature points), one array per
+     * dimension. */
+    std::array<std::span<const double>, 3> positions{};
+
+    /**
+     * Volume that each site stands for, in the measure of the scene: per area in a planar
+     * scene (the sum is the slab's length, also where a strip is simulated in 2D), per
+     * depth in 2D and cylindrical scenes (the sum is the area), volume in 3D and
+     * spherical ones. A site that only holds a boundary value has weight zero.
+     */
+    std::span<const double> weights;
+    std::span<const double> temperature;
+    std::span<const double> solid_fraction;
+
+    /**
+     * Vertices of the mesh's cells, 2^dimension site numbers per cell in lexicographic
+     * order; empty for particles.
+     */
+    std::span<const unsigned int> cells;
+
+    HeatBudget heat;
+  };
+} // namespace meltfront::cases
+
+#endif

@@ -1,0 +1,48 @@
+#ifndef meltfront_verification_matrix_case_record_h
+#define meltfront_verification_matrix_case_record_h
+
+#include <cases/case.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <vector>
+
+namespace meltfront::verification
+{
+  /** What the report says of a case: stored beside the runs, so that a report needs no
+   * case file. */
+  struct CaseRecord
+  {
+    std::string name;
+    std::string title;
+    std::string description;
+    std::vector<std::string> tags;
+    std::vector<std::string> limits;
+    std::string units;    ///< `SI` or `normalised`
+    std::string symmetry; ///< planar, cylindrical, spherical, none
+    std::string shape;    ///< slab, box, ball
+    int dimension = 1;
+    cases::Position lower{}, upper{};
+    double radius = 0;
+    cases::Material material;
+    std::string initial_state;           ///< in words and numbers
+    std::vector<std::string> boundaries; ///< `x_min: fixed temperature -10`
+    std::vector<cases::Position> source_positions;
+    std::vector<std::string> sources; ///< `at (0, 0): -148.45 W/m`
+    double start_time = 0, end_time = 1;
+    std::string exact;          ///< description of the exact solution; empty: none
+    double front_exact_end = 0; ///< exact front at the end time (NaN: none)
+    cases::Measurement measurement;
+    std::vector<cases::Criterion> criteria;
+    std::vector<cases::PrintedValue> printed;
+    std::string text, hash; ///< the case file and its SHA-256
+  };
+
+  CaseRecord make_case_record(const cases::Case &c);
+
+  void to_json(nlohmann::json &json, const CaseRecord &record);
+  void from_json(const nlohmann::json &json, CaseRecord &record);
+} // namespace meltfront::verification
+
+#endif

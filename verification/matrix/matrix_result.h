@@ -1,0 +1,47 @@
+#ifndef meltfront_verification_matrix_matrix_result_h
+#define meltfront_verification_matrix_matrix_result_h
+
+#include <verification/matrix/case_record.h>
+#include <verification/matrix/run_record.h>
+
+#include <string>
+#include <vector>
+
+namespace meltfront::verification
+{
+  /** A criterion held against the runs. */
+  struct CriterionResult
+  {
+    std::string case_name;
+    std::string method;
+    std::string
+        quantity; ///< `front_rms at n=40`, `order of front_rms`, `worst budget_defect`
+    double value = 0; ///< NaN where the run is missing or failed
+    double lower = 0, upper = 0;
+    bool passed = false;
+    std::string known_shortfall;
+  };
+
+  /** A matrix that ran (or is running): what summary.json and the report are made of. */
+  struct MatrixResult
+  {
+    std::string name;
+    std::string title;
+    std::string description;
+    std::string date;
+    std::string program_version;
+    bool hard_cases = false;       ///< the report shows the table held / refused / failed
+    std::vector<CaseRecord> cases; ///< in the matrix's order
+    std::vector<RunRecord> runs;   ///< in the matrix's order
+    std::vector<CriterionResult> criteria;
+    std::vector<std::string>
+        omissions; ///< runs that failed or were left out, each with its reason
+    bool passed = false;
+  };
+
+  /** Read a matrix's directory back (DIR/matrix.json, DIR/cases, DIR/runs): nothing is
+   * run. */
+  MatrixResult load_matrix_result(const std::string &directory);
+} // namespace meltfront::verification
+
+#endif
