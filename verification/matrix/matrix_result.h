@@ -22,6 +22,16 @@ namespace meltfront::verification
     std::string known_shortfall;
   };
 
+  /** How a run of a hard case is judged (verification/studies/stability). */
+  struct StabilityVerdict
+  {
+    std::string case_name;
+    std::string label;
+    int n = 0;
+    std::string verdict; ///< `held`, `refused` or `failed`
+    std::string reason;  ///< of a refusal or failure, one sentence
+  };
+
   /** A matrix that ran (or is running): what summary.json and the report are made of. */
   struct MatrixResult
   {
