@@ -1,0 +1,437 @@
+#include <cases/case_file/prm_file.h>
+#include <cases/options.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/utilities.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    std::unique_ptr<dealii::Patterns::PatternBase>
+    pattern(const PrmEntry &entry)
+    {
+      using namespace dealii::Patterns;
+      constexpr double largest = std::numeric_limits<double>::max();
+      switch(entry.kind)
+      {
+      case PrmKind::number:
+        return std::make_unique<Double>(std::max(entry.lower, -largest),
+                                        std::min(entry.upper, largest));
+      case PrmKind::integer:
+        return std::make_unique<Integer>(
+            static_cast<int>(std::max(entry.lower, Integer::min_int_value * 1.)),
+            static_cast<int>(std::min(entry.upper, Integer::max_int_value * 1.)));
+      case PrmKind::boolean:
+        return std::make_unique<Selection>("true|false");
+      case PrmKind::word:
+        return std::make_unique<Selection>(
+            fmt::format("{}", fmt::join(entry.choices, "|")));
+      case PrmKind::numbers:
+        return std::make_unique<List>(Double(), 1, 3);
+      default:
+        return std::make_unique<Anything>();
+      }
+    }
+
+    /** A range in words, with a blank in front; empty where everything is allowed. */
+    std::string
+    range(const PrmEntry &entry)
+    {
+      if(entry.lower == above_zero)
+        return std::isfinite(entry.upper)
+                   ? fmt::format(" greater than 0 and at most {}", entry.upper)
+                   : " greater than 0";
+      if(std::isfinite(entry.lower) && std::isfinite(entry.upper))
+        return fmt::format(" from {} to {}", entry.lower, entry.upper);
+      if(std::isfinite(entry.lower))
+        return fmt::format(" of at least {}", entry.lower);
+      return std::isfinite(entry.upper) ? fmt::format(" of at most {}", entry.upper) : "";
+    }
+
+    /** What a key needs, in words. */
+    std::string
+    expectation(const PrmEntry &entry)
+    {
+      switch(entry.kind)
+      {
+      case PrmKind::number:
+        return fmt::format("a number{}{}", range(entry),
+                           entry.unit.empty() ? "" : " (" + entry.unit + ")");
+      case PrmKind::integer:
+        return "an integer" + range(entry);
+      case PrmKind::boolean:
+        return "true or false";
+      case PrmKind::word:
+        return fmt::format("one of {}", fmt::join(entry.choices, ", "));
+      case PrmKind::numbers:
+        return "one to three numbers separated by commas";
+      default:
+        return "a text";
+      }
+    }
+
+    /** A value that the key's pattern accepts: what stands in the handler until it is
+     * set. */
+    std::string
+    placeholder(const PrmEntry &entry)
+    {
+      if(!entry.default_value.empty() || entry.kind == PrmKind::text)
+        return entry.default_value;
+      if(entry.kind == PrmKind::word)
+        return entry.choices.front();
+      if(entry.kind == PrmKind::boolean)
+        return "false";
+      return fmt::format("{}", std::isfinite(entry.lower) ? entry.lower : 0);
+    }
+
+    std::string
+    read_all(const std::string &path)
+    {
+      constexpr std::uintmax_t largest = 4 << 20;
+      std::error_code failure;
+      const auto status = std::filesystem::status(path, failure);
+      if(!std::filesystem::exists(status))
+        throw OutputError(fmt::format("{}: there is no such file", quotable(path)));
+      if(!std::filesystem::is_regular_file(status))
+        throw OutputError(
+            fmt::format("{}: is not a file that can be read", quotable(path)));
+      if(std::filesystem::file_size(path, failure) > largest)
+        throw InputError(fmt::format("{}:1: the file is larger than 4 MB, which no "
+                                     "parameter file is",
+                                     quotable(path)));
+      std::ifstream stream(path, std::ios::binary);
+      std::string text{std::istreambuf_iterator<char>(stream), {}};
+      if(!stream)
+        throw OutputError(fmt::format("{}: cannot be read", quotable(path)));
+      return text;
+    }
+
+    std::string
+    parent(const std::string &path)
+    {
+      const std::size_t slash = path.rfind('/');
+      return slash == std::string::npos ? std::string() : path.substr(0, slash);
+    }
+
+    /** Go down to a subsection of the handler and back up at the end of the scope. */
+    class InSubsection
+    {
+    public:
+      InSubsection(dealii::ParameterHandler &handler, const std::string &path)
+          : handler(handler)
+      {
+        if(!path.empty())
+          for(const std::string &name : split_list(path, '/'))
+          {
+            handler.enter_subsection(name);
+            ++depth;
+          }
+      }
+
+      ~InSubsection()
+      {
+        for(; depth > 0; --depth)
+          handler.leave_subsection();
+      }
+
+      InSubsection(const InSubsection &) = delete;
+      InSubsection &operator=(const InSubsection &) = delete;
+
+    private:
+      dealii::ParameterHandler &handler;
+      int depth = 0;
+    };
+  } // namespace
+
+  PrmFile::PrmFile() : handler(std::make_unique<dealii::ParameterHandler>())
+  {
+  }
+  PrmFile::~PrmFile() = default;
+  PrmFile::PrmFile(PrmFile &&) noexcept = default;
+  PrmFile &PrmFile::operator=(PrmFile &&) noexcept = default;
+
+  void
+  PrmFile::declare(const std::string &subsection, const PrmEntry &entry)
+  {
+    const InSubsection here(*handler, subsection);
+    handler->declare_entry(entry.key, placeholder(entry), *pattern(entry),
+                           entry.description);
+    declared.push_back({subsection, entry});
+    keys.push_back({subsection, entry});
+  }
+
+  void
+  PrmFile::declare_numbered(const std::string &subsection, const PrmEntry &entry,
+                            int count)
+  {
+    const InSubsection here(*handler, subsection);
+    for(int i = 1; i <= count; ++i)
+    {
+      PrmEntry numbered = entry;
+      numbered.key = fmt::format("{} {}", entry.key, i);
+      handler->declare_entry(numbered.key, placeholder(entry), *pattern(entry),
+                             entry.description);
+      keys.push_back({subsection, numbered});
+    }
+    declared.push_back({subsection, entry, count});
+  }
+
+  void
+  PrmFile::read(const std::string &path)
+  {
+    read_text(read_all(path), path);
+  }
+
+  void
+  PrmFile::read_text(const std::string &text, const std::string &name)
+  {
+    file = quotable(name);
+    content = text;
+    scan = scan_prm(text, file);
+    check_subsections();
+    for(const PrmAssignment &assignment : scan.assignments)
+    {
+      check_assignment(assignment);
+      const InSubsection here(*handler, assignment.subsection);
+      handler->set(assignment.key, assignment.value);
+    }
+  }
+
+  const std::string &
+  PrmFile::text() const
+  {
+    return content;
+  }
+
+  void
+  PrmFile::check_subsections() const
+  {
+    std::map<std::string, std::vector<std::string>> children;
+    for(const Declared &key : keys)
+      for(std::string path = key.subsection; !path.empty(); path = parent(path))
+        children[parent(path)].push_back(path);
+    // A parent is ordered before its children, so that the outermost mistake is named.
+    for(const auto &[path, line] : scan.subsections)
+    {
+      const auto &valid = children[parent(path)];
+      if(std::find(valid.begin(), valid.end(), path) != valid.end())
+        continue;
+      const std::string where
+          = parent(path).empty()
+                ? std::string("at the top level")
+                : fmt::format("in subsection '{}'", quotable(parent(path)));
+      const std::string advice
+          = valid.empty() ? std::string("there is none to be opened there")
+                          : fmt::format("the nearest valid subsection is '{}'",
+                                        nearest_name(path.substr(0, 200), valid));
+      throw InputError(fmt::format("{}:{}: subsection '{}' is unknown {}; {}", file, line,
+                                   quotable(path), where, advice));
+    }
+  }
+
+  void
+  PrmFile::fail_unknown_key(const PrmAssignment &assignment) const
+  {
+    std::vector<std::string> here;
+    std::vector<std::string> elsewhere;
+    for(const Declared &key : keys)
+    {
+      if(key.subsection == assignment.subsection)
+        here.push_back(key.entry.key);
+      else if(key.entry.key == assignment.key)
+        elsewhere.push_back(key.subsection);
+    }
+    std::string advice;
+    if(!elsewhere.empty())
+      advice = elsewhere.front().empty()
+                   ? "it belongs to the top level"
+                   : fmt::format("it belongs to subsection '{}'",
+                                 nearest_name(assignment.subsection, elsewhere));
+    else if(!here.empty())
+      advice = fmt::format("the nearest valid key is '{}'",
+                           nearest_name(assignment.key.substr(0, 200), here));
+    else
+      advice = "this subsection holds no keys, only subsections";
+    throw error(assignment.subsection, assignment.key, "is unknown; " + advice);
+  }
+
+  void
+  PrmFile::check_assignment(const PrmAssignment &assignment) const
+  {
+    const auto found = std::find_if(keys.begin(), keys.end(),
+                                    [&assignment](const Declared &key) {
+                                      return key.subsection == assignment.subsection
+                                             && key.entry.key == assignment.key;
+                                    });
+    if(found == keys.end())
+      fail_unknown_key(assignment);
+    const PrmEntry &entry = found->entry;
+    if(pattern(entry)->match(assignment.value))
+      return;
+    const std::string advice
+        = entry.kind == PrmKind::word
+              ? fmt::format("; the nearest is '{}'",
+                            nearest_name(assignment.value.substr(0, 200), entry.choices))
+              : std::string();
+    throw error(assignment.subsection, assignment.key,
+                fmt::format("needs {}, not '{}'{}", expectation(entry),
+                            quotable(assignment.value), advice));
+  }
+
+  const PrmEntry &
+  PrmFile::declaration(const std::string &subsection, const std::string &key) const
+  {
+    for(const Declared &candidate : keys)
+      if(candidate.subsection == subsection && candidate.entry.key == key)
+        return candidate.entry;
+    throw std::logic_error(
+        fmt::format("{} is not declared", name_of_key(subsection, key)));
+  }
+
+  const PrmAssignment *
+  PrmFile::assignment(const std::string &subsection, const std::string &key) const
+  {
+    for(const PrmAssignment &candidate : scan.assignments)
+      if(candidate.subsection == subsection && candidate.key == key)
+        return &candidate;
+    return nullptr;
+  }
+
+  bool
+  PrmFile::given(const std::string &subsection, const std::string &key) const
+  {
+    return assignment(subsection, key) != nullptr;
+  }
+
+  bool
+  PrmFile::opened(const std::string &subsection) const
+  {
+    return scan.subsections.contains(subsection);
+  }
+
+  std::string
+  PrmFile::value(const std::string &subsection, const std::string &key) const
+  {
+    const PrmEntry &entry = declaration(subsection, key);
+    if(entry.default_value.empty() && entry.kind != PrmKind::text)
+      require(subsection, key, fmt::format("it needs {}", expectation(entry)));
+    const InSubsection here(*handler, subsection);
+    return handler->get(key);
+  }
+
+  double
+  PrmFile::get_number(const std::string &subsection, const std::string &key) const
+  {
+    return dealii::Utilities::string_to_double(value(subsection, key));
+  }
+
+  long
+  PrmFile::get_integer(const std::string &subsection, const std::string &key) const
+  {
+    return dealii::Utilities::string_to_int(value(subsection, key));
+  }
+
+  bool
+  PrmFile::get_boolean(const std::string &subsection, const std::string &key) const
+  {
+    return value(subsection, key) == "true";
+  }
+
+  std::string
+  PrmFile::get_text(const std::string &subsection, const std::string &key) const
+  {
+    return value(subsection, key);
+  }
+
+  std::vector<double>
+  PrmFile::get_numbers(const std::string &subsection, const std::string &key) const
+  {
+    return dealii::Utilities::string_to_double(split_list(value(subsection, key), ','));
+  }
+
+  std::vector<int>
+  PrmFile::given_numbers(const std::string &subsection, const std::string &key) const
+  {
+    std::vector<int> numbers;
+    for(const Declared &numbered : declared)
+      if(numbered.subsection == subsection && numbered.entry.key == key)
+        for(int i = 1; i <= numbered.count; ++i)
+          if(given(subsection, fmt::format("{} {}", key, i)))
+            numbers.push_back(i);
+    return numbers;
+  }
+
+  void
+  PrmFile::require(const std::string &subsection, const std::string &key,
+                   const std::string &reason) const
+  {
+    if(!given(subsection, key))
+      throw error(subsection, key, "is missing: " + reason);
+  }
+
+  void
+  PrmFile::forbid(const std::string &subsection, const std::string &key,
+                  const std::string &reason) const
+  {
+    if(given(subsection, key))
+      throw error(subsection, key, "has no meaning here: " + reason);
+  }
+
+  InputError
+  PrmFile::error(const std::string &subsection, const std::string &key,
+                 const std::string &problem) const
+  {
+    int line = 1;
+    if(const PrmAssignment *found = assignment(subsection, key))
+      line = found->line;
+    else
+      for(std::string path = subsection; !path.empty(); path = parent(path))
+        if(const auto opening = scan.subsections.find(path);
+           opening != scan.subsections.end())
+        {
+          line = opening->second;
+          break;
+        }
+    return InputError(
+        fmt::format("{}:{}: {} {}", file, line, name_of_key(subsection, key), problem));
+  }
+
+  InputError
+  PrmFile::subsection_error(const std::string &subsection,
+                            const std::string &problem) const
+  {
+    const auto opening = scan.subsections.find(subsection);
+    return InputError(fmt::format("{}:{}: subsection '{}' {}", file,
+                                  opening == scan.subsections.end() ? 1 : opening->second,
+                                  quotable(subsection), problem));
+  }
+
+  std::string
+  PrmFile::reference() const
+  {
+    std::string text;
+    std::string current;
+    for(const Declared &key : declared)
+    {
+      if(key.subsection != current)
+        text += fmt::format("\nsubsection {}\n", key.subsection);
+      current = key.subsection;
+      const PrmEntry &entry = key.entry;
+      text += fmt::format("  # {} It needs {}.\n", entry.description, expectation(entry));
+      text += fmt::format("  set {}{} = {}\n", entry.key,
+                          key.count == 0 ? std::string()
+                                         : fmt::format(" 1 .. {}", key.count),
+                          entry.default_value);
+    }
+    return text;
+  }
+} // namespace meltfront::cases

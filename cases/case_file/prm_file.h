@@ -1,0 +1,144 @@
+#ifndef meltfront_cases_case_file_prm_file_h
+#define meltfront_cases_case_file_prm_file_h
+
+#include <cases/case_file/prm_scan.h>
+#include <cases/error.h>
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace meltfront::cases
+{
+  /** What a key of a parameter file holds. */
+  enum class PrmKind
+  {
+    number,
+    integer,
+    boolean, ///< true or false
+    word,    ///< one of PrmEntry::choices
+    numbers, ///< one to three numbers, separated by commas
+    text
+  };
+
+  /** A key of a parameter file, declared once and self-describing. */
+  struct PrmEntry
+  {
+    std::string key;
+    PrmKind kind = PrmKind::text;
+    std::string default_value; ///< empty for a number: there is none, the key must be set
+    std::string unit;          ///< SI unit; empty for a pure number, a word or a text
+    std::string description;   ///< one sentence
+    double lower = -std::numeric_limits<double>::infinity();
+    double upper = std::numeric_limits<double>::infinity();
+    std::vector<std::string> choices{};
+  };
+
+  /** Lower bound of a number that must be greater than zero. */
+  inline constexpr double above_zero = std::numeric_limits<double>::min();
+
+  /**
+   * A parameter file (deal.II's format): keys are declared, the file is read, values are
+   * asked for. Subsections are named by their path from the top, `Scene/Material`; the
+   * empty path is the top level.
+   *
+   * Everything that can be wrong with a file gives one sentence
+   * `FILE:LINE: key 'X' in subsection 'Y' ...` that names the nearest valid key or value.
+   */
+  class PrmFile
+  {
+  public:
+    PrmFile();
+    ~PrmFile();
+    PrmFile(PrmFile &&) noexcept;
+    PrmFile &operator=(PrmFile &&) noexcept;
+
+    /** Declare a key. */
+    void declare(const std::string &subsection, const PrmEntry &entry);
+
+    /** Declare the keys `KEY 1` ... `KEY count`. */
+    void declare_numbered(const std::string &subsection, const PrmEntry &entry,
+                          int count);
+
+    /**
+     * Read a file.
+     * @throws OutputError if it cannot be read, InputError if something in it is wrong.
+     */
+    void read(const std::string &path);
+
+    /** Read a text; `file` is its name in messages. @throws InputError */
+    void read_text(const std::string &text, const std::string &file);
+
+    /** The file's text. */
+    const std::string &text() const;
+
+    /** Whether the file sets the key. */
+    bool given(const std::string &subsection, const std::string &key) const;
+
+    /** Whether the file opens the subsection. */
+    bool opened(const std::string &subsection) const;
+
+    /** @throws InputError if the key has no default and the file does not set it. */
+    double get_number(const std::string &subsection, const std::string &key) const;
+    long get_integer(const std::string &subsection, const std::string &key) const;
+    bool get_boolean(const std::string &subsection, const std::string &key) const;
+    std::string get_text(const std::string &subsection, const std::string &key) const;
+    std::vector<double> get_numbers(const std::string &subsection,
+                                    const std::string &key) const;
+
+    /** Numbers of the keys `KEY 1`, `KEY 2`, ... that the file sets, ascending. */
+    std::vector<int> given_numbers(const std::string &subsection,
+                                   const std::string &key) const;
+
+    /** @throws InputError unless the file sets the key: `... is missing: REASON`. */
+    void require(const std::string &subsection, const std::string &key,
+                 const std::string &reason) const;
+
+    /** @throws InputError if the file sets the key: `... has no meaning here: REASON`. */
+    void forbid(const std::string &subsection, const std::string &key,
+                const std::string &reason) const;
+
+    /** The sentence `FILE:LINE: key 'X' in subsection 'Y' PROBLEM`. */
+    InputError error(const std::string &subsection, const std::string &key,
+                     const std::string &problem) const;
+
+    /** The sentence `FILE:LINE: subsection 'Y' PROBLEM`. */
+    InputError subsection_error(const std::string &subsection,
+                                const std::string &problem) const;
+
+    /** All declared keys with unit, default and sentence, as a commented file. */
+    std::string reference() const;
+
+  private:
+    struct Declared
+    {
+      std::string subsection;
+      PrmEntry entry;
+      int count = 0; ///< of a numbered key, 0 otherwise
+    };
+
+    const PrmEntry &declaration(const std::string &subsection,
+                                const std::string &key) const;
+    const PrmAssignment *assignment(const std::string &subsection,
+                                    const std::string &key) const;
+    void check_subsections() const;
+    void check_assignment(const PrmAssignment &assignment) const;
+    [[noreturn]] void fail_unknown_key(const PrmAssignment &assignment) const;
+    std::string value(const std::string &subsection, const std::string &key) const;
+
+    std::unique_ptr<dealii::ParameterHandler> handler;
+    std::vector<Declared> declared; ///< numbered keys once
+    std::vector<Declared> keys;     ///< numbered keys one by one
+    std::string file;
+    std::string content;
+    PrmScan scan;
+  };
+} // namespace meltfront::cases
+
+#endif

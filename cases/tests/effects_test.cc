@@ -1,0 +1,164 @@
+#include <cases/effects.h>
+#include <cases/scene.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+using namespace meltfront::cases;
+
+namespace
+{
+  /** A slab of one substance without sources, all walls insulated, no latent heat. */
+  Scene
+  bare_scene()
+  {
+    Scene scene;
+    scene.symmetry = Symmetry::planar;
+    scene.domain.upper = {1, 0, 0};
+    scene.material.latent_heat = 0;
+    scene.initial.temperature = Field::uniform(1);
+    scene.boundaries[0] = Boundary();
+    scene.boundaries[1] = Boundary();
+    return scene;
+  }
+
+  /** A scene that calls for every effect. */
+  Scene
+  full_scene()
+  {
+    Scene scene = bare_scene();
+    scene.material.latent_heat = 3;
+    scene.material.liquid = {2, 4, 5};
+    scene.boundaries[0] = Boundary{BoundaryKind::fixed_temperature, Field::uniform(-1)};
+    scene.boundaries[1] = Boundary{BoundaryKind::flux, Field::uniform(7)};
+    scene.sources.resize(2);
+    return scene;
+  }
+
+  const EffectDecision &
+  decision(const EffectSet &effects, Effect effect)
+  {
+    return effects.decisions().at(static_cast<std::size_t>(effect));
+  }
+} // namespace
+
+TEST(Effects, EachHasItsOwnWordAndSentence)
+{
+  ASSERT_EQ(all_effects().size(), n_effects);
+  std::set<std::string> words;
+  for(const Effect effect : all_effects())
+  {
+    words.insert(to_string(effect));
+    EXPECT_TRUE(std::string(description(effect)).ends_with('.'));
+  }
+  EXPECT_EQ(words.size(), n_effects);
+}
+
+TEST(Effects, ABareSceneCallsForNone)
+{
+  const EffectSet effects = effects_called_for(bare_scene());
+  ASSERT_EQ(effects.decisions().size(), n_effects);
+  for(const EffectDecision &d : effects.decisions())
+  {
+    EXPECT_FALSE(d.on) << to_string(d.effect);
+    EXPECT_FALSE(d.reason.empty());
+  }
+}
+
+TEST(Effects, AFullSceneCallsForAllWithReasons)
+{
+  const EffectSet effects = effects_called_for(full_scene());
+  for(const Effect effect : all_effects())
+    EXPECT_TRUE(effects.contains(effect)) << to_string(effect);
+  EXPECT_EQ(decision(effects, Effect::heat_sources).reason,
+            "there are 2 point or line sources");
+  EXPECT_EQ(decision(effects, Effect::wall_temperature).reason,
+            "a temperature is prescribed on x_min");
+  EXPECT_EQ(decision(effects, Effect::wall_flux).reason,
+            "a heat flux is prescribed on x_max");
+  EXPECT_EQ(decision(effects, Effect::phase_conductivity).reason,
+            "the solid conducts 1 W/(m K), the liquid 2");
+}
+
+TEST(Effects, EachPropertyCallsForItsOwnEffectOnly)
+{
+  const auto called_for = [](const Scene &scene)
+  {
+    std::vector<Effect> on;
+    for(const EffectDecision &d : effects_called_for(scene).decisions())
+      if(d.on)
+        on.push_back(d.effect);
+    return on;
+  };
+  Scene scene = bare_scene();
+  scene.material.liquid.conductivity = 2;
+  EXPECT_EQ(called_for(scene), std::vector{Effect::phase_conductivity});
+  scene = bare_scene();
+  scene.material.liquid.specific_heat_capacity = 2;
+  EXPECT_EQ(called_for(scene), std::vector{Effect::phase_heat_capacity});
+  scene = bare_scene();
+  scene.material.liquid.density = 2;
+  EXPECT_EQ(called_for(scene), std::vector{Effect::liquid_motion});
+  scene = bare_scene();
+  scene.material.latent_heat = 1e-300;
+  EXPECT_EQ(called_for(scene), std::vector{Effect::phase_change});
+}
+
+TEST(Effects, AChoiceOverridesTheRuleAndSaysSo)
+{
+  Scene scene = full_scene();
+  scene.effect_choices[Effect::liquid_motion] = EffectChoice::off;
+  scene.effect_choices[Effect::wall_flux] = EffectChoice::automatic;
+  EffectSet effects = effects_called_for(scene);
+  EXPECT_FALSE(effects.contains(Effect::liquid_motion));
+  EXPECT_TRUE(effects.contains(Effect::wall_flux));
+  EXPECT_TRUE(decision(effects, Effect::liquid_motion)
+                  .reason.starts_with("the case file says off"));
+
+  scene = bare_scene();
+  scene.effect_choices[Effect::heat_sources] = EffectChoice::on;
+  effects = effects_called_for(scene);
+  EXPECT_TRUE(effects.contains(Effect::heat_sources));
+  EXPECT_TRUE(decision(effects, Effect::heat_sources)
+                  .reason.starts_with("the case file says on"));
+}
+
+TEST(SimulatedScene, IsTheSceneItselfWithAllEffectsOn)
+{
+  const Scene scene = full_scene();
+  const Scene simulated = simulated_scene(scene, effects_called_for(scene));
+  EXPECT_EQ(simulated.material.latent_heat, 3);
+  EXPECT_EQ(simulated.material.liquid.conductivity, 2);
+  EXPECT_EQ(simulated.material.liquid.specific_heat_capacity, 4);
+  EXPECT_EQ(simulated.material.liquid.density, 5);
+  EXPECT_EQ(simulated.sources.size(), 2u);
+  EXPECT_EQ(simulated.boundary(Side::x_min).kind, BoundaryKind::fixed_temperature);
+  EXPECT_EQ(simulated.boundary(Side::x_max).kind, BoundaryKind::flux);
+}
+
+TEST(SimulatedScene, LosesThePhysicsOfEachEffectThatIsOff)
+{
+  Scene scene = full_scene();
+  for(const Effect effect : all_effects())
+    scene.effect_choices[effect] = EffectChoice::off;
+  const Scene simulated = simulated_scene(scene, effects_called_for(scene));
+  EXPECT_EQ(simulated.material.latent_heat, 0);
+  EXPECT_EQ(simulated.material.liquid.conductivity, scene.material.solid.conductivity);
+  EXPECT_EQ(simulated.material.liquid.specific_heat_capacity,
+            scene.material.solid.specific_heat_capacity);
+  EXPECT_EQ(simulated.material.liquid.density, scene.material.solid.density);
+  EXPECT_TRUE(simulated.sources.empty());
+  for(const Side side : simulated.sides())
+    EXPECT_EQ(simulated.boundary(side).kind, BoundaryKind::insulated);
+}
+
+TEST(SimulatedScene, OneEffectOffLeavesTheOthers)
+{
+  Scene scene = full_scene();
+  scene.effect_choices[Effect::wall_temperature] = EffectChoice::off;
+  const Scene simulated = simulated_scene(scene, effects_called_for(scene));
+  EXPECT_EQ(simulated.boundary(Side::x_min).kind, BoundaryKind::insulated);
+  EXPECT_EQ(simulated.boundary(Side::x_max).kind, BoundaryKind::flux);
+  EXPECT_EQ(simulated.material.latent_heat, 3);
+}
