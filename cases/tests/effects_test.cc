@@ -86,7 +86,8 @@ TEST(Effects, EachPropertyCallsForItsOwnEffectOnly)
   const auto called_for = [](const Scene &scene)
   {
     std::vector<Effect> on;
-    for(const EffectDecision &d : effects_called_for(scene).decisions())
+    const EffectSet effects = effects_called_for(scene);
+    for(const EffectDecision &d : effects.decisions())
       if(d.on)
         on.push_back(d.effect);
     return on;
