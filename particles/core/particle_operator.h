@@ -1,0 +1,126 @@
+#ifndef meltfront_particles_core_particle_operator_h
+#define meltfront_particles_core_particle_operator_h
+
+#include <particles/core/neighbour_list.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace meltfront::particles
+{
+  /**
+   * A sparse operator on particles: rows of neighbours and coefficients,
+   *
+   *   result_a = sum_b coefficient_ab pair(value_a, value_b),
+   *
+   * by default with pair = value_b - value_a.
+   *
+   * Eight rows stand together in a slice, entry by entry (sliced ELLPACK: Monakov et al.
+   * 2010), so that eight rows advance with one instruction. Each row is summed in the
+   * order of its neighbour list whatever the number of threads: where coefficients are
+   * symmetric and the pair function is antisymmetric, what a pair exchanges cancels to
+   * the last bit.
+   */
+  class ParticleOperator
+  {
+  public:
+    static constexpr std::size_t lanes = 8;
+
+    ParticleOperator() = default;
+
+    /** @param coefficients one per entry of the list, in its order. */
+    ParticleOperator(const NeighbourList &neighbours,
+                     std::span<const double> coefficients);
+
+    /** Take new coefficients for the same neighbours. */
+    void refresh(const NeighbourList &neighbours, std::span<const double> coefficients);
+
+    std::size_t
+    rows() const
+    {
+      return n_rows;
+    }
+
+    /** Length that arrays handed to the operator must have: rows() in full slices. */
+    std::size_t
+    padded_rows() const
+    {
+      return slices() * lanes;
+    }
+
+    std::size_t
+    slices() const
+    {
+      return slice_begin.empty() ? 0 : slice_begin.size() - 1;
+    }
+
+    /** Entries of all rows, without the padding. */
+    std::size_t
+    interactions() const
+    {
+      return n_interactions;
+    }
+
+    /** Entries of the rows of one slice, without the padding. */
+    std::size_t
+    interactions(std::size_t slice) const
+    {
+      return slice_interactions[slice];
+    }
+
+    /** Memory of the operator. */
+    std::size_t bytes() const;
+
+    /** result = sum of coefficient * (value_b - value_a), for all rows. */
+    void apply(std::span<const double> value, std::span<double> result,
+               int threads) const;
+
+    /** Overwrite the rows of some slices with the sum of another pair function. */
+    template <typename Pair>
+    void
+    apply_to_slices(std::span<const std::uint32_t> chosen, const Pair &pair,
+                    std::span<const double> value, std::span<double> result) const
+    {
+      for(const std::uint32_t slice : chosen)
+        apply_to_slice(slice, pair, value.data(), result.data());
+    }
+
+    /**
+     * For each slice the slices that hold neighbours of its rows, itself included:
+     * ascending, flat, with offsets.
+     */
+    void slice_adjacency(std::vector<std::size_t> &offsets,
+                         std::vector<std::uint32_t> &adjacent) const;
+
+  private:
+    template <typename Pair>
+    void
+    apply_to_slice(std::size_t slice, const Pair &pair, const double *value,
+                   double *result) const
+    {
+      const double *own = value + slice * lanes;
+      double sum[lanes] = {};
+      for(std::size_t e = slice_begin[slice]; e < slice_begin[slice + 1]; e += lanes)
+      {
+        const std::uint32_t *neighbour = neighbours_of.data() + e;
+        const double *factor = coefficient.data() + e;
+#pragma omp simd
+        for(std::size_t lane = 0; lane < lanes; ++lane)
+          sum[lane] += factor[lane] * pair(own[lane], value[neighbour[lane]]);
+      }
+      for(std::size_t lane = 0; lane < lanes; ++lane)
+        result[slice * lanes + lane] = sum[lane];
+    }
+
+    std::size_t n_rows = 0;
+    std::size_t n_interactions = 0;
+    std::vector<std::size_t> slice_begin;          ///< entries, padding included
+    std::vector<std::uint32_t> slice_interactions; ///< entries, padding left out
+    std::vector<std::uint32_t> neighbours_of; ///< padded with the row itself, so that
+    std::vector<double> coefficient;          ///< value_b - value_a = 0 there
+  };
+} // namespace meltfront::particles
+
+#endif

@@ -1,0 +1,380 @@
+#include <particles/sph/conduction_rows.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meltfront::particles
+{
+  using cases::BoundaryKind;
+
+  namespace
+  {
+    /** A set of plane walls, one bit each: the image of a particle mirrored in all of
+     * them. */
+    using WallSet = unsigned;
+
+    /** Assembles the rows of one discretisation. */
+    class Assembly
+    {
+    public:
+      Assembly(const Discretisation &discretisation, bool moment_correction,
+               ConductionRows &result)
+          : dis(discretisation), result(result),
+            neighbours(dis.particles, dis.kernel.support(), dis.periodicity),
+            ghost_neighbours(dis.particles, dis.ghosts, dis.kernel.support())
+      {
+        find_walls_in_reach();
+        if(moment_correction)
+          correct_second_moment();
+      }
+
+      void
+      assemble()
+      {
+        std::vector<double> coefficients(neighbours.size());
+        std::vector<double> row_sum(dis.particles.size(), 0.);
+        for(std::size_t a = 0; a < dis.particles.size(); ++a)
+        {
+          std::size_t e = neighbours.offset(a);
+          for(const std::uint32_t b : neighbours[a])
+          {
+            coefficients[e] = pair_coefficient(a, b);
+            row_sum[a] += std::abs(coefficients[e++]);
+          }
+          if(dis.layout == LatticeLayout::cell_centred)
+            link_to_images(a);
+          else
+            link_to_edges(a);
+          link_to_ghosts(a);
+        }
+        normalise_flux_areas();
+        for(const WallLink &link : result.temperature_links)
+          row_sum[link.row] += link.strength;
+        for(const std::uint32_t a : dis.held)
+          row_sum[a] = 0;
+        result.largest_row_sum = *std::max_element(row_sum.begin(), row_sum.end());
+        result.rows = ParticleOperator(neighbours, coefficients);
+      }
+
+    private:
+      void
+      find_walls_in_reach()
+      {
+        reach.assign(dis.particles.size(), 0);
+        for(std::size_t w = 0; w < dis.walls.size(); ++w)
+        {
+          const auto &x = dis.particles.position[dis.walls[w].direction];
+          for(std::size_t i = 0; i < x.size(); ++i)
+            if(std::abs(x[i] - dis.walls[w].coordinate) < dis.kernel.support())
+              reach[i] |= 1u << w;
+        }
+      }
+
+      /** The walls beyond which images of a particle act on another: none in the edge
+       * layout, where particles lie on the walls. */
+      WallSet
+      common_walls(std::size_t a, std::size_t b) const
+      {
+        return dis.layout == LatticeLayout::cell_centred ? reach[a] & reach[b] : 0;
+      }
+
+      /** Visit the non-empty subsets of a set that hold at most one wall per direction.
+       */
+      template <typename Visit>
+      void
+      visit_images(WallSet set, const Visit &visit) const
+      {
+        for(WallSet subset = set; subset != 0; subset = (subset - 1) & set)
+        {
+          std::array<int, 3> used{};
+          bool valid = true;
+          for(std::size_t w = 0; w < dis.walls.size(); ++w)
+            if(subset >> w & 1)
+              valid = valid && ++used[dis.walls[w].direction] == 1;
+          if(valid)
+            visit(subset);
+        }
+      }
+
+      /**
+       * Distance between one particle and the image of another, squared. The same bits
+       * for (a, b) and (b, a).
+       */
+      double
+      squared_distance(std::size_t a, std::size_t b, WallSet mirrors) const
+      {
+        const auto [first, second] = std::minmax(a, b);
+        std::array<double, 3> difference{};
+        for(int d = 0; d < dis.dimension; ++d)
+          difference[d] = dis.periodicity.shortest(
+              d, dis.particles.position[d][first] - dis.particles.position[d][second]);
+        for(std::size_t w = 0; w < dis.walls.size(); ++w)
+          if(mirrors >> w & 1)
+          {
+            const auto &[boundary, d, coordinate] = dis.walls[w];
+            difference[d] = (dis.particles.position[d][first] - coordinate)
+                            + (dis.particles.position[d][second] - coordinate);
+          }
+        return difference[0] * difference[0] + difference[1] * difference[1]
+               + difference[2] * difference[2];
+      }
+
+      /** -F(r); zero at the edge of the support whatever the rounding of r. */
+      double
+      slope(double squared) const
+      {
+        const double support = dis.kernel.support();
+        return squared < support * support * (1 - 1e-12)
+                   ? -dis.kernel.radial_derivative_over_distance(std::sqrt(squared))
+                   : 0.;
+      }
+
+      /** g of a pair at a distance. */
+      double
+      strength(std::size_t a, std::size_t b, double squared) const
+      {
+        const double correction = inverse_moment.empty()
+                                      ? 1 / result.second_moment
+                                      : 0.5 * (inverse_moment[a] + inverse_moment[b]);
+        return 2 * dis.particle_volume * dis.particle_volume * slope(squared)
+               * correction;
+      }
+
+      /** True if the image's deviation from the wall is the opposite of the particle's.
+       */
+      bool
+      antisymmetric(WallSet mirrors) const
+      {
+        bool odd = false;
+        for(std::size_t w = 0; w < dis.walls.size(); ++w)
+          if(mirrors >> w & 1
+             && dis.walls[w].boundary->kind == BoundaryKind::fixed_temperature)
+            odd = !odd;
+        return odd;
+      }
+
+      double
+      pair_coefficient(std::size_t a, std::size_t b) const
+      {
+        double g = strength(a, b, squared_distance(a, b, 0));
+        visit_images(common_walls(a, b),
+                     [&](WallSet mirrors)
+                     {
+                       const double image
+                           = strength(a, b, squared_distance(a, b, mirrors));
+                       g += antisymmetric(mirrors) ? -image : image;
+                     });
+        return g;
+      }
+
+      /** What the images of all particles, its own among them, add to a row. */
+      void
+      link_to_images(std::size_t a)
+      {
+        std::vector<double> to_temperature(dis.walls.size(), 0.);
+        std::vector<double> to_flux(dis.walls.size(), 0.);
+        const auto add = [&](std::size_t b)
+        {
+          visit_images(common_walls(a, b),
+                       [&](WallSet mirrors)
+                       {
+                         const double image
+                             = strength(a, b, squared_distance(a, b, mirrors));
+                         for(std::size_t w = 0; w < dis.walls.size(); ++w)
+                         {
+                           if(!(mirrors >> w & 1))
+                             continue;
+                           const auto &[boundary, d, coordinate] = dis.walls[w];
+                           const double depth
+                               = std::abs(dis.particles.position[d][b] - coordinate);
+                           if(boundary->kind == BoundaryKind::flux)
+                             to_flux[w] += 2 * depth * image;
+                           if(boundary->kind == BoundaryKind::fixed_temperature
+                              && antisymmetric(mirrors))
+                           {
+                             to_temperature[w] += 2 * image;
+                             break; // an image belongs to one wall
+                           }
+                         }
+                       });
+        };
+        add(a);
+        for(const std::uint32_t b : neighbours[a])
+          add(b);
+        for(std::size_t w = 0; w < dis.walls.size(); ++w)
+        {
+          add_link(result.temperature_points, result.temperature_links, a, dis.walls[w],
+                   to_temperature[w]);
+          add_link(result.flux_points, result.flux_links, a, dis.walls[w], to_flux[w]);
+        }
+      }
+
+      /** Edge layout: particles on a wall take its flux; those at a prescribed
+       * temperature are held. */
+      void
+      link_to_edges(std::size_t a)
+      {
+        for(const PlaneWall &wall : dis.walls)
+          if(wall.boundary->kind == BoundaryKind::flux && dis.on_wall(wall, a))
+            add_link(result.flux_points, result.flux_links, a, wall,
+                     dis.particle_volume / dis.spacing);
+      }
+
+      void
+      add_link(std::vector<WallPoint> &points, std::vector<WallLink> &links,
+               std::size_t a, const PlaneWall &wall, double strength) const
+      {
+        if(strength <= 0)
+          return;
+        links.push_back({static_cast<std::uint32_t>(a),
+                         static_cast<std::uint32_t>(points.size()), strength});
+        points.push_back({wall.boundary, wall.project(dis.particles.point(a))});
+      }
+
+      /**
+       * A ball's rim. Where the temperature is known outside (exact), ghosts hold it.
+       * Otherwise the line from the particle through the rim's value is continued to the
+       * ghost (Morris, Fox and Zhu 1997): 1 + d_ghost/d_particle times the difference.
+       */
+      void
+      link_to_ghosts(std::size_t a)
+      {
+        if(dis.ghosts.size() == 0)
+          return;
+        const double radius = dis.scene.domain.radius;
+        const auto own = dis.particles.point(a);
+        const double depth
+            = std::max(radius - std::hypot(own[0], own[1], own[2]), 0.25 * dis.spacing);
+        const cases::Boundary &rim = dis.scene.boundary(cases::Side::outer);
+        for(const std::uint32_t ghost : ghost_neighbours[a])
+        {
+          auto place = dis.ghosts.point(ghost);
+          double squared = 0;
+          for(int d = 0; d < dis.dimension; ++d)
+            squared += (own[d] - place[d]) * (own[d] - place[d]);
+          double g = strength(a, a, squared);
+          if(g == 0)
+            continue;
+          const double distance = std::hypot(place[0], place[1], place[2]);
+          const bool flux = rim.kind == BoundaryKind::flux;
+          if(flux)
+            g *= depth + distance - radius;
+          else if(!rim.exact)
+            g *= 1 + (distance - radius) / depth;
+          if(!rim.exact)
+            for(double &x : place)
+              x *= radius / distance;
+          auto &points = flux ? result.flux_points : result.temperature_points;
+          auto &links = flux ? result.flux_links : result.temperature_links;
+          links.push_back({static_cast<std::uint32_t>(a),
+                           static_cast<std::uint32_t>(points.size()), g});
+          points.push_back({&rim, place});
+        }
+      }
+
+      /** Make the areas of the particles that share a wall's flux add up to the wall. */
+      void
+      normalise_flux_areas()
+      {
+        for(const cases::Side side : dis.scene.sides())
+        {
+          const cases::Boundary &boundary = dis.scene.boundary(side);
+          if(boundary.kind != BoundaryKind::flux)
+            continue;
+          double sum = 0;
+          for(const WallLink &link : result.flux_links)
+            if(result.flux_points[link.point].boundary == &boundary)
+              sum += link.strength;
+          for(WallLink &link : result.flux_links)
+            if(result.flux_points[link.point].boundary == &boundary)
+              link.strength *= wall_area(side) / sum;
+        }
+      }
+
+      double
+      wall_area(cases::Side side) const
+      {
+        const cases::Domain &domain = dis.scene.domain;
+        if(side == cases::Side::outer)
+          return std::numbers::pi * domain.radius
+                 * (dis.dimension == 2 ? 2. : 4 * domain.radius);
+        double area = dis.cross_section;
+        if(domain.shape == cases::DomainShape::box)
+          for(int d = 0; d < dis.dimension; ++d)
+            if(d != static_cast<int>(side) / 2)
+              area *= domain.upper[d] - domain.lower[d];
+        return area;
+      }
+
+      /**
+       * mu_a = -(1/d) sum_b V_b F_ab r_ab^2. Summed where particles are displaced and
+       * images or ghosts complete the support; the lattice's value elsewhere.
+       */
+      void
+      correct_second_moment()
+      {
+        result.second_moment = lattice_second_moment(dis.kernel, dis.spacing);
+        if(!dis.displaced)
+          return;
+        inverse_moment.assign(dis.particles.size(), 1 / result.second_moment);
+        const double factor = dis.particle_volume / dis.dimension;
+        for(std::size_t a = 0; a < dis.particles.size(); ++a)
+        {
+          if(!complete_support(a))
+            continue;
+          double sum = 0;
+          const auto add = [&](double squared) { sum += slope(squared) * squared; };
+          const auto add_images = [&](std::size_t b)
+          {
+            visit_images(common_walls(a, b),
+                         [&](WallSet mirrors) { add(squared_distance(a, b, mirrors)); });
+          };
+          add_images(a);
+          for(const std::uint32_t b : neighbours[a])
+          {
+            add(squared_distance(a, b, 0));
+            add_images(b);
+          }
+          for(std::size_t g = 0; dis.ghosts.size() > 0 && g < ghost_neighbours[a].size();
+              ++g)
+          {
+            double squared = 0;
+            for(int d = 0; d < dis.dimension; ++d)
+            {
+              const double difference = dis.particles.position[d][a]
+                                        - dis.ghosts.position[d][ghost_neighbours[a][g]];
+              squared += difference * difference;
+            }
+            add(squared);
+          }
+          inverse_moment[a] = 1 / (factor * sum);
+        }
+      }
+
+      bool
+      complete_support(std::size_t a) const
+      {
+        if(dis.scene.domain.shape != cases::DomainShape::ball)
+          return dis.layout == LatticeLayout::cell_centred || reach[a] == 0;
+        const auto own = dis.particles.point(a);
+        return dis.ghosts.size() > 0
+               || std::hypot(own[0], own[1], own[2]) + dis.kernel.support()
+                      < dis.scene.domain.radius;
+      }
+
+      const Discretisation &dis;
+      ConductionRows &result;
+      NeighbourList neighbours;
+      NeighbourList ghost_neighbours;
+      std::vector<WallSet> reach; ///< the walls within a support of each particle
+      std::vector<double> inverse_moment;
+    };
+  } // namespace
+
+  ConductionRows::ConductionRows(const Discretisation &discretisation,
+                                 bool moment_correction)
+  {
+    Assembly(discretisation, moment_correction, *this).assemble();
+  }
+} // namespace meltfront::particles

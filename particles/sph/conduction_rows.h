@@ -1,0 +1,59 @@
+#ifndef meltfront_particles_sph_conduction_rows_h
+#define meltfront_particles_sph_conduction_rows_h
+
+#include <particles/core/particle_operator.h>
+#include <particles/sph/discretisation.h>
+
+#include <vector>
+
+namespace meltfront::particles
+{
+  /** A place on a wall, or a ghost, whose value acts on particles. */
+  struct WallPoint
+  {
+    const cases::Boundary *boundary;
+    cases::Position position;
+  };
+
+  /** What a particle exchanges with a wall point. */
+  struct WallLink
+  {
+    std::uint32_t row;
+    std::uint32_t point;
+    /**
+     * To a temperature: heat flow per difference of the Kirchhoff variable (m^(d-2)). To
+     * a flux: area of the wall that the particle stands for (m^(d-1)).
+     */
+    double strength;
+  };
+
+  /**
+   * SPH conduction as rows of a sparse operator (Monaghan et al. 2005, equation 2.7, with
+   * the second moment corrected).
+   *
+   * With the Kirchhoff variable u = k (T - T_m), the heat flow into particle a is
+   *
+   *   sum_b g_ab (u_b - u_a),  g_ab = -2 V_a V_b F_ab (1/mu_a + 1/mu_b)/2,
+   *
+   * wherever both particles conduct alike. In the cell layout plane walls mirror the
+   * particles, and the mirror images are folded into the rows: across an insulated wall
+   * the image of b has u_b, so that its coefficient g' adds to g_ab; across a wall that
+   * holds u_B it has 2 u_B - u_b, so that g' leaves g_ab and the row gains
+   * 2 g' (u_B - u_a). Row and wall coefficients stay >= 0, so an explicit step obeys the
+   * maximum principle whenever step * (sum of the row) <= heat capacity.
+   */
+  struct ConductionRows
+  {
+    explicit ConductionRows(const Discretisation &discretisation, bool moment_correction);
+
+    ParticleOperator rows;
+    double second_moment = 1;   ///< mu on the lattice; 1 where it is not corrected
+    double largest_row_sum = 0; ///< over particles that do not hold a wall's value
+    std::vector<WallPoint> temperature_points;
+    std::vector<WallLink> temperature_links;
+    std::vector<WallPoint> flux_points;
+    std::vector<WallLink> flux_links;
+  };
+} // namespace meltfront::particles
+
+#endif

@@ -1,0 +1,126 @@
+#include <particles/sph/discretisation.h>
+
+#include <cmath>
+
+namespace meltfront::particles
+{
+  using cases::Boundary;
+  using cases::BoundaryKind;
+  using cases::DomainShape;
+  using cases::Side;
+
+  namespace
+  {
+    double
+    power(double base, int exponent)
+    {
+      return exponent == 0 ? 1. : base * power(base, exponent - 1);
+    }
+
+    /** Particles across the strip that stands for a slab: two radii of interaction wide.
+     */
+    int
+    columns_needed(const SmoothingKernel &kernel, double spacing)
+    {
+      return static_cast<int>(std::ceil(2 * kernel.support() / spacing - 1e-9));
+    }
+  } // namespace
+
+  cases::Position
+  PlaneWall::project(cases::Position position) const
+  {
+    position[direction] = coordinate;
+    return position;
+  }
+
+  Discretisation::Discretisation(const cases::Scene &scene, const SphParameters &p)
+      : scene(scene), dimension(p.dimension), layout(p.layout),
+        spacing(lattice_spacing(scene.domain.side(), p.n, p.layout)),
+        kernel(p.kernel, p.dimension, p.smoothing * spacing), displaced(p.jitter > 0),
+        particle_volume(power(spacing, p.dimension)), cross_section(1)
+  {
+    particles.dimension = ghosts.dimension = dimension;
+    if(scene.domain.shape == DomainShape::ball)
+      fill_ball();
+    else
+      fill_slab_or_box(p);
+    jitter(particles, p.jitter * spacing, p.seed,
+           [this](const cases::Position &position)
+           {
+             if(layout == LatticeLayout::cell_centred)
+               return true;
+             for(const PlaneWall &wall : walls)
+               if(std::abs(position[wall.direction] - wall.coordinate) < 1e-6 * spacing)
+                 return false;
+             return true;
+           });
+    reorder(particles, order_along_curve(particles, spacing));
+    weights.assign(particles.size(), particle_volume / cross_section);
+    find_held_particles();
+  }
+
+  void
+  Discretisation::fill_slab_or_box(const SphParameters &p)
+  {
+    const bool slab = scene.domain.shape == DomainShape::slab;
+    std::array<LatticeDirection, 3> directions;
+    for(int d = 0; d < dimension; ++d)
+    {
+      const bool across = slab && d > 0;
+      const int columns = p.columns > 0 ? p.columns : columns_needed(kernel, spacing);
+      const double lower = across ? 0 : scene.domain.lower[d];
+      const double upper = across ? columns * spacing : scene.domain.upper[d];
+      bool periodic = across;
+      for(int s = 2 * d; s <= 2 * d + 1 && !across; ++s)
+      {
+        const Boundary &boundary = scene.boundary(static_cast<Side>(s));
+        if(boundary.kind == BoundaryKind::periodic)
+          periodic = true;
+        else
+          walls.push_back({&boundary, d, s == 2 * d ? lower : upper});
+      }
+      directions[d] = {lower, upper, periodic ? LatticeLayout::cell_centred : p.layout};
+      if(periodic)
+        periodicity.period[d] = upper - lower;
+      if(across)
+        cross_section *= upper - lower;
+    }
+    particles = arrange_in_box(dimension, directions, spacing);
+  }
+
+  void
+  Discretisation::fill_ball()
+  {
+    const double radius = scene.domain.radius;
+    particles = arrange_in_shell(dimension, 0, radius, spacing, layout);
+    if(scene.boundary(Side::outer).kind != BoundaryKind::insulated)
+      ghosts = arrange_in_shell(dimension, radius, radius + kernel.support(), spacing,
+                                layout);
+  }
+
+  bool
+  Discretisation::on_wall(const PlaneWall &wall, std::size_t particle) const
+  {
+    return std::abs(particles.position[wall.direction][particle] - wall.coordinate)
+           < 1e-6 * spacing;
+  }
+
+  void
+  Discretisation::find_held_particles()
+  {
+    if(layout == LatticeLayout::cell_centred)
+      return;
+    for(std::size_t i = 0; i < particles.size(); ++i)
+    {
+      bool holds = false;
+      for(const PlaneWall &wall : walls)
+        if(wall.boundary->kind == BoundaryKind::fixed_temperature && on_wall(wall, i))
+        {
+          holds = true;
+          weights[i] *= 0.5; // half of its cell lies outside the domain
+        }
+      if(holds)
+        held.push_back(i);
+    }
+  }
+} // namespace meltfront::particles

@@ -1,0 +1,79 @@
+#include <particles/sph/initial_state.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    /** Mean enthalpy of a cell of a planar scene, from the exact heat within it. */
+    double
+    planar_mean(const Discretisation &dis, const cases::Position &position)
+    {
+      const cases::Scene &scene = dis.scene;
+      const double half = 0.5 * dis.spacing;
+      const double lower = std::max(position[0] - half, scene.domain.lower[0]);
+      const double upper = std::min(position[0] + half, scene.domain.upper[0]);
+      return scene.initial.exact->heat_content(lower, upper, scene.start_time)
+             / ((upper - lower) * scene.material.solid.density);
+    }
+
+    /** Part of a cell that lies within the front, by points on a fine grid in the cell.
+     */
+    double
+    inner_fraction(const Discretisation &dis, const cases::Position &centre)
+    {
+      const int points = dis.dimension == 2 ? 32 : 12;
+      const int points_z = dis.dimension > 2 ? points : 1;
+      int inside = 0;
+      for(int k = 0; k < points_z; ++k)
+        for(int j = 0; j < points; ++j)
+          for(int i = 0; i < points; ++i)
+          {
+            cases::Position p = centre;
+            p[0] += ((i + 0.5) / points - 0.5) * dis.spacing;
+            p[1] += ((j + 0.5) / points - 0.5) * dis.spacing;
+            p[2] += ((k + 0.5) / points_z - 0.5) * (points_z > 1 ? dis.spacing : 0);
+            inside
+                += dis.scene.initial.exact->signed_distance(p, dis.scene.start_time) < 0;
+          }
+      return double(inside) / (points * points * points_z);
+    }
+
+    double
+    from_exact(const Discretisation &dis, const cases::Position &position)
+    {
+      const cases::Scene &scene = dis.scene;
+      const cases::ExactSolution &exact = *scene.initial.exact;
+      if(exact.symmetry() == cases::Symmetry::planar)
+        return planar_mean(dis, position);
+      const double distance = exact.signed_distance(position, scene.start_time);
+      double inner = 0;
+      if(std::abs(distance) <= 0.5 * std::sqrt(double(dis.dimension)) * dis.spacing)
+        inner = inner_fraction(dis, position);
+      if(inner == 0 || inner == 1)
+        return scene.material.enthalpy(exact.temperature(position, scene.start_time),
+                                       scene.initial.solid_fraction_at_melting);
+      const double solid = exact.solid_at_origin() ? inner : 1 - inner;
+      return scene.material.enthalpy(scene.material.melting_temperature, solid);
+    }
+  } // namespace
+
+  std::vector<double>
+  initial_enthalpy(const Discretisation &dis)
+  {
+    const cases::Scene &scene = dis.scene;
+    std::vector<double> enthalpy(dis.particles.size());
+    for(std::size_t i = 0; i < enthalpy.size(); ++i)
+    {
+      const cases::Position position = dis.particles.point(i);
+      enthalpy[i] = scene.initial.exact
+                        ? from_exact(dis, position)
+                        : scene.material.enthalpy(
+                            scene.initial.temperature(position, scene.start_time),
+                            scene.initial.solid_fraction_at_melting);
+    }
+    return enthalpy;
+  }
+} // namespace meltfront::particles

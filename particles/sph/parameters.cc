@@ -1,0 +1,124 @@
+#include <cases/error.h>
+#include <cases/scene.h>
+#include <particles/sph/parameters.h>
+
+#include <fmt/format.h>
+
+namespace meltfront::particles
+{
+  const SphPolicy &
+  corrected_policy()
+  {
+    static const SphPolicy policy{
+        "sph",
+        "Smoothed particle hydrodynamics on enthalpy, corrected: exact second moment, "
+        "the partner's conductivity at the melting point, mirrored walls.",
+        "",
+        false,
+        "cell",
+        "partner",
+        true,
+        1.0,
+        "rkl2",
+        1.0};
+    return policy;
+  }
+
+  const SphPolicy &
+  published_policy()
+  {
+    static const SphPolicy policy{
+        "sph-2005",
+        "Smoothed particle hydrodynamics as Monaghan, Huppert and Worster (2005) "
+        "computed.",
+        "sph",
+        true,
+        "edge",
+        "liquid",
+        false,
+        0.0,
+        "euler",
+        0.0};
+    return policy;
+  }
+
+  std::vector<cases::OptionDeclaration>
+  sph_options(const SphPolicy &policy)
+  {
+    return {
+        {"dimension", "1", 0L,
+         "Dimension in which a slab is simulated; 0: the lowest (the paper's: 2).", 0, 3},
+        {"kernel", "", std::string("cubic_spline"), "Shape of the smoothing kernel.", 0,
+         0, kernel_names()},
+        {"smoothing", "1", policy.smoothing,
+         "Smoothing length over particle spacing; 0: as the paper, 1.2 in planar scenes "
+         "and 1.3 in others.",
+         0, 4},
+        {"layout", "", policy.layout,
+         "Where the outermost particles are: half a spacing inside, or on the edge.", 0,
+         0, std::vector<std::string>{"cell", "edge"}},
+        {"moment_correction", "", policy.moment_correction,
+         "Divide the kernel's gradient by its second moment, so that the Laplacian of a "
+         "quadratic is exact."},
+        {"melting_conductivity", "", policy.melting_conductivity,
+         "Conductivity of a particle at the melting temperature: its partner's, or the "
+         "liquid's until it has frozen.",
+         0, 0, std::vector<std::string>{"partner", "liquid"}},
+        {"time_scheme", "", policy.time_scheme,
+         "Explicit Euler steps, or Runge-Kutta-Legendre super steps of second order.", 0,
+         0, std::vector<std::string>{"euler", "rkl2"}},
+        {"stages", "1", 8L, "Most stages of a super step.", 3, 64},
+        {"step_factor", "1", policy.step_factor,
+         "Time step over the largest that keeps the maximum principle; 0: as the paper, "
+         "0.15 c rho h^2/k. More than 1 is refused.",
+         0, 1e6},
+        {"jitter", "1", 0.0,
+         "Random displacement of each particle, in particle spacings and per direction.",
+         0, 0.4},
+    };
+  }
+
+  namespace
+  {
+    int
+    resolve_dimension(const SphPolicy &policy, const cases::Scene &scene, long wanted)
+    {
+      if(scene.domain.shape == cases::DomainShape::slab)
+        return wanted > 0 ? static_cast<int>(wanted) : (policy.as_published ? 2 : 1);
+      if(wanted > 0 && wanted != scene.domain.dimension)
+        throw cases::Refusal(fmt::format(
+            "{} simulates a box or a ball of {} dimensions in these, not in {}",
+            policy.name, scene.domain.dimension, wanted));
+      return scene.domain.dimension;
+    }
+  } // namespace
+
+  SphParameters
+  resolve_parameters(const SphPolicy &policy, const cases::Scene &scene,
+                     const cases::Resolution &resolution)
+  {
+    const cases::Options &options = resolution.options;
+    SphParameters p;
+    p.dimension = resolve_dimension(policy, scene, options.get_integer("dimension"));
+    p.columns = policy.as_published ? resolution.n : 0;
+    p.kernel = kernel_shape(options.get_string("kernel"));
+    p.smoothing = options.get_double("smoothing");
+    if(p.smoothing == 0)
+      p.smoothing = scene.symmetry == cases::Symmetry::planar ? 1.2 : 1.3;
+    p.layout = options.get_string("layout") == "edge" ? LatticeLayout::on_edge
+                                                      : LatticeLayout::cell_centred;
+    p.moment_correction = options.get_bool("moment_correction");
+    p.melting_conductivity = options.get_string("melting_conductivity") == "partner"
+                                 ? MeltingConductivity::partner
+                                 : MeltingConductivity::liquid;
+    p.time_scheme = options.get_string("time_scheme") == "euler" ? TimeScheme::euler
+                                                                 : TimeScheme::rkl2;
+    p.stages = static_cast<int>(options.get_integer("stages"));
+    p.step_factor = options.get_double("step_factor");
+    p.jitter = options.get_double("jitter");
+    p.seed = resolution.seed;
+    p.threads = resolution.threads;
+    p.n = resolution.n;
+    return p;
+  }
+} // namespace meltfront::particles

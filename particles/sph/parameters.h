@@ -1,0 +1,77 @@
+#ifndef meltfront_particles_sph_parameters_h
+#define meltfront_particles_sph_parameters_h
+
+#include <cases/method.h>
+#include <particles/core/arrangement.h>
+#include <particles/core/kernels.h>
+
+#include <string>
+#include <vector>
+
+namespace meltfront::particles
+{
+  /** Which conductivity a particle at the melting temperature has. */
+  enum class MeltingConductivity
+  {
+    partner, ///< that of the particle it exchanges heat with, for it is isothermal
+    liquid   ///< the liquid's until it has frozen (Monaghan et al. 2005, section 3)
+  };
+
+  enum class TimeScheme
+  {
+    euler,
+    rkl2
+  };
+
+  /**
+   * What distinguishes the corrected method from the published one: the same code with
+   * other defaults.
+   */
+  struct SphPolicy
+  {
+    std::string name;
+    std::string summary;
+    std::string corrected_form;
+    bool as_published; ///< a slab is a square of n x n particles, as in the paper
+    std::string layout;
+    std::string melting_conductivity;
+    bool moment_correction;
+    double smoothing; ///< 0: as the paper, by the scene's symmetry
+    std::string time_scheme;
+    double step_factor; ///< 0: as the paper, 0.15 c rho h^2/k
+  };
+
+  /** The corrected method, `sph`. */
+  const SphPolicy &corrected_policy();
+
+  /** The method as Monaghan, Huppert and Worster (2005) computed, `sph-2005`. */
+  const SphPolicy &published_policy();
+
+  std::vector<cases::OptionDeclaration> sph_options(const SphPolicy &policy);
+
+  /** The values of a run's options, resolved for a scene. */
+  struct SphParameters
+  {
+    int dimension;
+    int columns; ///< particles across the strip that stands for a slab; 0: what the
+                 ///< kernel needs
+    KernelShape kernel;
+    double smoothing; ///< h/dp
+    LatticeLayout layout;
+    bool moment_correction;
+    MeltingConductivity melting_conductivity;
+    TimeScheme time_scheme;
+    int stages;         ///< most stages of a super step
+    double step_factor; ///< 0: the paper's step
+    double jitter;      ///< in particle spacings
+    std::uint64_t seed;
+    int threads;
+    int n;
+  };
+
+  /** @throws cases::Refusal for a dimension in which the scene cannot be simulated. */
+  SphParameters resolve_parameters(const SphPolicy &policy, const cases::Scene &scene,
+                                   const cases::Resolution &resolution);
+} // namespace meltfront::particles
+
+#endif

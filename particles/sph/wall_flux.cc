@@ -1,0 +1,40 @@
+#include <particles/sph/wall_flux.h>
+
+namespace meltfront::particles
+{
+  WallFlux::WallFlux(const Discretisation &discretisation, const ConductionRows &rows)
+      : links(rows.flux_links), values(discretisation.scene, rows.flux_points, links)
+  {
+  }
+
+  void
+  WallFlux::prepare_step(double begin, double end)
+  {
+    meter.measure_setup([&] { values.prepare_step(begin, end); });
+  }
+
+  double
+  WallFlux::add(double fraction, std::span<double> flow, double flow_scale)
+  {
+    return meter.measure(
+        [&]
+        {
+          double sum = 0;
+          for(const WallLink &link : links)
+          {
+            const double heat
+                = link.strength * values.at(link.point, fraction) / flow_scale;
+            flow[link.row] += heat;
+            sum += heat;
+          }
+          return sum;
+        });
+  }
+
+  cases::EffectCost
+  WallFlux::cost() const
+  {
+    return meter.cost(cases::Effect::wall_flux,
+                      links.size() * sizeof(WallLink) + values.bytes());
+  }
+} // namespace meltfront::particles

@@ -1,0 +1,45 @@
+#ifndef meltfront_particles_sph_wall_flux_h
+#define meltfront_particles_sph_wall_flux_h
+
+#include <particles/sph/effect_meter.h>
+#include <particles/sph/wall_values.h>
+
+#include <span>
+
+namespace meltfront::particles
+{
+  /**
+   * Walls with a prescribed heat flux: each particle near such a wall takes the flux on
+   * its share of the wall's area. The shares come from the mirror images' gradient and
+   * add up to the wall's area.
+   */
+  class WallFlux
+  {
+  public:
+    WallFlux(const Discretisation &discretisation, const ConductionRows &rows);
+
+    void prepare_step(double begin, double end);
+
+    /**
+     * Add the walls' heat to the particles' flows, in units of `flow_scale`.
+     * @return heat flow into the scene, in the flows' unit.
+     */
+    double add(double fraction, std::span<double> flow, double flow_scale);
+
+    /** Links to walls, the entries that one pass touches. */
+    std::size_t
+    size() const
+    {
+      return links.size();
+    }
+
+    cases::EffectCost cost() const;
+
+  private:
+    std::vector<WallLink> links;
+    WallValues values;
+    EffectMeter meter;
+  };
+} // namespace meltfront::particles
+
+#endif

@@ -1,0 +1,86 @@
+#ifndef meltfront_particles_sph_wall_temperature_h
+#define meltfront_particles_sph_wall_temperature_h
+
+#include <particles/sph/effect_meter.h>
+#include <particles/sph/phase_map.h>
+#include <particles/sph/wall_values.h>
+
+#include <span>
+
+namespace meltfront::particles
+{
+  /**
+   * Walls with a prescribed temperature. In the cell layout particles exchange heat with
+   * points of the wall; in the edge layout particles on the wall hold its temperature,
+   * set anew after each step, and their heat is booked as the wall's (Monaghan et al.
+   * 2005, section 2.3.2).
+   */
+  class WallTemperature
+  {
+  public:
+    WallTemperature(const Discretisation &discretisation, const ConductionRows &rows,
+                    const ConductionVariable &variable);
+
+    void prepare_step(double begin, double end);
+
+    /**
+     * Add the heat from the walls to the particles' flows; particles that hold a wall's
+     * temperature keep none.
+     * @return heat flow into the scene, in the flows' unit.
+     */
+    template <typename Pair>
+    double
+    add(const Pair &pair, double fraction, std::span<const double> w,
+        std::span<double> flow)
+    {
+      return meter.measure(
+          [&]
+          {
+            for(std::size_t p = 0; p < wall_variable.size(); ++p)
+              wall_variable[p] = variable.of_temperature(values.at(p, fraction));
+            double sum = 0;
+            for(const WallLink &link : links)
+            {
+              const double heat
+                  = link.strength * pair(w[link.row], wall_variable[link.point]);
+              flow[link.row] += heat;
+              sum += heat;
+            }
+            for(const std::uint32_t row : held)
+            {
+              sum -= flow[row];
+              flow[row] = 0;
+            }
+            return sum;
+          });
+    }
+
+    /**
+     * Set the particles on the walls to the temperature at a fraction of the step.
+     * @return heat that this took from the walls (J in the measure of the scene).
+     */
+    double hold(double fraction, std::span<double> enthalpy);
+
+    /** Links to walls, the entries that one pass touches. */
+    std::size_t
+    size() const
+    {
+      return links.size() + held.size();
+    }
+
+    cases::EffectCost cost() const;
+
+  private:
+    const ConductionVariable &variable;
+    const cases::Material &material;
+    std::vector<WallLink> links;
+    std::vector<WallLink> held_links; ///< a held particle and its point
+    std::vector<std::uint32_t> held;
+    std::vector<double> held_weights; ///< mass in the measure of the scene
+    WallValues values;
+    std::vector<double> wall_variable;
+    EffectMeter meter;
+  };
+} // namespace meltfront::particles
+
+#endif
