@@ -28,7 +28,6 @@ namespace meltfront::cases
     double heat_content(double lower, double upper, double time) const override;
 
   protected:
-    /** @throws InputError where a property is not positive or the densities differ. */
     RadialSimilarity(const Material &material, similarity::RadialProfile<double> profile);
 
     Material material;
