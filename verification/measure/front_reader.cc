@@ -1,0 +1,228 @@
+#include <verification/measure/front_reader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+    /** Relative to the largest |T - T_m|, a temperature so near the melting point is at
+     * it. */
+    constexpr double melting_tolerance = 1e-10;
+    constexpr double lost_quarter = 0.25;
+
+    struct Profile
+    {
+      std::vector<double> coordinate, excess;
+    };
+
+    /** One entry per site, ascending. */
+    Profile
+    sorted_sites(const std::vector<double> &coordinate,
+                 std::span<const double> temperature, double melting_temperature)
+    {
+      std::vector<std::size_t> order(coordinate.size());
+      std::iota(order.begin(), order.end(), 0);
+      if(!std::ranges::is_sorted(coordinate))
+        std::ranges::stable_sort(order, {}, [&](std::size_t i) { return coordinate[i]; });
+      Profile profile;
+      for(const std::size_t i : order)
+      {
+        profile.coordinate.push_back(coordinate[i]);
+        profile.excess.push_back(temperature[i] - melting_temperature);
+      }
+      return profile;
+    }
+
+    /** One entry per shell: the mean of its sites. Shells are centred on multiples of
+     * their width from the first site, so that the rows of a lattice fall into one each.
+     */
+    Profile
+    shells(const std::vector<double> &coordinate, std::span<const double> temperature,
+           double melting_temperature, double width)
+    {
+      const auto [first, last] = std::ranges::minmax(coordinate);
+      const auto count = static_cast<std::size_t>(std::round((last - first) / width)) + 1;
+      Profile sum{std::vector<double>(count), std::vector<double>(count)};
+      std::vector<int> sites(count);
+      for(std::size_t i = 0; i < coordinate.size(); ++i)
+      {
+        const auto shell
+            = static_cast<std::size_t>(std::round((coordinate[i] - first) / width));
+        sum.coordinate[shell] += coordinate[i];
+        sum.excess[shell] += temperature[i] - melting_temperature;
+        ++sites[shell];
+      }
+      Profile profile;
+      for(std::size_t s = 0; s < count; ++s)
+        if(sites[s] > 0)
+        {
+          profile.coordinate.push_back(sum.coordinate[s] / sites[s]);
+          profile.excess.push_back(sum.excess[s] / sites[s]);
+        }
+      return profile;
+    }
+
+    int
+    sign(double value, double tolerance)
+    {
+      return value > tolerance ? 1 : value < -tolerance ? -1 : 0;
+    }
+  } // namespace
+
+  cases::Symmetry
+  measured_symmetry(const cases::Scene &scene, const cases::ExactSolution *exact)
+  {
+    if(exact)
+      return exact->symmetry();
+    if(scene.symmetry != cases::Symmetry::none)
+      return scene.symmetry;
+    switch(scene.domain.dimension)
+    {
+    case 2:
+      return cases::Symmetry::cylindrical;
+    case 3:
+      return cases::Symmetry::spherical;
+    default:
+      return cases::Symmetry::planar;
+    }
+  }
+
+  bool
+  solid_holds_origin(const cases::Scene &scene, const cases::ExactSolution *exact)
+  {
+    if(exact)
+      return exact->solid_at_origin();
+    double heat = 0;
+    for(const cases::PointSource &source : scene.sources)
+      heat += source.energy(scene.end_time);
+    if(heat != 0)
+      return heat < 0;
+    const double melting = scene.material.melting_temperature;
+    const auto &wall = scene.boundaries[static_cast<std::size_t>(cases::Side::x_min)];
+    if(wall && measured_symmetry(scene, exact) == cases::Symmetry::planar)
+    {
+      const double at_wall
+          = wall->value.value ? wall->value(scene.domain.lower, scene.start_time) : nan;
+      if(wall->kind == cases::BoundaryKind::fixed_temperature && at_wall != melting)
+        return at_wall < melting;
+      if(wall->kind == cases::BoundaryKind::flux && at_wall != 0)
+        return at_wall < 0;
+    }
+    const bool planar = measured_symmetry(scene, exact) == cases::Symmetry::planar;
+    const cases::Position start = planar ? scene.domain.lower : cases::Position{};
+    return scene.initial.temperature(start, scene.start_time) <= melting;
+  }
+
+  double
+  isotherm_crossing(std::span<const double> coordinate, std::span<const double> excess)
+  {
+    double scale = 0;
+    for(const double value : excess)
+      scale = std::max(scale, std::abs(value));
+    const double tolerance = melting_tolerance * scale;
+    const std::size_t n = excess.size();
+    std::size_t k = 0;
+    while(k < n && sign(excess[k], tolerance) == 0)
+      ++k;
+    if(k == n)
+      return nan;
+    if(k > 0)
+      return coordinate[k - 1];
+    const int side = sign(excess[0], tolerance);
+    while(k < n && sign(excess[k], tolerance) == side)
+      ++k;
+    if(k == n)
+      return nan;
+    std::size_t beyond = k;
+    while(beyond < n && sign(excess[beyond], tolerance) == 0)
+      ++beyond;
+    if(beyond == n)
+      return coordinate[k];
+    if(beyond > k)
+      return (coordinate[k] + coordinate[beyond - 1]) / 2;
+    const double part = excess[k - 1] / (excess[k - 1] - excess[k]);
+    return coordinate[k - 1] + part * (coordinate[k] - coordinate[k - 1]);
+  }
+
+  FrontReader::FrontReader(const cases::Scene &scene, const cases::ExactSolution *exact,
+                           double spacing, double smoothing_length)
+      : symmetry(measured_symmetry(scene, exact)),
+        solid_at_origin(solid_holds_origin(scene, exact)),
+        melting_temperature(scene.material.melting_temperature), spacing(spacing),
+        smoothing_length(smoothing_length), site_coordinates(symmetry)
+  {
+    if(symmetry != cases::Symmetry::planar)
+      return;
+    origin = scene.domain.lower[0];
+    if(scene.symmetry == cases::Symmetry::none)
+      for(int d = 1; d < scene.domain.dimension; ++d)
+        cross_section *= scene.domain.upper[d] - scene.domain.lower[d];
+  }
+
+  const std::vector<double> &
+  FrontReader::coordinates(const cases::Snapshot &snapshot)
+  {
+    return site_coordinates.of(snapshot);
+  }
+
+  double
+  FrontReader::by_latent_heat(const cases::Snapshot &snapshot) const
+  {
+    double volume = 0;
+    for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
+      volume += snapshot.weights[i]
+                * (solid_at_origin ? snapshot.solid_fraction[i]
+                                   : 1 - snapshot.solid_fraction[i]);
+    return origin + cases::enclosing_coordinate(symmetry, volume / cross_section);
+  }
+
+  double
+  FrontReader::by_isotherm(const cases::Snapshot &snapshot,
+                           const std::vector<double> &coordinate) const
+  {
+    if(coordinate.empty())
+      return nan;
+    const Profile profile
+        = snapshot.dimension > 1 && spacing > 0
+              ? shells(coordinate, snapshot.temperature, melting_temperature, spacing)
+              : sorted_sites(coordinate, snapshot.temperature, melting_temperature);
+    return isotherm_crossing(profile.coordinate, profile.excess);
+  }
+
+  void
+  FrontReader::read_extreme_sites(const cases::Snapshot &snapshot,
+                                  const std::vector<double> &coordinate,
+                                  FrontReading &reading) const
+  {
+    reading.max_ice = reading.heat_loss = nan;
+    if(!solid_at_origin)
+      return;
+    for(std::size_t i = 0; i < coordinate.size(); ++i)
+    {
+      if(snapshot.weights[i] == 0)
+        continue;
+      if(snapshot.solid_fraction[i] == 1)
+        reading.max_ice
+            = std::fmax(reading.max_ice, coordinate[i] + 0.5 * smoothing_length);
+      if(snapshot.solid_fraction[i] > lost_quarter)
+        reading.heat_loss = std::fmax(reading.heat_loss, coordinate[i]);
+    }
+  }
+
+  FrontReading
+  FrontReader::read(const cases::Snapshot &snapshot)
+  {
+    const std::vector<double> &coordinate = coordinates(snapshot);
+    FrontReading reading;
+    reading.latent_heat = by_latent_heat(snapshot);
+    reading.isotherm = by_isotherm(snapshot, coordinate);
+    read_extreme_sites(snapshot, coordinate, reading);
+    return reading;
+  }
+} // namespace meltfront::verification

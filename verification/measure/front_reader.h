@@ -1,0 +1,93 @@
+#ifndef meltfront_verification_measure_front_reader_h
+#define meltfront_verification_measure_front_reader_h
+
+#include <cases/exact_solution.h>
+#include <cases/scene.h>
+#include <cases/snapshot.h>
+#include <verification/measure/site_coordinates.h>
+
+#include <span>
+#include <vector>
+
+namespace meltfront::verification
+{
+  /** The coordinate of the front (m) as four readings of one snapshot give it; NaN where
+   * a reading finds none. */
+  struct FrontReading
+  {
+    double latent_heat; ///< encloses the volume that is solid: sum of weight x solid
+                        ///< fraction
+    double isotherm;    ///< where T = T_m
+    /** Largest coordinate of a fully frozen site plus half the smoothing length (Error-1
+     * of Monaghan, Huppert and Worster 2005, Table 1). */
+    double max_ice;
+    /** Largest coordinate of a site with more than a quarter of its latent heat lost
+     * (Error-2 of the same table). */
+    double heat_loss;
+  };
+
+  /** The one coordinate that a case's solution depends on: that of the exact solution,
+   * else of the scene, else the distance from the origin in the scene's dimension. */
+  cases::Symmetry measured_symmetry(const cases::Scene &scene,
+                                    const cases::ExactSolution *exact);
+
+  /**
+   * Whether solid holds the origin of the coordinate. The exact solution says so; without
+   * one, the source that acts (a sink freezes), the wall x_min of a planar scene (below
+   * the melting point, or cooling), or the initial temperature at the origin.
+   */
+  bool solid_holds_origin(const cases::Scene &scene, const cases::ExactSolution *exact);
+
+  /**
+   * Where a temperature profile crosses the melting point.
+   *
+   * Linear interpolation between the first two neighbours that lie on either side of it;
+   * the middle of a stretch at the melting point between them. A stretch that reaches an
+   * end of the profile is a phase at its melting point, and its other end is the front.
+   *
+   * @param coordinate ascending (m)
+   * @param excess T - T_m
+   * @return NaN if the profile does not reach the melting point or never leaves it
+   */
+  double isotherm_crossing(std::span<const double> coordinate,
+                           std::span<const double> excess);
+
+  /** Reads the front of snapshots of one run; the same code for every method. */
+  class FrontReader
+  {
+  public:
+    /**
+     * @param scene the scene as it was simulated
+     * @param exact its exact solution, or null
+     * @param spacing of particles, or cell size (m): the width of the shells over which
+     * the temperature of sites in 2D and 3D is averaged before the isotherm is read
+     * @param smoothing_length of the particles' kernel (m), 0 for a mesh
+     */
+    FrontReader(const cases::Scene &scene, const cases::ExactSolution *exact,
+                double spacing, double smoothing_length);
+
+    FrontReading read(const cases::Snapshot &snapshot);
+
+    /** Coordinates of the snapshot's sites (m), valid until the next call. */
+    const std::vector<double> &coordinates(const cases::Snapshot &snapshot);
+
+  private:
+    double by_latent_heat(const cases::Snapshot &snapshot) const;
+    double by_isotherm(const cases::Snapshot &snapshot,
+                       const std::vector<double> &coordinate) const;
+    void read_extreme_sites(const cases::Snapshot &snapshot,
+                            const std::vector<double> &coordinate,
+                            FrontReading &reading) const;
+
+    cases::Symmetry symmetry;
+    bool solid_at_origin;
+    double origin = 0;        ///< of the coordinate in a planar scene (m)
+    double cross_section = 1; ///< by which a box's volume is divided to give a length
+    double melting_temperature;
+    double spacing;
+    double smoothing_length;
+    SiteCoordinates site_coordinates;
+  };
+} // namespace meltfront::verification
+
+#endif

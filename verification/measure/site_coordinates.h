@@ -1,0 +1,36 @@
+#ifndef meltfront_verification_measure_site_coordinates_h
+#define meltfront_verification_measure_site_coordinates_h
+
+#include <cases/position.h>
+#include <cases/snapshot.h>
+
+#include <array>
+#include <vector>
+
+namespace meltfront::verification
+{
+  /** The position of a site (m); coordinates beyond the snapshot's dimension are zero. */
+  cases::Position site_position(const cases::Snapshot &snapshot, std::size_t site);
+
+  /**
+   * The coordinates (x or r, m) of a snapshot's sites, computed again only when sites
+   * have moved: snapshots of every step would otherwise cost more than the steps.
+   */
+  class SiteCoordinates
+  {
+  public:
+    explicit SiteCoordinates(cases::Symmetry symmetry);
+
+    /** One coordinate per site, valid until the next call. */
+    const std::vector<double> &of(const cases::Snapshot &snapshot);
+
+  private:
+    bool moved(const cases::Snapshot &snapshot) const;
+
+    cases::Symmetry symmetry;
+    std::array<std::vector<double>, 3> positions; ///< for which `coordinates` holds
+    std::vector<double> coordinates;
+  };
+} // namespace meltfront::verification
+
+#endif
