@@ -1,0 +1,363 @@
+#include <cases/case_file/case_checks.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    const std::string initial_keys = "Scene/Initial state";
+    constexpr int times_sampled = 16;
+
+    double
+    sampled_time(const Scene &scene, int i)
+    {
+      return scene.start_time + (scene.end_time - scene.start_time) * i / times_sampled;
+    }
+
+    /** Points at a distance from the origin of a ball, in all directions of the axes. */
+    std::vector<Position>
+    directions(const Domain &domain, double radius)
+    {
+      std::vector<Position> points;
+      for(int d = 0; d < domain.dimension; ++d)
+        for(const double sign : {1., -1.})
+        {
+          Position p{};
+          p[d] = sign * radius;
+          points.push_back(p);
+        }
+      return points;
+    }
+
+    /** A grid of points between two shares (0 to 1) of every side of a slab or box. */
+    std::vector<Position>
+    grid(const Domain &domain, const std::array<double, 3> &from,
+         const std::array<double, 3> &to)
+    {
+      constexpr int across = 5;
+      std::array<int, 3> count{1, 1, 1};
+      for(int d = 0; d < domain.dimension; ++d)
+        count[d] = from[d] == to[d] ? 1 : across;
+      std::vector<Position> points;
+      Position p{};
+      for(int i = 0; i < count[0] * count[1] * count[2]; ++i)
+      {
+        const std::array<int, 3> index{i % count[0], i / count[0] % count[1],
+                                       i / (count[0] * count[1])};
+        for(int d = 0; d < domain.dimension; ++d)
+        {
+          const double share = from[d] + (to[d] - from[d]) * index[d] / (across - 1);
+          p[d] = domain.lower[d] + share * (domain.upper[d] - domain.lower[d]);
+        }
+        points.push_back(p);
+      }
+      return points;
+    }
+
+    std::vector<Position>
+    interior_points(const Domain &domain)
+    {
+      if(domain.shape != DomainShape::ball)
+        return grid(domain, {0.03, 0.03, 0.03}, {0.97, 0.97, 0.97});
+      std::vector<Position> points;
+      for(const double share : {0.03, 0.25, 0.5, 0.75, 0.97})
+        for(const Position &p : directions(domain, share * domain.radius))
+          points.push_back(p);
+      return points;
+    }
+
+    std::vector<Position>
+    wall_points(const Domain &domain, Side side)
+    {
+      if(side == Side::outer)
+        return directions(domain, domain.radius);
+      std::array<double, 3> from{0, 0, 0}, to{1, 1, 1};
+      const int d = static_cast<int>(side) / 2;
+      from[d] = to[d] = static_cast<int>(side) % 2;
+      return grid(domain, from, to);
+    }
+
+    std::string
+    wall_keys(Side side)
+    {
+      return std::string("Scene/Walls/") + to_string(side);
+    }
+
+    std::string
+    point_text(const Domain &domain, const Position &p)
+    {
+      std::string text;
+      for(int d = 0; d < domain.dimension; ++d)
+        text += fmt::format("{}{} = {:.6g}", d == 0 ? "" : ", ", "xyz"[d], p[d]);
+      return text;
+    }
+
+    /** The key that gives a wall's value. */
+    const char *
+    value_key(const Boundary &boundary)
+    {
+      return boundary.kind == BoundaryKind::flux ? "flux" : "temperature";
+    }
+
+    /** Values at points that a symmetric scene cannot tell apart must agree. */
+    void
+    check_symmetric(const PrmFile &prm, const Scene &scene, const Field &field,
+                    double radius, double time, const std::string &here,
+                    const std::string &key)
+    {
+      double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+      for(const Position &p : directions(scene.domain, radius))
+      {
+        lowest = std::min(lowest, field(p, time));
+        highest = std::max(highest, field(p, time));
+      }
+      if(highest - lowest > 1e-9 * std::max(std::abs(highest), std::abs(lowest)))
+        throw prm.error(here, key,
+                        fmt::format("contradicts the scene's {} symmetry: it ranges from "
+                                    "{:.6g} to {:.6g} at the distance {:.6g}",
+                                    prm.get_text("Scene", "symmetry"), lowest, highest,
+                                    radius));
+    }
+
+    void
+    check_finite(const PrmFile &prm, const Scene &scene, const Field &field,
+                 const Position &p, double time, const std::string &here,
+                 const std::string &key)
+    {
+      if(!std::isfinite(field(p, time)))
+        throw prm.error(here, key,
+                        fmt::format("is {} at {}, t = {:.6g}", field(p, time),
+                                    point_text(scene.domain, p), time));
+    }
+
+    /** Largest difference between the temperatures that the scene itself names. */
+    double
+    temperature_span(const Scene &scene)
+    {
+      double lowest = scene.material.melting_temperature, highest = lowest;
+      const auto include = [&](double temperature)
+      {
+        lowest = std::min(lowest, temperature);
+        highest = std::max(highest, temperature);
+      };
+      for(const Position &p : interior_points(scene.domain))
+        include(scene.initial.temperature(p, scene.start_time));
+      for(const Side side : scene.sides())
+        if(scene.boundary(side).kind == BoundaryKind::fixed_temperature)
+          for(const Position &p : wall_points(scene.domain, side))
+            for(int i = 1; i <= times_sampled; ++i)
+              include(scene.boundary(side).value(p, sampled_time(scene, i)));
+      return highest - lowest;
+    }
+
+    /** Checks one exact solution against the scene that it is to solve. */
+    class ExactCheck
+    {
+    public:
+      ExactCheck(const PrmFile &prm, const Case &c)
+          : prm(prm), scene(c.scene), exact(*c.exact), span(temperature_span(c.scene))
+      {
+      }
+
+      void
+      initial_state() const
+      {
+        const double time = scene.start_time;
+        for(const Position &p : interior_points(scene.domain))
+          compare(exact.temperature(p, time), scene.initial.temperature(p, time), p, time,
+                  initial_keys, "temperature");
+      }
+
+      void
+      held_wall(Side side) const
+      {
+        const Boundary &boundary = scene.boundary(side);
+        for(const Position &p : wall_points(scene.domain, side))
+          for(int i = 1; i <= times_sampled; ++i)
+          {
+            const double time = sampled_time(scene, i);
+            compare(exact.temperature(p, time), boundary.value(p, time), p, time,
+                    wall_keys(side), "temperature");
+          }
+      }
+
+      /** Late in the run only: early on, layers are thinner than the difference's step.
+       */
+      void
+      heated_wall(Side side) const
+      {
+        const Boundary &boundary = scene.boundary(side);
+        for(const Position &p : wall_points(scene.domain, side))
+          for(int i = times_sampled / 4; i <= times_sampled; ++i)
+          {
+            const double time = sampled_time(scene, i);
+            const double wanted
+                = boundary.kind == BoundaryKind::flux ? boundary.value(p, time) : 0;
+            const double found = flux(side, p, time);
+            const double conductivity = conductivity_at(p, time);
+            if(!(std::abs(found - wanted)
+                 <= 1e-3 * conductivity * span / scene.domain.side()))
+              complain(found, wanted, "heat flux", p, time, wall_keys(side), "kind");
+          }
+      }
+
+    private:
+      double
+      conductivity_at(const Position &p, double time) const
+      {
+        const Material &material = scene.material;
+        return (exact.temperature(p, time) < material.melting_temperature
+                    ? material.solid
+                    : material.liquid)
+            .conductivity;
+      }
+
+      /** k dT/dn with the outward normal n, from a one-sided difference of order 2. */
+      double
+      flux(Side side, const Position &p, double time) const
+      {
+        const double step = 1e-4 * scene.domain.side();
+        const auto inward = [&](double distance)
+        {
+          Position q = p;
+          if(side == Side::outer)
+            for(double &x : q)
+              x *= 1 - distance / scene.domain.radius;
+          else
+            q[static_cast<int>(side) / 2]
+                += static_cast<int>(side) % 2 == 0 ? distance : -distance;
+          return exact.temperature(q, time);
+        };
+        return conductivity_at(p, time)
+               * (3 * inward(0) - 4 * inward(step) + inward(2 * step)) / (2 * step);
+      }
+
+      void
+      compare(double found, double wanted, const Position &p, double time,
+              const std::string &here, const std::string &key) const
+      {
+        if(!(std::abs(found - wanted) <= 1e-6 * span))
+          complain(found, wanted, "temperature", p, time, here, key);
+      }
+
+      [[noreturn]] void
+      complain(double found, double wanted, const char *what, const Position &p,
+               double time, const std::string &here, const std::string &key) const
+      {
+        throw prm.error(
+            here, key,
+            fmt::format("contradicts the exact solution, whose {} is {:.6g} and not "
+                        "{:.6g} at {}, t = {:.6g}; a solution that holds approximately "
+                        "needs 'front floor' in subsection 'Measure'",
+                        what, found, wanted, point_text(scene.domain, p), time));
+      }
+
+      const PrmFile &prm;
+      const Scene &scene;
+      const ExactSolution &exact;
+      double span;
+    };
+  } // namespace
+
+  void
+  check_effects(const PrmFile &prm, const Scene &scene)
+  {
+    const auto demand = [&](Effect effect, bool fulfilled, const std::string &missing)
+    {
+      const auto choice = scene.effect_choices.find(effect);
+      if(choice != scene.effect_choices.end() && choice->second == EffectChoice::on
+         && !fulfilled)
+        throw prm.error("Effects", to_string(effect),
+                        fmt::format("is on but {}", missing));
+    };
+    const auto has_wall = [&scene](BoundaryKind kind)
+    {
+      const std::vector<Side> sides = scene.sides();
+      return std::any_of(sides.begin(), sides.end(),
+                         [&scene, kind](Side side)
+                         { return scene.boundary(side).kind == kind; });
+    };
+    const std::string liquid = "Scene/Material/Liquid";
+    const auto own_property = [&](Effect effect, const std::string &key)
+    {
+      demand(effect, prm.given(liquid, key),
+             fmt::format("{} is missing", name_of_key(liquid, key)));
+    };
+    demand(Effect::heat_sources, !scene.sources.empty(),
+           "there is no subsection 'Scene/Source 1'");
+    demand(Effect::wall_temperature, has_wall(BoundaryKind::fixed_temperature),
+           "no wall in subsection 'Scene/Walls' has the kind 'fixed temperature' or "
+           "'exact'");
+    demand(Effect::wall_flux, has_wall(BoundaryKind::flux),
+           "no wall in subsection 'Scene/Walls' has the kind 'flux'");
+    own_property(Effect::phase_conductivity, "conductivity");
+    own_property(Effect::phase_heat_capacity, "specific heat capacity");
+    own_property(Effect::liquid_motion, "density");
+  }
+
+  void
+  check_fields(const PrmFile &prm, const Scene &scene)
+  {
+    const bool round
+        = scene.domain.shape == DomainShape::ball && scene.symmetry != Symmetry::none;
+    const double start = scene.start_time;
+    for(const Position &p : interior_points(scene.domain))
+      check_finite(prm, scene, scene.initial.temperature, p, start, initial_keys,
+                   "temperature");
+    if(round)
+      for(const double share : {0.25, 0.5, 0.97})
+        check_symmetric(prm, scene, scene.initial.temperature,
+                        share * scene.domain.radius, start, initial_keys, "temperature");
+    for(const Side side : scene.sides())
+    {
+      const Boundary &boundary = scene.boundary(side);
+      if(!boundary.value.value)
+        continue;
+      for(int i = 0; i <= times_sampled; ++i)
+      {
+        const double time = sampled_time(scene, i);
+        for(const Position &p : wall_points(scene.domain, side))
+          check_finite(prm, scene, boundary.value, p, time, wall_keys(side),
+                       value_key(boundary));
+        if(round)
+          check_symmetric(prm, scene, boundary.value, scene.domain.radius, time,
+                          wall_keys(side), value_key(boundary));
+      }
+    }
+  }
+
+  void
+  check_exact_solution(const PrmFile &prm, const Case &c)
+  {
+    if(!c.exact)
+    {
+      prm.forbid("Measure", "front floor", "there is no exact solution");
+      return;
+    }
+    if(c.exact->start_time() > c.scene.start_time)
+      throw prm.error("Scene", "start time",
+                      fmt::format("comes before the exact solution begins ({})",
+                                  c.exact->start_time()));
+    if(c.measurement.front_floor > 0)
+      return;
+    const ExactCheck check(prm, c);
+    if(!c.scene.initial.exact)
+      check.initial_state();
+    for(const Side side : c.scene.sides())
+      switch(c.scene.boundary(side).kind)
+      {
+      case BoundaryKind::fixed_temperature:
+        if(!c.scene.boundary(side).exact)
+          check.held_wall(side);
+        break;
+      case BoundaryKind::periodic:
+        break;
+      default:
+        check.heated_wall(side);
+      }
+  }
+} // namespace meltfront::cases

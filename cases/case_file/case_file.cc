@@ -1,0 +1,164 @@
+#include <cases/case_file/case_checks.h>
+#include <cases/case_file/case_file.h>
+#include <cases/case_file/case_keys.h>
+#include <cases/case_file/criterion_parser.h>
+#include <cases/case_file/exact_reader.h>
+#include <cases/case_file/scene_reader.h>
+#include <cases/options.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    const std::string library_folder = MELTFRONT_CASE_LIBRARY;
+
+    /** Call a parser of one value; its complaint gets file, line and key. */
+    template <typename Parse>
+    auto
+    at_key(const PrmFile &prm, const std::string &subsection, const std::string &key,
+           const Parse &parse)
+    {
+      try
+      {
+        return parse(prm.get_text(subsection, key));
+      }
+      catch(const InputError &error)
+      {
+        throw prm.error(subsection, key, error.what());
+      }
+    }
+
+    std::vector<std::string>
+    read_tags(const PrmFile &prm)
+    {
+      std::vector<std::string> tags;
+      for(const std::string &tag : split_list(prm.get_text("", "tags"), ','))
+        if(!tag.empty())
+          tags.push_back(tag);
+      return tags;
+    }
+
+    Measurement
+    read_measurement(const PrmFile &prm)
+    {
+      const std::string here = "Measure";
+      Measurement measurement;
+      measurement.samples = static_cast<int>(prm.get_integer(here, "samples"));
+      if(measurement.samples != 0 && measurement.samples < 50)
+        throw prm.error(here, "samples",
+                        "must be at least 50, or 0 for every step: fewer times do not "
+                        "average over a front that moves inside a cell");
+      measurement.square_root_clock = prm.get_text(here, "clock") == "sqrt(t)";
+      measurement.temperature_from = prm.get_number(here, "temperature from");
+      if(prm.given(here, "temperature to"))
+        measurement.temperature_to = prm.get_number(here, "temperature to");
+      if(!(measurement.temperature_from < measurement.temperature_to))
+        throw prm.error(here, "temperature to", "must exceed 'temperature from'");
+      measurement.front_floor = prm.get_number(here, "front floor");
+      measurement.monotone_front = prm.get_boolean(here, "monotone front");
+      return measurement;
+    }
+
+    void
+    read_lists(const PrmFile &prm, Case &c)
+    {
+      for(const int i : prm.given_numbers("Acceptance", "criterion"))
+        c.criteria.push_back(
+            at_key(prm, "Acceptance", fmt::format("criterion {}", i), parse_criterion));
+      const std::string paper = prm.get_text("Printed", "source");
+      for(const int i : prm.given_numbers("Printed", "value"))
+      {
+        prm.require("Printed", "source", "printed values need the paper they are from");
+        c.printed.push_back(at_key(prm, "Printed", fmt::format("value {}", i),
+                                   [&paper](const std::string &text)
+                                   { return parse_printed_value(text, paper); }));
+      }
+      for(const int i : prm.given_numbers("Limits", "limit"))
+        c.limits.push_back(prm.get_text("Limits", fmt::format("limit {}", i)));
+    }
+
+    Case
+    assemble(const PrmFile &prm, const std::string &file)
+    {
+      Case c;
+      prm.require("", "title", "every case has one");
+      c.title = prm.get_text("", "title");
+      c.description = prm.get_text("", "description");
+      c.tags = read_tags(prm);
+      c.file = file;
+      c.text = prm.text();
+      c.measurement = read_measurement(prm);
+      read_lists(prm, c);
+      c.scene = read_scene(prm);
+      c.scene.name = std::filesystem::path(file).stem().string();
+      const KnownSolution known = read_exact_solution(prm, c.scene);
+      c.exact = known.solution;
+      complete_scene(prm, known, c.scene);
+      check_effects(prm, c.scene);
+      check_fields(prm, c.scene);
+      check_exact_solution(prm, c);
+      return c;
+    }
+  } // namespace
+
+  Case
+  read_case(const std::string &path)
+  {
+    PrmFile prm = case_keys();
+    prm.read(path);
+    return assemble(prm, path);
+  }
+
+  Case
+  read_case_text(const std::string &text, const std::string &file)
+  {
+    PrmFile prm = case_keys();
+    prm.read_text(text, file);
+    return assemble(prm, file);
+  }
+
+  std::vector<std::string>
+  library_names()
+  {
+    std::vector<std::string> names;
+    std::error_code failure;
+    for(const auto &entry : std::filesystem::directory_iterator(library_folder, failure))
+      if(entry.path().extension() == ".prm")
+        names.push_back(entry.path().stem().string());
+    if(failure)
+      throw OutputError(
+          fmt::format("{}: the library of cases cannot be read", library_folder));
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  std::string
+  library_path(const std::string &name)
+  {
+    return fmt::format("{}/{}.prm", library_folder, name);
+  }
+
+  Case
+  load_case(const std::string &name_or_path)
+  {
+    if(name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".prm"))
+      return read_case(name_or_path);
+    const std::vector<std::string> names = library_names();
+    if(std::find(names.begin(), names.end(), name_or_path) == names.end())
+      throw InputError(fmt::format("there is no case '{}'; the nearest is '{}'",
+                                   quotable(name_or_path),
+                                   nearest_name(name_or_path.substr(0, 200), names)));
+    return read_case(library_path(name_or_path));
+  }
+
+  std::string
+  case_file_reference()
+  {
+    return case_keys().reference();
+  }
+} // namespace meltfront::cases

@@ -1,0 +1,245 @@
+#include <cases/case_file/case_keys.h>
+#include <cases/effects.h>
+#include <cases/scene.h>
+
+#include <fmt/format.h>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    PrmEntry
+    text(const std::string &key, const std::string &description)
+    {
+      return {.key = key,
+              .kind = PrmKind::text,
+              .default_value = {},
+              .unit = {},
+              .description = description};
+    }
+
+    PrmEntry
+    word(const std::string &key, const std::string &default_value,
+         std::vector<std::string> choices, const std::string &description)
+    {
+      PrmEntry entry = text(key, description);
+      entry.kind = PrmKind::word;
+      entry.default_value = default_value;
+      entry.choices = std::move(choices);
+      return entry;
+    }
+
+    PrmEntry
+    number(const std::string &key, const std::string &default_value,
+           const std::string &unit, const std::string &description,
+           double lower = -infinity, double upper = infinity)
+    {
+      PrmEntry entry = text(key, description);
+      entry.kind = PrmKind::number;
+      entry.default_value = default_value;
+      entry.unit = unit;
+      entry.lower = lower;
+      entry.upper = upper;
+      return entry;
+    }
+
+    PrmEntry
+    numbers(const std::string &key, const std::string &unit,
+            const std::string &description)
+    {
+      PrmEntry entry = text(key, description);
+      entry.kind = PrmKind::numbers;
+      entry.unit = unit;
+      return entry;
+    }
+
+    PrmEntry
+    integer(const std::string &key, const std::string &default_value, double lower,
+            double upper, const std::string &description)
+    {
+      PrmEntry entry = number(key, default_value, {}, description, lower, upper);
+      entry.kind = PrmKind::integer;
+      return entry;
+    }
+
+    void
+    declare_head(PrmFile &prm)
+    {
+      prm.declare("", text("title", "The case in a few words."));
+      prm.declare("", text("description", "What it is and what is to be seen."));
+      prm.declare("", text("tags", "Words to select cases by, separated by commas."));
+      prm.declare("", word("units", "SI", {"SI", "normalised"},
+                           "Whether quantities are in SI units or normalised."));
+    }
+
+    void
+    declare_domain(PrmFile &prm)
+    {
+      prm.declare("Scene",
+                  word("symmetry", "", {"planar", "cylindrical", "spherical", "none"},
+                       "What the solution depends on: x, the distance from the "
+                       "axis, the distance from the origin, or everything."));
+      prm.declare("Scene", number("start time", "0", "s", "When the scene begins."));
+      prm.declare("Scene", number("end time", "", "s", "When the scene ends."));
+      const std::string domain = "Scene/Domain";
+      prm.declare(
+          domain,
+          word("shape", "", {"slab", "box", "ball"},
+               "slab: 0 <= x <= length; box: between two corners; ball: a disk or "
+               "a ball about the origin."));
+      prm.declare(domain, integer("dimension", "1", 1, 3,
+                                  "Dimensions of the shape: 1 for a slab, 2 or 3 else."));
+      prm.declare(domain, number("length", "", "m", "Length of a slab.", above_zero));
+      prm.declare(domain, numbers("lower corner", "m", "Corner of a box."));
+      prm.declare(domain, numbers("upper corner", "m", "Opposite corner of a box."));
+      prm.declare(domain, number("radius", "", "m", "Radius of a ball.", above_zero));
+    }
+
+    void
+    declare_material(PrmFile &prm)
+    {
+      const std::string material = "Scene/Material";
+      prm.declare(material,
+                  number("latent heat", "", "J/kg", "Latent heat of melting.", 0));
+      prm.declare(material, number("melting temperature", "", "K or degrees Celsius",
+                                   "Temperature at which the phases meet."));
+      for(const std::string phase : {"Solid", "Liquid"})
+      {
+        const std::string here = material + "/" + phase;
+        const std::string remark
+            = phase == "Liquid" ? " The solid's value where it is not given." : "";
+        prm.declare(here, number("conductivity", "", "W/(m K)",
+                                 "Thermal conductivity." + remark, above_zero));
+        prm.declare(here, number("specific heat capacity", "", "J/(kg K)",
+                                 "Heat capacity per mass." + remark, above_zero));
+        prm.declare(here,
+                    number("density", "", "kg/m^3", "Density." + remark, above_zero));
+      }
+    }
+
+    void
+    declare_state_and_walls(PrmFile &prm)
+    {
+      const std::string initial = "Scene/Initial state";
+      prm.declare(initial, word("kind", "temperature", {"temperature", "exact"},
+                                "Given as a temperature, or taken from the exact "
+                                "solution at the start time."));
+      prm.declare(initial, text("temperature", "Expression of x, y, z (K)."));
+      prm.declare(initial,
+                  number("solid fraction at melting", "0", "",
+                         "Solid fraction of points at the melting temperature.", 0, 1));
+      for(std::size_t s = 0; s < n_sides; ++s)
+      {
+        const std::string wall
+            = std::string("Scene/Walls/") + to_string(static_cast<Side>(s));
+        prm.declare(wall,
+                    word("kind", "insulated",
+                         {"insulated", "fixed temperature", "exact", "flux", "periodic"},
+                         "What holds at the wall; exact: the exact solution's "
+                         "temperature."));
+        prm.declare(wall, text("temperature", "Expression of x, y, z, t (K)."));
+        prm.declare(wall, text("flux", "Heat flux into the domain, expression of x, y, "
+                                       "z, t (W/m^2)."));
+      }
+      for(int i = 1; i <= most_sources; ++i)
+      {
+        const std::string source = fmt::format("Scene/Source {}", i);
+        prm.declare(source, numbers("position", "m", "Where the source is."));
+        prm.declare(source,
+                    text("power", "Heat released per time, expression of t, negative for "
+                                  "a sink; exact: that of the exact solution (W in 3D, "
+                                  "W/m in 2D)."));
+      }
+    }
+
+    void
+    declare_effects(PrmFile &prm)
+    {
+      for(const Effect effect : all_effects())
+        prm.declare("Effects",
+                    word(to_string(effect), "auto", {"auto", "on", "off"},
+                         std::string(description(effect))
+                             + " auto: simulated where the scene calls for it."));
+    }
+
+    void
+    declare_exact_solution(PrmFile &prm)
+    {
+      const std::string exact = "Exact solution";
+      prm.declare(
+          exact,
+          word("kind", "none",
+               {"none", "neumann", "line sink", "point sink", "frank", "oracle"},
+               "The solution that is known; oracle: a spectral solution of the scene."));
+      prm.declare(exact, number("wall temperature", "", "K",
+                                "Of neumann; that of the wall x_min where not given."));
+      prm.declare(exact, number("far temperature", "", "K",
+                                "Far from the wall or the sink; the initial temperature "
+                                "where not given."));
+      prm.declare(exact, number("lambda", "", "", "Front constant of a sink's solution.",
+                                above_zero));
+      prm.declare(exact, word("start", "neumann",
+                              {"neumann", "line sink", "point sink", "initial state"},
+                              "What the oracle starts from: a similarity solution, or "
+                              "the scene's initial temperature with a front."));
+      prm.declare(exact, number("start time", "", "s",
+                                "Time until which the oracle is the similarity solution.",
+                                above_zero));
+      prm.declare(exact,
+                  number("initial front", "", "m",
+                         "Front of the initial state, for the oracle.", above_zero));
+    }
+
+    void
+    declare_measures(PrmFile &prm)
+    {
+      const std::string measure = "Measure";
+      prm.declare(measure,
+                  integer("samples", "100", 0, 1e6,
+                          "Snapshots over the run, at least 50; 0: every step."));
+      prm.declare(measure, word("clock", "t", {"t", "sqrt(t)"},
+                                "Samples are equidistant in the time or in its root."));
+      prm.declare(measure, number("temperature from", "0", "m",
+                                  "Coordinate from which temperature is compared.", 0));
+      prm.declare(measure, number("temperature to", "", "m",
+                                  "Coordinate up to which temperature is compared; all "
+                                  "where not given.",
+                                  above_zero));
+      prm.declare(measure,
+                  number("front floor", "0", "m",
+                         "By how much the exact solution itself is off in this domain; "
+                         "0: exact.",
+                         0));
+      prm.declare(measure, {.key = "monotone front",
+                            .kind = PrmKind::boolean,
+                            .default_value = "true",
+                            .unit = {},
+                            .description = "Physics says that the front never turns "
+                                           "back."});
+      prm.declare_numbered("Acceptance",
+                           text("criterion", "METHOD: QUANTITY at n=N <= BOUND, and so "
+                                             "on."),
+                           40);
+      prm.declare("Printed", text("source", "Paper that the values are printed in."));
+      prm.declare_numbered("Printed",
+                           text("value", "METHOD: QUANTITY at n=N = VALUE (TABLE)."), 40);
+      prm.declare_numbered("Limits", text("limit", "What the case does not show."), 20);
+    }
+  } // namespace
+
+  PrmFile
+  case_keys()
+  {
+    PrmFile prm;
+    declare_head(prm);
+    declare_domain(prm);
+    declare_material(prm);
+    declare_state_and_walls(prm);
+    declare_effects(prm);
+    declare_exact_solution(prm);
+    declare_measures(prm);
+    return prm;
+  }
+} // namespace meltfront::cases

@@ -1,0 +1,228 @@
+#include <cases/case_file/criterion_parser.h>
+#include <cases/case_file/prm_scan.h>
+#include <cases/error.h>
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    /** Reads a sentence from left to right. */
+    class Cursor
+    {
+    public:
+      explicit Cursor(const std::string &text) : text(text)
+      {
+      }
+
+      /** Step over a piece of text if it comes next; a word must end there. */
+      bool
+      take(const std::string &piece)
+      {
+        skip_blanks();
+        if(text.compare(at, piece.size(), piece) != 0)
+          return false;
+        const std::size_t after = at + piece.size();
+        if(in_word(piece.back()) && after < text.size() && in_word(text[after]))
+          return false;
+        at = after;
+        return true;
+      }
+
+      void
+      expect(const std::string &piece)
+      {
+        if(!take(piece))
+          fail(fmt::format("'{}'", piece));
+      }
+
+      std::string
+      word(const char *what)
+      {
+        skip_blanks();
+        const std::size_t begin = at;
+        while(at < text.size() && in_word(text[at]))
+          ++at;
+        if(at == begin)
+          fail(what);
+        return text.substr(begin, at - begin);
+      }
+
+      /** What stands before a character, which is stepped over. */
+      std::string
+      up_to(char mark, const char *what)
+      {
+        const std::size_t found = text.find(mark, at);
+        const std::string piece
+            = found == std::string::npos ? "" : trimmed(text.substr(at, found - at));
+        if(piece.empty())
+          fail(what);
+        at = found + 1;
+        return piece;
+      }
+
+      double
+      number()
+      {
+        skip_blanks();
+        double value = 0;
+        const char *begin = text.data() + at;
+        const auto [end, error]
+            = std::from_chars(begin, text.data() + text.size(), value);
+        if(error != std::errc() || !std::isfinite(value))
+          fail("a number");
+        at += end - begin;
+        return value;
+      }
+
+      int
+      count()
+      {
+        skip_blanks();
+        int value = 0;
+        const char *begin = text.data() + at;
+        const auto [end, error]
+            = std::from_chars(begin, text.data() + text.size(), value);
+        if(error != std::errc() || value < 1)
+          fail("a positive integer");
+        at += end - begin;
+        return value;
+      }
+
+      bool
+      at_end()
+      {
+        skip_blanks();
+        return at == text.size();
+      }
+
+      [[noreturn]] void
+      fail(const std::string &wanted) const
+      {
+        throw InputError(fmt::format(
+            "'{}' cannot be read: {} is wanted {}", quotable(text), wanted,
+            at < text.size() ? fmt::format("before '{}'", quotable(text.substr(at)))
+                             : "at its end"));
+      }
+
+    private:
+      static bool
+      in_word(char c)
+      {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+      }
+
+      void
+      skip_blanks()
+      {
+        while(at < text.size() && (text[at] == ' ' || text[at] == '\t'))
+          ++at;
+      }
+
+      const std::string &text;
+      std::size_t at = 0;
+    };
+
+    void
+    read_bounds(Cursor &cursor, Criterion &criterion)
+    {
+      if(cursor.take("<="))
+        criterion.upper = cursor.number();
+      else if(cursor.take(">="))
+        criterion.lower = cursor.number();
+      else if(cursor.take("in"))
+      {
+        criterion.lower = cursor.number();
+        cursor.expect("..");
+        criterion.upper = cursor.number();
+      }
+      else if(cursor.take("within"))
+      {
+        const double share = cursor.number() / 100;
+        cursor.expect("%");
+        cursor.expect("of");
+        const double value = cursor.number();
+        criterion.lower = value - share * std::abs(value);
+        criterion.upper = value + share * std::abs(value);
+      }
+      else
+        cursor.fail("'<=', '>=', 'in' or 'within'");
+      if(criterion.lower > criterion.upper)
+        throw InputError(
+            fmt::format("'{}' can never hold: its lower bound exceeds the upper one",
+                        quotable(criterion.text)));
+    }
+
+    int
+    read_n(Cursor &cursor)
+    {
+      cursor.expect("at");
+      cursor.expect("n");
+      cursor.expect("=");
+      return cursor.count();
+    }
+
+    void
+    check_length(const std::string &text)
+    {
+      constexpr std::size_t longest = 1000;
+      if(text.size() > longest)
+        throw InputError(fmt::format("is longer than {} characters", longest));
+    }
+  } // namespace
+
+  Criterion
+  parse_criterion(const std::string &text)
+  {
+    check_length(text);
+    Criterion criterion;
+    criterion.text = text;
+    Cursor cursor(text);
+    criterion.method = cursor.up_to(':', "'METHOD:'");
+    if(cursor.take("order of"))
+      criterion.statistic = Statistic::order;
+    else if(cursor.take("worst"))
+      criterion.statistic = Statistic::worst;
+    criterion.quantity = cursor.word("a quantity");
+    if(criterion.statistic == Statistic::value)
+      criterion.n = read_n(cursor);
+    read_bounds(cursor, criterion);
+    if(cursor.take(";"))
+    {
+      cursor.expect("known shortfall:");
+      criterion.known_shortfall = trimmed(text.substr(text.find("shortfall:") + 10));
+      if(criterion.known_shortfall.empty())
+        throw InputError("names a known shortfall without saying what it is");
+    }
+    else if(!cursor.at_end())
+      cursor.fail("'; known shortfall:' or the end");
+    return criterion;
+  }
+
+  PrintedValue
+  parse_printed_value(const std::string &text, const std::string &paper)
+  {
+    check_length(text);
+    PrintedValue value;
+    value.source = paper;
+    Cursor cursor(text);
+    value.method = cursor.up_to(':', "'METHOD:'");
+    value.quantity = cursor.word("a quantity");
+    value.n = read_n(cursor);
+    cursor.expect("=");
+    value.value = cursor.number();
+    if(cursor.take("("))
+    {
+      const std::string table = cursor.up_to(')', "'TABLE)'");
+      value.source += (paper.empty() ? "" : ", ") + table;
+    }
+    if(!cursor.at_end())
+      cursor.fail("'(TABLE)' or the end");
+    return value;
+  }
+} // namespace meltfront::cases

@@ -1,0 +1,244 @@
+#include <cases/case_file/exact_reader.h>
+#include <cases/exact/frank.h>
+#include <cases/exact/line_sink.h>
+#include <cases/exact/oracle.h>
+#include <cases/exact/planar_neumann.h>
+#include <cases/exact/point_sink.h>
+
+#include <fmt/format.h>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    const std::string exact_keys = "Exact solution";
+
+    /** Construct a solution; what it complains of gets file, line and key. */
+    template <typename Solution, typename... Arguments>
+    std::shared_ptr<const Solution>
+    construct(const PrmFile &prm, const Arguments &...arguments)
+    {
+      const auto located = [&prm](const std::exception &error)
+      {
+        return prm.error(exact_keys, "kind",
+                         fmt::format("gives no solution: {}", error.what()));
+      };
+      try
+      {
+        return std::make_shared<const Solution>(arguments...);
+      }
+      catch(const InputError &error)
+      {
+        throw located(error);
+      }
+      catch(const NumericalError &error)
+      {
+        throw located(error);
+      }
+    }
+
+    /** The temperature far away: as given, else the initial one. */
+    double
+    far_temperature(const PrmFile &prm, const Scene &scene)
+    {
+      if(prm.given(exact_keys, "far temperature") || !scene.initial.temperature.constant)
+        return prm.get_number(exact_keys, "far temperature");
+      return scene.initial.temperature({}, scene.start_time);
+    }
+
+    /** The temperature of the wall: as given, else that at which the scene holds x_min.
+     */
+    double
+    wall_temperature(const PrmFile &prm, const Scene &scene)
+    {
+      const auto &wall = scene.boundaries[static_cast<std::size_t>(Side::x_min)];
+      const bool held
+          = wall && wall->kind == BoundaryKind::fixed_temperature && wall->value.constant;
+      if(prm.given(exact_keys, "wall temperature") || !held)
+        return prm.get_number(exact_keys, "wall temperature");
+      return wall->value({}, scene.start_time);
+    }
+
+    void
+    check_symmetry(const PrmFile &prm, const Scene &scene, const ExactSolution &solution,
+                   const std::string &key)
+    {
+      const Symmetry symmetry = solution.symmetry();
+      const int dimension = scene.domain.dimension;
+      const bool fits
+          = scene.symmetry == symmetry
+            || (scene.symmetry == Symmetry::none
+                && (symmetry == Symmetry::planar
+                    || dimension == (symmetry == Symmetry::cylindrical ? 2 : 3)));
+      if(!fits)
+        throw prm.error(exact_keys, key,
+                        fmt::format("contradicts the domain: '{}' does not solve a {} "
+                                    "scene in {} dimension{}",
+                                    prm.get_text(exact_keys, key),
+                                    prm.get_text("Scene", "symmetry"), dimension,
+                                    dimension == 1 ? "" : "s"));
+    }
+
+    KnownSolution
+    closed_form(const PrmFile &prm, const Scene &scene, const std::string &key)
+    {
+      const std::string kind = prm.get_text(exact_keys, key);
+      const double far = far_temperature(prm, scene);
+      if(kind == "line sink" || kind == "point sink")
+      {
+        prm.require(exact_keys, "lambda", "the solution of a sink needs it");
+        prm.forbid(exact_keys, "wall temperature", "the solution of a sink has no wall");
+      }
+      else
+        prm.forbid(exact_keys, "lambda", "it is a key of the solutions of sinks");
+      KnownSolution known;
+      if(kind == "neumann")
+        known.solution = construct<PlanarNeumann>(prm, scene.material,
+                                                  wall_temperature(prm, scene), far);
+      else if(kind == "frank")
+        known.solution = construct<FrankGrowth>(prm, scene.material, scene.symmetry, far);
+      else if(kind == "line sink")
+      {
+        const auto sink = construct<LineSink>(prm, scene.material,
+                                              prm.get_number(exact_keys, "lambda"), far);
+        known = {sink, false, [sink](double) { return -sink->strength(); },
+                 [sink](double time) { return -sink->strength() * time; }};
+      }
+      else
+      {
+        const auto sink = construct<PointSink>(prm, scene.material,
+                                               prm.get_number(exact_keys, "lambda"), far);
+        known = {sink, false, [sink](double time) { return -sink->strength(time); },
+                 [sink](double time) { return -sink->energy(time); }};
+      }
+      check_symmetry(prm, scene, *known.solution, key);
+      return known;
+    }
+
+    OracleWall
+    oracle_wall(const PrmFile &prm, const Scene &scene, Side side)
+    {
+      const Boundary &wall = scene.boundary(side);
+      const std::string here = std::string("Scene/Walls/") + to_string(side);
+      if(wall.exact)
+        throw prm.error(here, "kind",
+                        "cannot be 'exact' where the exact solution is the oracle, which "
+                        "takes its walls from the scene");
+      if(wall.kind == BoundaryKind::periodic)
+        throw prm.error(here, "kind", "cannot be periodic for the oracle");
+      if(wall.kind == BoundaryKind::insulated)
+        return {};
+      const Position position
+          = side == Side::outer
+                ? Position{scene.domain.radius, 0, 0}
+                : (side == Side::x_min ? scene.domain.lower : scene.domain.upper);
+      return {wall.kind, [value = wall.value, position](double time)
+              { return value(position, time); }};
+    }
+
+    /** Heat that a line sink on the axis removes; 0 without one. */
+    double
+    line_sink_strength(const PrmFile &prm, const Scene &scene, const KnownSolution &start)
+    {
+      if(scene.sources.empty())
+        return 0;
+      if(scene.symmetry != Symmetry::cylindrical || scene.sources.size() != 1)
+        throw prm.error(exact_keys, "kind",
+                        "cannot be 'oracle' with sources other than "
+                        "one line on the axis of a disk");
+      const auto &power = scene.sources.front().power;
+      return power ? -power(scene.start_time)
+                   : (start.power ? -start.power(scene.start_time) : 0.);
+    }
+
+    /** The oracle starts from the scene's initial temperature with a given front. */
+    void
+    start_from_initial_state(const PrmFile &prm, const Scene &scene,
+                             OracleProblem &problem)
+    {
+      prm.require(exact_keys, "initial front",
+                  "an oracle that starts from the initial state needs it");
+      prm.forbid(exact_keys, "start time",
+                 "an oracle from the initial state starts with the scene");
+      if(!scene.initial.temperature.value)
+        throw prm.error(exact_keys, "start",
+                        "cannot be 'initial state' where that is 'exact'");
+      problem.start_time = scene.start_time;
+      problem.initial_front = prm.get_number(exact_keys, "initial front");
+      if(problem.initial_front >= problem.outer)
+        throw prm.error(exact_keys, "initial front", "lies outside the domain");
+      problem.initial_temperature = [field = scene.initial.temperature,
+                                     time = scene.start_time](double coordinate) {
+        return field({coordinate, 0, 0}, time);
+      };
+      const double melting = scene.material.melting_temperature;
+      problem.solid_at_origin = problem.initial_temperature(problem.inner) < melting;
+      problem.one_phase = true;
+      constexpr int probes = 8;
+      for(int i = 1; i <= probes; ++i)
+      {
+        const double coordinate = problem.initial_front
+                                  + (problem.outer - problem.initial_front) * i / probes;
+        if(problem.initial_temperature(coordinate) != melting)
+          problem.one_phase = false;
+      }
+    }
+
+    KnownSolution
+    oracle(const PrmFile &prm, const Scene &scene)
+    {
+      if(scene.symmetry == Symmetry::none)
+        throw prm.error(exact_keys, "kind",
+                        "cannot be 'oracle' for a scene without symmetry");
+      const bool ball = scene.domain.shape == DomainShape::ball;
+      OracleProblem problem;
+      problem.symmetry = scene.symmetry;
+      problem.material = scene.material;
+      problem.outer = scene.domain.side() / (ball ? 2 : 1);
+      if(!ball)
+        problem.inner_wall = oracle_wall(prm, scene, Side::x_min);
+      problem.outer_wall = oracle_wall(prm, scene, ball ? Side::outer : Side::x_max);
+      problem.end_time = scene.end_time;
+      KnownSolution start;
+      if(prm.get_text(exact_keys, "start") == "initial state")
+        start_from_initial_state(prm, scene, problem);
+      else
+      {
+        prm.require(exact_keys, "start time",
+                    "an oracle that starts from a similarity solution needs it");
+        prm.forbid(exact_keys, "initial front",
+                   "the oracle starts from a similarity solution");
+        start = closed_form(prm, scene, "start");
+        problem.start = start.solution;
+        problem.solid_at_origin = start.solution->solid_at_origin();
+        problem.start_time = prm.get_number(exact_keys, "start time");
+        if(!(problem.start_time < scene.end_time))
+          throw prm.error(exact_keys, "start time", "must come before the scene's end");
+        problem.one_phase
+            = far_temperature(prm, scene) == scene.material.melting_temperature;
+      }
+      problem.line_sink = line_sink_strength(prm, scene, start);
+      return {construct<SpectralOracle>(prm, problem), true, start.power, start.energy};
+    }
+  } // namespace
+
+  KnownSolution
+  read_exact_solution(const PrmFile &prm, const Scene &scene)
+  {
+    const std::string kind = prm.get_text(exact_keys, "kind");
+    if(kind != "oracle")
+      for(const char *key : {"start", "start time", "initial front"})
+        prm.forbid(exact_keys, key, "it is a key of the oracle");
+    if(kind == "none")
+    {
+      for(const char *key : {"wall temperature", "far temperature", "lambda"})
+        prm.forbid(exact_keys, key, "there is no exact solution");
+      return {};
+    }
+    KnownSolution (*const build)(const PrmFile &, const Scene &)
+        = kind == "oracle" ? oracle : [](const PrmFile &file, const Scene &s) {
+            return closed_form(file, s, "kind");
+          };
+    return build(prm, scene);
+  }
+} // namespace meltfront::cases

@@ -1,0 +1,29 @@
+#ifndef meltfront_cases_case_file_exact_reader_h
+#define meltfront_cases_case_file_exact_reader_h
+
+#include <cases/case_file/prm_file.h>
+#include <cases/scene.h>
+
+#include <functional>
+#include <memory>
+
+namespace meltfront::cases
+{
+  /** What a case file's exact solution knows. */
+  struct KnownSolution
+  {
+    std::shared_ptr<const ExactSolution> solution; ///< null: none
+    bool oracle = false;                           ///< computed from the scene itself
+    std::function<double(double time)>
+        power; ///< of the sink (W or W/m, negative), if it is a sink's solution
+    std::function<double(double time)> energy; ///< integral of power from time 0
+  };
+
+  /**
+   * Build the exact solution of a case file. The oracle takes walls, material and initial
+   * state from the scene.
+   */
+  KnownSolution read_exact_solution(const PrmFile &prm, const Scene &scene);
+} // namespace meltfront::cases
+
+#endif

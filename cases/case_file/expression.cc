@@ -1,0 +1,204 @@
+#include <cases/case_file/expression.h>
+#include <cases/case_file/prm_scan.h>
+#include <cases/error.h>
+#include <cases/options.h>
+
+#include <deal.II/base/function_parser.h>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    const std::vector<std::string> functions{
+        "sin",  "cos", "tan",  "asin", "acos",  "atan", "atan2", "sinh", "cosh",
+        "tanh", "exp", "ln",   "log",  "log10", "sqrt", "abs",   "min",  "max",
+        "pow",  "erf", "erfc", "if",   "floor", "ceil", "sign"};
+
+    bool
+    starts_name(char c)
+    {
+      return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
+    }
+
+    bool
+    is_digit(char c)
+    {
+      return std::isdigit(static_cast<unsigned char>(c));
+    }
+
+    /** Position after the number that begins at a position. */
+    std::size_t
+    skip_number(const std::string &text, std::size_t at)
+    {
+      while(at < text.size() && (is_digit(text[at]) || text[at] == '.'))
+        ++at;
+      if(at < text.size() && (text[at] == 'e' || text[at] == 'E'))
+      {
+        std::size_t exponent = at + 1;
+        if(exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-'))
+          ++exponent;
+        if(exponent < text.size() && is_digit(text[exponent]))
+          at = exponent;
+        while(at < text.size() && is_digit(text[at]))
+          ++at;
+      }
+      return at;
+    }
+
+    /** The names in an expression, in their order. */
+    std::vector<std::string>
+    names_in(const std::string &text)
+    {
+      std::vector<std::string> names;
+      for(std::size_t i = 0; i < text.size();)
+      {
+        if(is_digit(text[i]) || text[i] == '.')
+          i = skip_number(text, i);
+        else if(starts_name(text[i]))
+        {
+          const std::size_t begin = i;
+          while(i < text.size() && (starts_name(text[i]) || is_digit(text[i])))
+            ++i;
+          names.push_back(text.substr(begin, i - begin));
+        }
+        else
+          ++i;
+      }
+      return names;
+    }
+
+    void
+    check_characters(const std::string &text)
+    {
+      constexpr std::size_t longest = 1000;
+      if(text.empty())
+        throw InputError("needs an expression, not an empty one");
+      if(text.size() > longest)
+        throw InputError(fmt::format("is longer than {} characters", longest));
+      for(std::size_t i = 0; i < text.size(); ++i)
+      {
+        const char c = text[i];
+        if(!starts_name(c) && !is_digit(c)
+           && std::string(" \t.+-*/^()<>=!&|?:,").find(c) == std::string::npos)
+          throw InputError(fmt::format("holds '{}', which no expression does",
+                                       quotable(text.substr(i, 1))));
+        const bool compares = (i > 0 && std::string("<>=!").find(text[i - 1]) < 4)
+                              || (i + 1 < text.size() && text[i + 1] == '=');
+        if(c == '=' && !compares)
+          throw InputError("holds a single '=', which assigns and does not compare");
+      }
+    }
+
+    void
+    check_names(const std::vector<std::string> &names, const std::string &variables)
+    {
+      std::vector<std::string> valid = functions;
+      valid.push_back("pi");
+      for(const char c : variables)
+        valid.emplace_back(1, c);
+      for(const std::string &name : names)
+        if(std::find(valid.begin(), valid.end(), name) == valid.end())
+        {
+          const bool other = name == "x" || name == "y" || name == "z" || name == "t";
+          throw InputError(
+              other ? fmt::format("depends on {}, which it may not here", name)
+                    : fmt::format("holds the unknown name '{}'; the nearest is '{}'",
+                                  quotable(name), nearest_name(name, valid)));
+        }
+    }
+
+    /** A formula of x, y, z, t; may be evaluated by several threads at once. */
+    class Formula : private dealii::FunctionParser<3>
+    {
+    public:
+      explicit Formula(const std::string &text)
+      {
+        initialize("x,y,z,t", text, {{"pi", std::numbers::pi}}, true);
+      }
+
+      double
+      value(const Position &p, double time) const
+      {
+        return do_value({p[0], p[1], p[2]}, time, 0);
+      }
+    };
+
+    /** What the parser says, on one line. */
+    std::string
+    reason(const dealii::ExceptionBase &error)
+    {
+      std::ostringstream stream;
+      error.print_info(stream);
+      std::string text = trimmed(stream.str());
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      while(!text.empty() && (text.back() == ' ' || text.back() == '.'))
+        text.pop_back();
+      return text;
+    }
+  } // namespace
+
+  Field
+  parse_field(const std::string &expression, const std::string &variables)
+  {
+    check_characters(expression);
+    const std::vector<std::string> names = names_in(expression);
+    check_names(names, variables);
+    try
+    {
+      const auto formula = std::make_shared<const Formula>(expression);
+      const double probe = formula->value({}, 0);
+      const bool constant
+          = std::none_of(names.begin(), names.end(),
+                         [](const std::string &name) { return name.size() == 1; });
+      if(!constant)
+        return {expression,
+                [formula](const Position &p, double time)
+                { return formula->value(p, time); },
+                false};
+      if(!std::isfinite(probe))
+        throw InputError(fmt::format("is not a finite number but {}", probe));
+      Field field = Field::uniform(probe);
+      field.expression = expression;
+      return field;
+    }
+    catch(const dealii::ExceptionBase &error)
+    {
+      throw InputError(fmt::format("cannot be parsed: {}", reason(error)));
+    }
+  }
+
+  std::function<double(double)>
+  integral_from(std::function<double(double)> function, double start, double end)
+  {
+    constexpr int panels = 64;
+    const auto panel_start
+        = [start, end](int i) { return start + (end - start) * i / panels; };
+    const auto over = [function = std::move(function)](double from, double to)
+    {
+      constexpr unsigned deepest = 12;
+      constexpr double tolerance = 1e-13;
+      if(from == to)
+        return 0.;
+      return boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
+          function, from, to, deepest, tolerance);
+    };
+    std::vector<double> sums{0.};
+    for(int i = 0; i < panels; ++i)
+      sums.push_back(sums.back() + over(panel_start(i), panel_start(i + 1)));
+    return [=](double time)
+    {
+      const int panel = std::clamp(
+          static_cast<int>((time - start) / (end - start) * panels), 0, panels - 1);
+      return sums[panel] + over(panel_start(panel), time);
+    };
+  }
+} // namespace meltfront::cases

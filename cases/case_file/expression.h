@@ -1,0 +1,30 @@
+#ifndef meltfront_cases_case_file_expression_h
+#define meltfront_cases_case_file_expression_h
+
+#include <cases/scene.h>
+
+#include <functional>
+#include <string>
+
+namespace meltfront::cases
+{
+  /**
+   * Read an expression of the given variables (some of x, y, z, t) and pi, as deal.II's
+   * FunctionParser does. One without variables becomes a Field::uniform.
+   *
+   * @throws InputError with the reason alone (the caller knows file, line and key): a
+   * name that is unknown (with the nearest one), a formula that cannot be parsed, a
+   * constant that is not finite.
+   */
+  Field parse_field(const std::string &expression, const std::string &variables);
+
+  /**
+   * Integral of a function of time from `start`, for times up to `end`: Gauss-Kronrod
+   * quadrature over 64 panels whose sums are kept, so that differences of two results are
+   * those of one and the same function.
+   */
+  std::function<double(double time)>
+  integral_from(std::function<double(double time)> function, double start, double end);
+} // namespace meltfront::cases
+
+#endif

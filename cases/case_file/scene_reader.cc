@@ -1,0 +1,384 @@
+#include <cases/case_file/case_keys.h>
+#include <cases/case_file/expression.h>
+#include <cases/case_file/scene_reader.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    const std::string domain_keys = "Scene/Domain";
+    const std::string initial_keys = "Scene/Initial state";
+
+    std::string
+    wall_keys(Side side)
+    {
+      return std::string("Scene/Walls/") + to_string(side);
+    }
+
+    /** The variables that a field of the domain may depend on. */
+    std::string
+    coordinates(const Domain &domain)
+    {
+      return std::string("xyz").substr(0, domain.dimension);
+    }
+
+    Field
+    read_field(const PrmFile &prm, const std::string &subsection, const std::string &key,
+               const std::string &variables)
+    {
+      try
+      {
+        return parse_field(prm.get_text(subsection, key), variables);
+      }
+      catch(const InputError &error)
+      {
+        throw prm.error(subsection, key, error.what());
+      }
+    }
+
+    Symmetry
+    read_symmetry(const PrmFile &prm)
+    {
+      const std::string word = prm.get_text("Scene", "symmetry");
+      if(word == "planar")
+        return Symmetry::planar;
+      if(word == "cylindrical")
+        return Symmetry::cylindrical;
+      return word == "spherical" ? Symmetry::spherical : Symmetry::none;
+    }
+
+    /** Keys that belong to one shape only. */
+    void
+    check_shape_keys(const PrmFile &prm, const std::string &shape)
+    {
+      const auto belongs = [&](const std::string &key, const std::string &owner)
+      {
+        if(shape == owner)
+          prm.require(domain_keys, key, fmt::format("a {} needs it", shape));
+        else
+          prm.forbid(domain_keys, key, fmt::format("the shape is a {}", shape));
+      };
+      belongs("length", "slab");
+      belongs("lower corner", "box");
+      belongs("upper corner", "box");
+      belongs("radius", "ball");
+    }
+
+    Position
+    read_position(const PrmFile &prm, const std::string &subsection,
+                  const std::string &key, int dimension)
+    {
+      const std::vector<double> values = prm.get_numbers(subsection, key);
+      if(values.size() != static_cast<std::size_t>(dimension))
+        throw prm.error(subsection, key,
+                        fmt::format("needs {} coordinate{}, not {}", dimension,
+                                    dimension == 1 ? "" : "s", values.size()));
+      Position position{};
+      std::copy(values.begin(), values.end(), position.begin());
+      return position;
+    }
+
+    Domain
+    read_domain(const PrmFile &prm)
+    {
+      const std::string shape = prm.get_text(domain_keys, "shape");
+      check_shape_keys(prm, shape);
+      Domain domain;
+      domain.dimension = static_cast<int>(prm.get_integer(domain_keys, "dimension"));
+      if(shape != "slab")
+        prm.require(domain_keys, "dimension", fmt::format("a {} needs 2 or 3", shape));
+      if((domain.dimension == 1) != (shape == "slab"))
+        throw prm.error(domain_keys, "dimension",
+                        shape == "slab" ? "must be 1 for a slab"
+                                        : fmt::format("must be 2 or 3 for a {}", shape));
+      if(shape == "slab")
+        domain.upper[0] = prm.get_number(domain_keys, "length");
+      else if(shape == "ball")
+      {
+        domain.shape = DomainShape::ball;
+        domain.radius = prm.get_number(domain_keys, "radius");
+      }
+      else
+      {
+        domain.shape = DomainShape::box;
+        domain.lower = read_position(prm, domain_keys, "lower corner", domain.dimension);
+        domain.upper = read_position(prm, domain_keys, "upper corner", domain.dimension);
+        for(int d = 0; d < domain.dimension; ++d)
+          if(!(domain.lower[d] < domain.upper[d]))
+            throw prm.error(domain_keys, "upper corner",
+                            "must exceed 'lower corner' in every coordinate");
+      }
+      return domain;
+    }
+
+    void
+    check_symmetry(const PrmFile &prm, const Domain &domain, Symmetry symmetry)
+    {
+      const std::string shape = prm.get_text(domain_keys, "shape");
+      const std::string word = prm.get_text("Scene", "symmetry");
+      const auto complain = [&](const char *valid)
+      {
+        throw prm.error("Scene", "symmetry",
+                        fmt::format("contradicts the domain: a {} in {} dimension{} is "
+                                    "{}, not {}",
+                                    shape, domain.dimension,
+                                    domain.dimension == 1 ? "" : "s", valid, word));
+      };
+      if(domain.shape == DomainShape::slab && symmetry != Symmetry::planar)
+        complain("planar");
+      if(domain.shape == DomainShape::box && symmetry != Symmetry::none)
+        complain("none");
+      if(domain.shape == DomainShape::ball && symmetry != Symmetry::none
+         && symmetry
+                != (domain.dimension == 2 ? Symmetry::cylindrical : Symmetry::spherical))
+        complain(domain.dimension == 2 ? "cylindrical or none" : "spherical or none");
+    }
+
+    Material
+    read_material(const PrmFile &prm)
+    {
+      Material material;
+      material.latent_heat = prm.get_number("Scene/Material", "latent heat");
+      material.melting_temperature
+          = prm.get_number("Scene/Material", "melting temperature");
+      const auto property = [&prm](const std::string &key, double &solid, double &liquid)
+      {
+        solid = prm.get_number("Scene/Material/Solid", key);
+        liquid = prm.given("Scene/Material/Liquid", key)
+                     ? prm.get_number("Scene/Material/Liquid", key)
+                     : solid;
+      };
+      property("conductivity", material.solid.conductivity, material.liquid.conductivity);
+      property("specific heat capacity", material.solid.specific_heat_capacity,
+               material.liquid.specific_heat_capacity);
+      property("density", material.solid.density, material.liquid.density);
+      return material;
+    }
+
+    std::vector<Side>
+    sides_of(const Domain &domain)
+    {
+      if(domain.shape == DomainShape::ball)
+        return {Side::outer};
+      std::vector<Side> sides;
+      for(int s = 0; s < 2 * domain.dimension; ++s)
+        sides.push_back(static_cast<Side>(s));
+      return sides;
+    }
+
+    Boundary
+    read_wall(const PrmFile &prm, Side side, const Domain &domain)
+    {
+      const std::string here = wall_keys(side);
+      const std::string kind = prm.get_text(here, "kind");
+      const std::string variables = coordinates(domain) + "t";
+      const auto value = [&](const char *key, const char *owner)
+      {
+        if(kind == owner)
+        {
+          prm.require(here, key, fmt::format("a wall of kind '{}' needs it", kind));
+          return read_field(prm, here, key, variables);
+        }
+        prm.forbid(here, key, fmt::format("the wall's kind is '{}'", kind));
+        return Field();
+      };
+      const Field temperature = value("temperature", "fixed temperature");
+      const Field flux = value("flux", "flux");
+      if(kind == "fixed temperature")
+        return {BoundaryKind::fixed_temperature, temperature};
+      if(kind == "exact")
+        return {BoundaryKind::fixed_temperature, Field(), true};
+      if(kind == "flux")
+        return {BoundaryKind::flux, flux};
+      return {kind == "periodic" ? BoundaryKind::periodic : BoundaryKind::insulated,
+              Field()};
+    }
+
+    void
+    read_walls(const PrmFile &prm, Scene &scene)
+    {
+      const std::vector<Side> sides = sides_of(scene.domain);
+      for(std::size_t s = 0; s < n_sides; ++s)
+      {
+        const auto side = static_cast<Side>(s);
+        if(std::find(sides.begin(), sides.end(), side) != sides.end())
+          scene.boundaries[s] = read_wall(prm, side, scene.domain);
+        else if(prm.opened(wall_keys(side)))
+        {
+          std::string names;
+          for(const Side valid : sides)
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", to_string(valid));
+          throw prm.subsection_error(
+              wall_keys(side),
+              fmt::format("names a wall that the domain lacks; its walls are {}", names));
+        }
+      }
+      for(const Side side : sides)
+      {
+        if(scene.boundary(side).kind != BoundaryKind::periodic)
+          continue;
+        if(side == Side::outer)
+          throw prm.error(wall_keys(side), "kind",
+                          "cannot be periodic: a ball has one "
+                          "wall only");
+        const auto opposite = static_cast<Side>(static_cast<int>(side) ^ 1);
+        if(scene.boundary(opposite).kind != BoundaryKind::periodic)
+          throw prm.error(
+              wall_keys(side), "kind",
+              fmt::format("is periodic but that of '{}' is not", to_string(opposite)));
+      }
+    }
+
+    void
+    read_initial_state(const PrmFile &prm, Scene &scene)
+    {
+      scene.initial.solid_fraction_at_melting
+          = prm.get_number(initial_keys, "solid fraction at melting");
+      if(prm.get_text(initial_keys, "kind") == "exact")
+      {
+        prm.forbid(initial_keys, "temperature",
+                   "the initial state is the exact solution's");
+        return;
+      }
+      prm.require(initial_keys, "temperature", "the scene needs an initial temperature");
+      scene.initial.temperature
+          = read_field(prm, initial_keys, "temperature", coordinates(scene.domain));
+    }
+
+    bool
+    inside(const Domain &domain, const Position &p)
+    {
+      if(domain.shape == DomainShape::ball)
+        return coordinate(Symmetry::spherical, p) <= domain.radius;
+      for(int d = 0; d < domain.dimension; ++d)
+        if(p[d] < domain.lower[d] || p[d] > domain.upper[d])
+          return false;
+      return true;
+    }
+
+    PointSource
+    read_source(const PrmFile &prm, const std::string &here, const Scene &scene)
+    {
+      if(scene.domain.shape == DomainShape::slab)
+        throw prm.subsection_error(here, "has no meaning in a slab; a line or point "
+                                         "source needs a box or a ball");
+      prm.require(here, "position", "a source needs one");
+      prm.require(here, "power", "a source needs one");
+      PointSource source;
+      source.position = read_position(prm, here, "position", scene.domain.dimension);
+      if(!inside(scene.domain, source.position))
+        throw prm.error(here, "position", "lies outside the domain");
+      if(scene.symmetry != Symmetry::none && source.position != Position{})
+        throw prm.error(here, "position",
+                        fmt::format("contradicts the {} symmetry: it must be the origin",
+                                    prm.get_text("Scene", "symmetry")));
+      source.expression = prm.get_text(here, "power");
+      if(source.expression == "exact")
+        return source;
+      const Field field = read_field(prm, here, "power", "t");
+      const double start = scene.start_time;
+      source.power = [field](double time) { return field({}, time); };
+      if(field.constant)
+        source.energy = [power = field({}, 0), start](double time)
+        { return power * (time - start); };
+      else
+        source.energy = integral_from(source.power, start, scene.end_time);
+      return source;
+    }
+
+    /** The subsections of the file's sources, in the order of Scene::sources. */
+    std::vector<std::string>
+    opened_sources(const PrmFile &prm)
+    {
+      std::vector<std::string> subsections;
+      for(int i = 1; i <= most_sources; ++i)
+        if(const std::string here = fmt::format("Scene/Source {}", i); prm.opened(here))
+          subsections.push_back(here);
+      return subsections;
+    }
+
+    void
+    read_times(const PrmFile &prm, Scene &scene)
+    {
+      scene.start_time = prm.get_number("Scene", "start time");
+      scene.end_time = prm.get_number("Scene", "end time");
+      if(!(scene.start_time < scene.end_time))
+        throw prm.error("Scene", "end time",
+                        fmt::format("({}) must come after 'start time' ({})",
+                                    scene.end_time, scene.start_time));
+    }
+  } // namespace
+
+  Scene
+  read_scene(const PrmFile &prm)
+  {
+    Scene scene;
+    scene.units = prm.get_text("", "units");
+    scene.symmetry = read_symmetry(prm);
+    read_times(prm, scene);
+    scene.domain = read_domain(prm);
+    check_symmetry(prm, scene.domain, scene.symmetry);
+    scene.material = read_material(prm);
+    read_walls(prm, scene);
+    read_initial_state(prm, scene);
+    for(const std::string &here : opened_sources(prm))
+      scene.sources.push_back(read_source(prm, here, scene));
+    for(const Effect effect : all_effects())
+    {
+      const std::string choice = prm.get_text("Effects", to_string(effect));
+      if(choice != "auto")
+        scene.effect_choices[effect]
+            = choice == "on" ? EffectChoice::on : EffectChoice::off;
+    }
+    return scene;
+  }
+
+  void
+  complete_scene(const PrmFile &prm, const KnownSolution &known, Scene &scene)
+  {
+    const auto require_solution = [&](const std::string &here, const std::string &key)
+    {
+      if(!known.solution)
+        throw prm.error(here, key,
+                        "is 'exact' but the case has no exact solution (subsection "
+                        "'Exact solution', key 'kind')");
+    };
+    const auto temperature = [exact = known.solution]
+    {
+      return Field{"exact", [exact](const Position &p, double time)
+                   { return exact->temperature(p, time); }};
+    };
+    for(const Side side : scene.sides())
+    {
+      Boundary &boundary = *scene.boundaries[static_cast<std::size_t>(side)];
+      if(!boundary.exact)
+        continue;
+      require_solution(wall_keys(side), "kind");
+      boundary.value = temperature();
+    }
+    if(prm.get_text(initial_keys, "kind") == "exact")
+    {
+      require_solution(initial_keys, "kind");
+      scene.initial.exact = known.solution;
+      scene.initial.temperature = temperature();
+    }
+    const std::vector<std::string> subsections = opened_sources(prm);
+    for(std::size_t i = 0; i < subsections.size(); ++i)
+    {
+      PointSource &source = scene.sources[i];
+      if(source.expression != "exact")
+        continue;
+      if(!known.power)
+        throw prm.error(subsections[i], "power",
+                        "is 'exact' but the exact solution is not that of a sink");
+      source.power = known.power;
+      source.energy
+          = [energy = known.energy, before = known.energy(scene.start_time)](double time)
+      { return energy(time) - before; };
+    }
+  }
+} // namespace meltfront::cases
