@@ -1,0 +1,67 @@
+#ifndef meltfront_reference_fem_enthalpy_compensated_vector_h
+#define meltfront_reference_fem_enthalpy_compensated_vector_h
+
+#include <cstddef>
+#include <vector>
+
+namespace meltfront::reference_fem
+{
+  /**
+   * Numbers stored as the unevaluated sum of two doubles, so that the difference of two
+   * neighbours keeps full relative accuracy.
+   *
+   * Why: a step multiplies differences of u by dt k/(rho c h^2), up to 1e11 where one
+   * phase conducts 1e9 times better than the other. Rounding u to a double would then be
+   * felt in the enthalpy's fifth digit.
+   */
+  class CompensatedVector
+  {
+  public:
+    explicit CompensatedVector(std::size_t size = 0) : leading(size), remainder(size)
+    {
+    }
+
+    std::size_t
+    size() const
+    {
+      return leading.size();
+    }
+
+    /** The value rounded to a double; its sign is that of the value. */
+    double
+    operator[](std::size_t i) const
+    {
+      return leading[i];
+    }
+
+    void
+    set(std::size_t i, double value)
+    {
+      leading[i] = value;
+      remainder[i] = 0;
+    }
+
+    /** Add with the rounding error kept (Knuth 1969, TwoSum). */
+    void
+    add(std::size_t i, double increment)
+    {
+      increment += remainder[i];
+      const double sum = leading[i] + increment;
+      const double part = sum - leading[i];
+      remainder[i] = (leading[i] - (sum - part)) + (increment - part);
+      leading[i] = sum;
+    }
+
+    /** Value j less value i. */
+    double
+    difference(std::size_t j, std::size_t i) const
+    {
+      return (leading[j] - leading[i]) + (remainder[j] - remainder[i]);
+    }
+
+  private:
+    std::vector<double> leading, remainder;
+  };
+} // namespace meltfront::reference_fem
+
+#endif

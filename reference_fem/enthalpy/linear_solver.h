@@ -1,0 +1,68 @@
+#ifndef meltfront_reference_fem_enthalpy_linear_solver_h
+#define meltfront_reference_fem_enthalpy_linear_solver_h
+
+#include <reference_fem/enthalpy/conduction_matrix.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace meltfront::reference_fem
+{
+  /** The linear system of a Newton iteration: (D + c K) x = r on the active nodes. */
+  struct NewtonSystem
+  {
+    const std::vector<double> &heat_capacity; ///< D: volume times dH/du (J per unit of u)
+    double step_factor;                       ///< c (s)
+    const std::vector<char> &active;          ///< x is zero where this is 0
+    const std::vector<double> &residual;      ///< r (J)
+    bool new_step; ///< the first system of a time step: preconditioners may be kept until
+                   ///< the next
+  };
+
+  /** Solves the symmetric positive definite systems of the truncated Newton method. */
+  class LinearSolver
+  {
+  public:
+    virtual ~LinearSolver() = default;
+
+    /** Its name for the report. */
+    virtual std::string description() const = 0;
+
+    /** Reduce the residual by the given factor; direct solvers ignore it. */
+    virtual void solve(const NewtonSystem &system, double reduction,
+                       std::vector<double> &x)
+        = 0;
+
+    /** Matrix entries touched since the start. */
+    long
+    work() const
+    {
+      return entries_touched;
+    }
+
+  protected:
+    long entries_touched = 0;
+  };
+
+  /** Elimination for chains of nodes (one dimension), nodes numbered along the chain. */
+  std::unique_ptr<LinearSolver> make_tridiagonal_solver(const ConductionMatrix &matrix);
+
+  /** How conjugate gradients are preconditioned. */
+  enum class Preconditioner
+  {
+    automatic, ///< by the number of unknowns and the Fourier number
+    ssor,
+    amg ///< smoothed aggregation of Trilinos ML
+  };
+
+  /**
+   * Conjugate gradients for two and three dimensions.
+   * @param threads that deal.II may use; the result does not depend on it
+   */
+  std::unique_ptr<LinearSolver> make_krylov_solver(const ConductionMatrix &matrix,
+                                                   Preconditioner preconditioner,
+                                                   int threads);
+} // namespace meltfront::reference_fem
+
+#endif

@@ -1,0 +1,485 @@
+#include <reference_fem/enthalpy/mesh.h>
+
+#include <cases/error.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace meltfront::reference_fem
+{
+  namespace
+  {
+    using cases::BoundaryKind;
+    using cases::DomainShape;
+    using cases::Position;
+    using cases::Side;
+
+    constexpr unsigned int strip_width = 4; ///< cells across a slab in 2D and 3D
+
+    template <int dim>
+    Position
+    position(const dealii::Point<dim> &point)
+    {
+      Position result{};
+      for(int d = 0; d < dim; ++d)
+        result[d] = point[d];
+      return result;
+    }
+
+    template <int dim>
+    class DealMesh : public Mesh
+    {
+    public:
+      DealMesh(const cases::Scene &scene, int n);
+
+      Discretization discretize() const override;
+      std::vector<std::pair<unsigned int, double>>
+      shares(const Position &point) const override;
+      std::vector<double> node_averages(
+          const std::function<double(const Position &)> &function) const override;
+
+    private:
+      void mesh_block(const cases::Scene &scene, int n);
+      void mesh_radius(const cases::Scene &scene, int n);
+      void mesh_ball(const cases::Scene &scene, int n);
+      void join_periodic_sides(const cases::Scene &scene);
+      void number_nodes();
+
+      /** The measure of the scene at a point, per volume of the mesh. */
+      double weight(const dealii::Point<dim> &point) const;
+
+      std::vector<unsigned int>
+      sites(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
+      void integrate_cells(Discretization &result) const;
+      void integrate_walls(Discretization &result) const;
+      void place_sites(Discretization &result) const;
+
+      dealii::Triangulation<dim> triangulation;
+      dealii::FE_Q<dim> element{1};
+      dealii::DoFHandler<dim> dof_handler;
+      dealii::AffineConstraints<double> periodicity;
+      dealii::MappingQ<dim> mapping;
+      bool cartesian;
+      cases::Symmetry measure = cases::Symmetry::none;
+      double spacing = 0;
+      double strip_section
+          = 1; ///< m or m^2: by how much a strip exceeds the slab's measure
+      std::vector<Side> sides;
+      std::vector<unsigned int> node_of_site;
+      unsigned int n_nodes = 0;
+    };
+
+    template <int dim>
+    DealMesh<dim>::DealMesh(const cases::Scene &scene, int n)
+        : dof_handler(triangulation),
+          mapping(scene.domain.shape == DomainShape::ball && dim > 1 ? 4 : 1),
+          cartesian(scene.domain.shape != DomainShape::ball)
+    {
+      if(cartesian)
+        mesh_block(scene, n);
+      else if(dim == 1)
+        mesh_radius(scene, n);
+      else
+        mesh_ball(scene, n);
+      dof_handler.distribute_dofs(element);
+      if(cartesian)
+        join_periodic_sides(scene);
+      periodicity.close();
+      number_nodes();
+    }
+
+    template <int dim>
+    void
+    DealMesh<dim>::mesh_block(const cases::Scene &scene, int n)
+    {
+      const cases::Domain &domain = scene.domain;
+      const bool strip = domain.shape == DomainShape::slab;
+      spacing = domain.side() / n;
+      dealii::Point<dim> lower, upper;
+      std::vector<unsigned int> cells(dim, n);
+      for(int d = 0; d < dim; ++d)
+      {
+        lower[d] = domain.lower[d];
+        upper[d] = domain.upper[d];
+        if(d > 0 && strip)
+        {
+          cells[d] = strip_width;
+          upper[d] = lower[d] + strip_width * spacing;
+          strip_section *= strip_width * spacing;
+        }
+        else if(d > 0)
+          cells[d] = std::max(
+              1, static_cast<int>(std::lround((upper[d] - lower[d]) / spacing)));
+      }
+      dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, cells, lower,
+                                                        upper, true);
+      // deal.II numbers the sides of a block in the order of cases::Side.
+      sides = scene.sides();
+    }
+
+    template <int dim>
+    void
+    DealMesh<dim>::mesh_radius(const cases::Scene &scene, int n)
+    {
+      if constexpr(dim == 1)
+      {
+        const unsigned int cells = std::max(1, (n + 1) / 2);
+        dealii::GridGenerator::subdivided_hyper_rectangle(
+            triangulation, std::vector<unsigned int>{cells}, dealii::Point<1>(0),
+            dealii::Point<1>(scene.domain.radius));
+        spacing = scene.domain.radius / cells;
+        measure = scene.domain.dimension == 2 ? cases::Symmetry::cylindrical
+                                              : cases::Symmetry::spherical;
+        for(const auto &cell : triangulation.active_cell_iterators())
+          for(const auto face : cell->face_indices())
+            if(cell->at_boundary(face) && cell->face(face)->center()[0] > 0)
+              cell->face(face)->set_boundary_id(static_cast<unsigned int>(Side::outer));
+        sides = {Side::outer};
+      }
+    }
+
+    template <int dim>
+    void
+    DealMesh<dim>::mesh_ball(const cases::Scene &scene, int n)
+    {
+      if constexpr(dim > 1)
+      {
+        int refinements = 0;
+        while((4 << refinements) < n)
+          ++refinements;
+        if((4 << refinements) != n)
+          throw cases::Refusal(fmt::format(
+              "fem-enthalpy meshes a ball in {}D only with n = 4, 8, 16, 32, ... cells "
+              "along the diameter, not {}",
+              dim, n));
+        dealii::GridGenerator::hyper_ball_balanced(triangulation, dealii::Point<dim>(),
+                                                   scene.domain.radius);
+        triangulation.refine_global(refinements);
+        for(const auto &face : triangulation.active_face_iterators())
+          if(face->at_boundary())
+            face->set_boundary_id(static_cast<unsigned int>(Side::outer));
+        spacing = scene.domain.side() / n;
+        sides = {Side::outer};
+      }
+    }
+
+    template <int dim>
+    void
+    DealMesh<dim>::join_periodic_sides(const cases::Scene &scene)
+    {
+      const bool strip = scene.domain.shape == DomainShape::slab;
+      for(int d = 0; d < dim; ++d)
+      {
+        const auto lower = static_cast<Side>(2 * d), upper = static_cast<Side>(2 * d + 1);
+        const auto periodic = [&](Side side) {
+          return strip && d > 0 ? true
+                                : scene.boundary(side).kind == BoundaryKind::periodic;
+        };
+        if(!periodic(lower) && !periodic(upper))
+          continue;
+        if(!periodic(lower) || !periodic(upper))
+          throw cases::InputError(
+              fmt::format("of the sides {} and {} only one is periodic",
+                          cases::to_string(lower), cases::to_string(upper)));
+        if constexpr(dim == 1)
+          throw cases::Refusal(
+              "fem-enthalpy does not simulate a periodic interval in one dimension");
+        else
+          dealii::DoFTools::make_periodicity_constraints(dof_handler, 2 * d, 2 * d + 1, d,
+                                                         periodicity);
+      }
+    }
+
+    template <int dim>
+    void
+    DealMesh<dim>::number_nodes()
+    {
+      const auto n_sites = static_cast<unsigned int>(dof_handler.n_dofs());
+      node_of_site.resize(n_sites);
+      for(unsigned int site = 0; site < n_sites; ++site)
+        if(!periodicity.is_constrained(site))
+          node_of_site[site] = n_nodes++;
+      for(unsigned int site = 0; site < n_sites; ++site)
+        if(periodicity.is_constrained(site))
+          node_of_site[site]
+              = node_of_site[(*periodicity.get_constraint_entries(site))[0].first];
+    }
+
+    template <int dim>
+    double
+    DealMesh<dim>::weight(const dealii::Point<dim> &point) const
+    {
+      if(measure == cases::Symmetry::cylindrical)
+        return 2 * std::numbers::pi * point[0];
+      if(measure == cases::Symmetry::spherical)
+        return 4 * std::numbers::pi * point[0] * point[0];
+      return 1 / strip_section;
+    }
+
+    template <int dim>
+    std::vector<unsigned int>
+    DealMesh<dim>::sites(
+        const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const
+    {
+      std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      return {dofs.begin(), dofs.end()};
+    }
+
+    template <int dim>
+    Discretization
+    DealMesh<dim>::discretize() const
+    {
+      Discretization result;
+      result.dimension = dim;
+      result.spacing = spacing;
+      result.measure = measure;
+      result.node_of_site = node_of_site;
+      integrate_cells(result);
+      integrate_walls(result);
+      place_sites(result);
+      return result;
+    }
+
+    template <int dim>
+    void
+    DealMesh<dim>::integrate_cells(Discretization &result) const
+    {
+      const dealii::Quadrature<dim> quadrature
+          = cartesian ? static_cast<dealii::Quadrature<dim>>(dealii::QTrapezoid<dim>())
+                      : static_cast<dealii::Quadrature<dim>>(dealii::QGauss<dim>(3));
+      dealii::FEValues<dim> values(mapping, element, quadrature,
+                                   dealii::update_values | dealii::update_gradients
+                                       | dealii::update_JxW_values
+                                       | dealii::update_quadrature_points);
+      result.volume.assign(n_nodes, 0);
+      result.conduction.diagonal.assign(n_nodes, 0);
+      std::vector<std::map<unsigned int, double>> rows(n_nodes);
+      for(const auto &cell : dof_handler.active_cell_iterators())
+      {
+        values.reinit(cell);
+        const auto corners = sites(cell);
+        result.cells.insert(result.cells.end(), corners.begin(), corners.end());
+        std::vector<double> measures(quadrature.size());
+        for(const unsigned int q : values.quadrature_point_indices())
+          measures[q] = values.JxW(q) * weight(values.quadrature_point(q));
+        const auto couple = [&](unsigned int a, unsigned int b)
+        {
+          double entry = 0;
+          for(const unsigned int q : values.quadrature_point_indices())
+            entry += values.shape_grad(a, q) * values.shape_grad(b, q) * measures[q];
+          return entry;
+        };
+        for(const unsigned int a : values.dof_indices())
+        {
+          const unsigned int i = node_of_site[corners[a]];
+          for(const unsigned int q : values.quadrature_point_indices())
+            result.volume[i] += values.shape_value(a, q) * measures[q];
+          for(const unsigned int b : values.dof_indices())
+          {
+            const unsigned int j = node_of_site[corners[b]];
+            const double entry = couple(a, b);
+            // Diagonally opposite vertices couple by round-off only on Cartesian meshes.
+            if(i != j && std::abs(entry) > 1e-13 * couple(0, 0))
+              rows[i][j] -= entry;
+          }
+        }
+      }
+      ConductionMatrix &matrix = result.conduction;
+      for(unsigned int i = 0; i < n_nodes; ++i)
+      {
+        for(const auto &[j, conductance] : rows[i])
+        {
+          matrix.column.push_back(j);
+          matrix.conductance.push_back(conductance);
+          matrix.diagonal[i] += conductance;
+        }
+        matrix.row_start.push_back(matrix.column.size());
+      }
+    }
+
+    template <int dim>
+    void
+    DealMesh<dim>::integrate_walls(Discretization &result) const
+    {
+      const dealii::QGauss<dim - 1> quadrature(3);
+      dealii::FEFaceValues<dim> values(mapping, element, quadrature,
+                                       dealii::update_values | dealii::update_JxW_values
+                                           | dealii::update_quadrature_points);
+      std::array<std::map<unsigned int, WallNode>, cases::n_sides> walls;
+      for(const auto &cell : dof_handler.active_cell_iterators())
+        for(const auto face : cell->face_indices())
+        {
+          const unsigned int side = cell->face(face)->boundary_id();
+          if(!cell->at_boundary(face)
+             || std::find(sides.begin(), sides.end(), static_cast<Side>(side))
+                    == sides.end())
+            continue;
+          values.reinit(cell, face);
+          const auto corners = sites(cell);
+          for(const unsigned int a : values.dof_indices())
+          {
+            if(!element.has_support_on_face(a, face))
+              continue;
+            const unsigned int i = node_of_site[corners[a]];
+            WallNode &node
+                = walls[side]
+                      .try_emplace(i, WallNode{i, 0., position<dim>(cell->vertex(a))})
+                      .first->second;
+            for(const unsigned int q : values.quadrature_point_indices())
+              node.area += values.shape_value(a, q) * values.JxW(q)
+                           * weight(values.quadrature_point(q));
+          }
+        }
+      for(std::size_t side = 0; side < cases::n_sides; ++side)
+        for(const auto &[i, node] : walls[side])
+          result.walls[side].push_back(node);
+    }
+
+    template <int dim>
+    void
+    DealMesh<dim>::place_sites(Discretization &result) const
+    {
+      const std::size_t n_sites = node_of_site.size();
+      for(int d = 0; d < dim; ++d)
+        result.site_positions[d].resize(n_sites);
+      for(const auto &cell : dof_handler.active_cell_iterators())
+      {
+        const auto corners = sites(cell);
+        for(std::size_t a = 0; a < corners.size(); ++a)
+          for(int d = 0; d < dim; ++d)
+            result.site_positions[d][corners[a]] = cell->vertex(a)[d];
+      }
+      result.site_weights.assign(n_sites, 0);
+      result.positions.resize(n_nodes);
+      for(std::size_t site = 0; site < n_sites; ++site)
+        if(!periodicity.is_constrained(site))
+        {
+          const unsigned int node = node_of_site[site];
+          result.site_weights[site] = result.volume[node];
+          for(int d = 0; d < dim; ++d)
+            result.positions[node][d] = result.site_positions[d][site];
+        }
+    }
+
+    template <int dim>
+    std::vector<std::pair<unsigned int, double>>
+    DealMesh<dim>::shares(const Position &point) const
+    {
+      dealii::Point<dim> p;
+      for(int d = 0; d < dim; ++d)
+        p[d] = point[d];
+      const auto outside = [&point]
+      {
+        return cases::InputError(fmt::format(
+            "the source at ({:.6g}, {:.6g}, {:.6g}) lies outside of the domain", point[0],
+            point[1], point[2]));
+      };
+      std::pair<typename dealii::DoFHandler<dim>::active_cell_iterator,
+                dealii::Point<dim>>
+          found;
+      try
+      {
+        found = dealii::GridTools::find_active_cell_around_point(mapping, dof_handler, p);
+      }
+      catch(const dealii::ExceptionBase &)
+      {
+        throw outside();
+      }
+      if(found.first.state() != dealii::IteratorState::valid)
+        throw outside();
+      const auto unit = dealii::GeometryInfo<dim>::project_to_unit_cell(found.second);
+      const auto corners = sites(found.first);
+      std::vector<std::pair<unsigned int, double>> result;
+      for(unsigned int a = 0; a < corners.size(); ++a)
+      {
+        double value = element.shape_value(a, unit);
+        // A source on a vertex is found there up to round-off only.
+        if(value > 1e-12)
+          result.emplace_back(node_of_site[corners[a]], value);
+      }
+      double sum = 0;
+      for(const auto &share : result)
+        sum += share.second;
+      for(auto &share : result)
+        share.second /= sum;
+      return result;
+    }
+
+    template <int dim>
+    std::vector<double>
+    DealMesh<dim>::node_averages(
+        const std::function<double(const Position &)> &function) const
+    {
+      const dealii::QIterated<dim> quadrature(dealii::QMidpoint<1>(), 8);
+      dealii::FEValues<dim> values(mapping, element, quadrature,
+                                   dealii::update_JxW_values
+                                       | dealii::update_quadrature_points);
+      std::vector<double> sum(n_nodes), measure_of(n_nodes);
+      for(const auto &cell : dof_handler.active_cell_iterators())
+      {
+        values.reinit(cell);
+        const auto corners = sites(cell);
+        for(const unsigned int q : values.quadrature_point_indices())
+        {
+          unsigned int nearest = 0;
+          for(int d = 0; d < dim; ++d)
+            nearest |= (quadrature.point(q)[d] > 0.5 ? 1u : 0u) << d;
+          const unsigned int i = node_of_site[corners[nearest]];
+          const double measure = values.JxW(q) * weight(values.quadrature_point(q));
+          sum[i] += measure * function(position<dim>(values.quadrature_point(q)));
+          measure_of[i] += measure;
+        }
+      }
+      for(unsigned int i = 0; i < n_nodes; ++i)
+        sum[i] /= measure_of[i];
+      return sum;
+    }
+  } // namespace
+
+  std::vector<int>
+  mesh_dimensions(const cases::Scene &scene)
+  {
+    switch(scene.domain.shape)
+    {
+    case DomainShape::slab:
+      return {1, 2, 3};
+    case DomainShape::box:
+      return {scene.domain.dimension};
+    default:
+      if(scene.symmetry == cases::Symmetry::cylindrical
+         || scene.symmetry == cases::Symmetry::spherical)
+        return {1, scene.domain.dimension};
+      return {scene.domain.dimension};
+    }
+  }
+
+  std::unique_ptr<Mesh>
+  make_mesh(const cases::Scene &scene, int dimension, int n)
+  {
+    switch(dimension)
+    {
+    case 1:
+      return std::make_unique<DealMesh<1>>(scene, n);
+    case 2:
+      return std::make_unique<DealMesh<2>>(scene, n);
+    default:
+      return std::make_unique<DealMesh<3>>(scene, n);
+    }
+  }
+} // namespace meltfront::reference_fem

@@ -1,0 +1,92 @@
+#ifndef meltfront_reference_fem_enthalpy_mesh_h
+#define meltfront_reference_fem_enthalpy_mesh_h
+
+#include <cases/scene.h>
+#include <reference_fem/enthalpy/conduction_matrix.h>
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace meltfront::reference_fem
+{
+  /** A node on a wall. */
+  struct WallNode
+  {
+    unsigned int node;
+    double area; ///< integral of its shape function over the wall
+    cases::Position position;
+  };
+
+  /**
+   * A scene's domain discretised with linear elements, as plain arrays: what the solver
+   * works on. All integrals are in the measure of the scene (see
+   * cases::Snapshot::weights): per area in a slab, also where a strip of it is meshed in
+   * two or three dimensions, with the weight 2 pi r or 4 pi r^2 in a radial mesh.
+   *
+   * A *site* is a vertex of the mesh, a *node* an unknown: on periodic sides several
+   * sites share a node.
+   */
+  struct Discretization
+  {
+    int dimension = 1;
+    double spacing = 0; ///< cell size along the domain's side (m)
+    cases::Symmetry measure = cases::Symmetry::none; ///< of a radial mesh
+
+    std::array<std::vector<double>, 3> site_positions;
+    std::vector<unsigned int> node_of_site;
+    std::vector<double> site_weights; ///< the node's volume at its first site, else 0
+    std::vector<unsigned int> cells;  ///< sites by cell, lexicographic
+
+    std::vector<cases::Position> positions; ///< by node
+    std::vector<double> volume;             ///< by node: integral of the shape function
+    ConductionMatrix conduction;
+    std::array<std::vector<WallNode>, cases::n_sides> walls;
+  };
+
+  /** A mesh while the problem is set up: what needs its geometry. */
+  class Mesh
+  {
+  public:
+    virtual ~Mesh() = default;
+
+    virtual Discretization discretize() const = 0;
+
+    /**
+     * The nodes among which a point shares a load, with the values of their shape
+     * functions there (their sum is one).
+     * @throws cases::InputError if the point lies outside of the mesh
+     */
+    virtual std::vector<std::pair<unsigned int, double>>
+    shares(const cases::Position &point) const = 0;
+
+    /**
+     * Averages of a function over the part of each cell nearest to a node, by a midpoint
+     * rule of 8 points per cell and direction.
+     */
+    virtual std::vector<double> node_averages(
+        const std::function<double(const cases::Position &)> &function) const = 0;
+  };
+
+  /** The dimensions in which a scene can be meshed, the lowest first. */
+  std::vector<int> mesh_dimensions(const cases::Scene &scene);
+
+  /**
+   * Mesh a scene with n cells along the domain's side.
+   *
+   * Slab: an interval, or in 2D/3D a strip four cells wide, periodic across. Symmetric
+   * ball in 1D: the radius. Box: a Cartesian mesh, cells as near to cubes as the sides
+   * allow. Ball in 2D/3D: an unstructured mesh of 4 2^k cells along the diameter.
+   * On Cartesian meshes mass and stiffness are integrated at the vertices, which makes K
+   * an M-matrix for any aspect ratio; elsewhere the masses are row sums, so that the
+   * volumes add up to the mesh's volume.
+   *
+   * @param dimension one of mesh_dimensions()
+   * @throws cases::Refusal if the scene cannot be meshed so
+   */
+  std::unique_ptr<Mesh> make_mesh(const cases::Scene &scene, int dimension, int n);
+} // namespace meltfront::reference_fem
+
+#endif

@@ -1,0 +1,330 @@
+#include <reference_fem/enthalpy/graph.h>
+#include <reference_fem/enthalpy/stopwatch.h>
+#include <reference_fem/enthalpy/truncated_newton.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::reference_fem
+{
+  namespace
+  {
+    template <class Graph>
+    class TruncatedNewton : public NonlinearSolver
+    {
+    public:
+      TruncatedNewton(const StepProblem &problem, const cases::Material &material,
+                      std::unique_ptr<LinearSolver> linear_solver)
+          : problem(problem), graph(material), linear_solver(std::move(linear_solver)),
+            active(problem.free), heat_capacity(problem.free.size()),
+            residual(problem.free.size()), direction(problem.free.size())
+      {
+        if constexpr(Graph::jumps)
+          cost.bytes = static_cast<long>(active.size() * sizeof(char));
+      }
+
+      StepOutcome solve(double c, const std::vector<double> &rhs, int iteration_limit,
+                        CompensatedVector &u, std::vector<double> &heat) override;
+
+      double
+      temperature_excess(double u) const override
+      {
+        return graph.temperature_excess(u);
+      }
+
+      double
+      temperature_excess_at_enthalpy(double enthalpy) const override
+      {
+        return graph.temperature_excess_at_enthalpy(enthalpy);
+      }
+
+      double
+      kirchhoff(double temperature_excess) const override
+      {
+        return graph.kirchhoff(temperature_excess);
+      }
+
+      long
+      work() const override
+      {
+        return entries_touched + linear_solver->work();
+      }
+
+      GraphCost
+      graph_cost() const override
+      {
+        return cost;
+      }
+
+    private:
+      struct Consistency
+      {
+        double distance; ///< max |T(u) - T(H)| over max |T - T_m|
+        bool settled;    ///< every node is on the right side of the jump
+      };
+
+      Consistency recover_heat(double c, const std::vector<double> &rhs,
+                               const CompensatedVector &u, std::vector<double> &heat);
+      void sweep(double c, const std::vector<double> &rhs, CompensatedVector &u);
+      void relax(std::size_t i, double c, const std::vector<double> &rhs,
+                 CompensatedVector &u);
+      void linearise(double c, const std::vector<double> &rhs,
+                     const CompensatedVector &u);
+      bool project(const CompensatedVector &u);
+      double line_search(double c, const CompensatedVector &u);
+      void advance(double length, CompensatedVector &u) const;
+
+      StepProblem problem;
+      Graph graph;
+      std::unique_ptr<LinearSolver> linear_solver;
+      std::vector<char> active;
+      std::vector<double> heat_capacity, residual, direction;
+      long entries_touched = 0;
+      GraphCost cost;
+    };
+
+    template <class Graph>
+    typename TruncatedNewton<Graph>::Consistency
+    TruncatedNewton<Graph>::recover_heat(double c, const std::vector<double> &rhs,
+                                         const CompensatedVector &u,
+                                         std::vector<double> &heat)
+    {
+      double distance = 0, largest = 0;
+      bool settled = true;
+      for(std::size_t i = 0; i < u.size(); ++i)
+      {
+        const double excess = graph.temperature_excess(u[i]);
+        largest = std::max(largest, std::abs(excess));
+        if(!problem.free[i])
+          continue;
+        heat[i] = rhs[i] + c * problem.conduction.inflow(i, u);
+        const double recovered
+            = graph.temperature_excess_at_enthalpy(heat[i] / problem.volume[i]);
+        const double off = std::abs(excess - recovered);
+        if(off > distance || std::isnan(off))
+          distance = off;
+        settled
+            = settled && (u[i] > 0) == (recovered > 0) && (u[i] < 0) == (recovered < 0);
+      }
+      entries_touched += problem.conduction.entries();
+      return {largest > 0 ? distance / largest : distance, settled};
+    }
+
+    template <class Graph>
+    void
+    TruncatedNewton<Graph>::relax(std::size_t i, double c, const std::vector<double> &rhs,
+                                  CompensatedVector &u)
+    {
+      const double volume = problem.volume[i];
+      const double stiffness = c * problem.conduction.diagonal[i];
+      const double supply = rhs[i] + c * problem.conduction.inflow(i, u);
+      if(u[i] != 0)
+      {
+        // As an increment, which the compensated sum keeps exactly.
+        const double change = (supply - volume * graph.enthalpy(u[i]))
+                              / (volume * graph.slope(u[i]) + stiffness);
+        if((u[i] + change) * u[i] > 0)
+        {
+          u.add(i, change);
+          return;
+        }
+      }
+      u.set(i, graph.resolve(supply + stiffness * u[i], volume, stiffness));
+    }
+
+    template <class Graph>
+    void
+    TruncatedNewton<Graph>::sweep(double c, const std::vector<double> &rhs,
+                                  CompensatedVector &u)
+    {
+      for(std::size_t i = 0; i < u.size(); ++i)
+        if(problem.free[i])
+          relax(i, c, rhs, u);
+      for(std::size_t i = u.size(); i-- > 0;)
+        if(problem.free[i])
+          relax(i, c, rhs, u);
+      entries_touched += 2 * problem.conduction.entries();
+      ++cost.sweeps;
+    }
+
+    template <class Graph>
+    void
+    TruncatedNewton<Graph>::linearise(double c, const std::vector<double> &rhs,
+                                      const CompensatedVector &u)
+    {
+      for(std::size_t i = 0; i < u.size(); ++i)
+      {
+        if(!problem.free[i])
+          continue;
+        if constexpr(Graph::jumps)
+        {
+          active[i] = u[i] != 0;
+          if(!active[i])
+          {
+            residual[i] = 0;
+            continue;
+          }
+        }
+        const double volume = problem.volume[i];
+        heat_capacity[i] = volume * graph.slope(u[i]);
+        residual[i] = rhs[i] + c * problem.conduction.inflow(i, u)
+                      - volume * graph.enthalpy(u[i]);
+      }
+      entries_touched += problem.conduction.entries();
+      if constexpr(Graph::has_two_slopes)
+        ++cost.linearisations;
+    }
+
+    /** Cut the direction off where it passes the jump; false where it never does. */
+    template <class Graph>
+    bool
+    TruncatedNewton<Graph>::project(const CompensatedVector &u)
+    {
+      bool cut = false;
+      for(std::size_t i = 0; i < u.size(); ++i)
+        if(active[i] && (u[i] + direction[i]) * u[i] < 0)
+        {
+          cut = true;
+          if constexpr(Graph::jumps)
+            direction[i] = -u[i];
+        }
+      return cut;
+    }
+
+    /**
+     * The minimum over 0 <= length <= 1 of J(u + length d). Its derivative is continuous,
+     * increasing and linear between the lengths at which a node changes phase.
+     */
+    template <class Graph>
+    double
+    TruncatedNewton<Graph>::line_search(double c, const CompensatedVector &u)
+    {
+      struct Kink
+      {
+        double length, change; ///< of the derivative's slope
+      };
+      std::vector<Kink> kinks;
+      double derivative = 0, slope = 0;
+      for(std::size_t i = 0; i < u.size(); ++i)
+      {
+        const double d = direction[i];
+        if(d == 0)
+          continue;
+        derivative -= residual[i] * d;
+        slope
+            += d * (heat_capacity[i] * d + c * problem.conduction.product(i, direction));
+        if constexpr(!Graph::jumps)
+        {
+          const double length = -u[i] / d;
+          if(length > 0 && length < 1)
+            kinks.push_back({length, problem.volume[i] * d * d
+                                         * (graph.slope(-u[i]) - graph.slope(u[i]))});
+        }
+      }
+      entries_touched += problem.conduction.entries();
+      std::sort(kinks.begin(), kinks.end(),
+                [](const Kink &a, const Kink &b) { return a.length < b.length; });
+      double length = 0;
+      for(const Kink &kink : kinks)
+      {
+        const double at_kink = derivative + slope * (kink.length - length);
+        if(at_kink >= 0)
+          break;
+        derivative = at_kink;
+        length = kink.length;
+        slope += kink.change;
+      }
+      if(derivative >= 0)
+        return length;
+      return slope > 0 ? std::min(1., length - derivative / slope) : 1.;
+    }
+
+    template <class Graph>
+    void
+    TruncatedNewton<Graph>::advance(double length, CompensatedVector &u) const
+    {
+      for(std::size_t i = 0; i < u.size(); ++i)
+      {
+        if(!active[i])
+          continue;
+        const double change = length * direction[i];
+        if(Graph::jumps && u[i] + change == 0)
+          u.set(i, 0);
+        else
+          u.add(i, change);
+      }
+    }
+
+    template <class Graph>
+    StepOutcome
+    TruncatedNewton<Graph>::solve(double c, const std::vector<double> &rhs,
+                                  int iteration_limit, CompensatedVector &u,
+                                  std::vector<double> &heat)
+    {
+      constexpr double loose = 1e-3, tight = 1e-8;
+      StepOutcome outcome;
+      for(;; ++outcome.iterations)
+      {
+        const Consistency state = recover_heat(c, rhs, u, heat);
+        outcome.graph_inconsistency = state.distance;
+        outcome.converged = state.distance <= target_inconsistency;
+        if(outcome.converged || outcome.iterations == iteration_limit
+           || !std::isfinite(state.distance))
+          break;
+        if constexpr(Graph::jumps)
+          if(!state.settled)
+          {
+            const ScopedTimer timer(cost.seconds);
+            sweep(c, rhs, u);
+          }
+        linearise(c, rhs, u);
+        linear_solver->solve(
+            {heat_capacity, c, active, residual, outcome.iterations == 0},
+            state.settled ? tight : loose, direction);
+        double length = 1;
+        if constexpr(!Graph::linear)
+          if(project(u))
+            length = line_search(c, u);
+        advance(length, u);
+      }
+      if(!outcome.converged)
+        outcome.converged = outcome.graph_inconsistency <= accepted_inconsistency;
+      return outcome;
+    }
+
+    template <class Graph>
+    std::unique_ptr<NonlinearSolver>
+    make(const StepProblem &problem, const cases::Material &material,
+         std::unique_ptr<LinearSolver> linear_solver)
+    {
+      return std::make_unique<TruncatedNewton<Graph>>(problem, material,
+                                                      std::move(linear_solver));
+    }
+  } // namespace
+
+  std::unique_ptr<NonlinearSolver>
+  make_nonlinear_solver(const StepProblem &problem, const cases::Material &material,
+                        const cases::EffectSet &effects,
+                        std::unique_ptr<LinearSolver> linear_solver)
+  {
+    using cases::Effect;
+    // An effect that is on with nothing to act on composes the simpler graph.
+    const bool latent
+        = effects.contains(Effect::phase_change) && material.latent_heat > 0;
+    const bool two_slopes
+        = (effects.contains(Effect::phase_conductivity)
+           && material.solid.conductivity != material.liquid.conductivity)
+          || (effects.contains(Effect::phase_heat_capacity)
+              && material.solid.specific_heat_capacity
+                     != material.liquid.specific_heat_capacity);
+    if(latent && two_slopes)
+      return make<EnthalpyGraph<true, true>>(problem, material, std::move(linear_solver));
+    if(latent)
+      return make<EnthalpyGraph<true, false>>(problem, material,
+                                              std::move(linear_solver));
+    if(two_slopes)
+      return make<EnthalpyGraph<false, true>>(problem, material,
+                                              std::move(linear_solver));
+    return make<EnthalpyGraph<false, false>>(problem, material, std::move(linear_solver));
+  }
+} // namespace meltfront::reference_fem

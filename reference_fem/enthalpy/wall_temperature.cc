@@ -1,0 +1,71 @@
+#include <reference_fem/enthalpy/stopwatch.h>
+#include <reference_fem/enthalpy/wall_temperature.h>
+
+#include <algorithm>
+
+namespace meltfront::reference_fem
+{
+  WallTemperature::WallTemperature(const cases::Scene &scene,
+                                   const Discretization &discretization)
+      : melting_temperature(scene.material.melting_temperature)
+  {
+    const ScopedTimer timer(effect_cost.seconds);
+    std::vector<char> taken(discretization.volume.size());
+    for(const cases::Side side : scene.sides())
+    {
+      const cases::Boundary &boundary = scene.boundary(side);
+      if(boundary.kind != cases::BoundaryKind::fixed_temperature)
+        continue;
+      for(const WallNode &place : discretization.walls[static_cast<std::size_t>(side)])
+        if(!taken[place.node])
+        {
+          taken[place.node] = 1;
+          nodes.push_back({place, temperatures.size()});
+        }
+      temperatures.push_back(boundary.value);
+    }
+    effect_cost.bytes = static_cast<long>(temperatures.size() * sizeof(cases::Field)
+                                          + nodes.size() * sizeof(Node));
+  }
+
+  void
+  WallTemperature::mark(std::vector<char> &free) const
+  {
+    for(const Node &node : nodes)
+      free[node.place.node] = 0;
+  }
+
+  void
+  WallTemperature::prescribe(double time, const NonlinearSolver &solver,
+                             CompensatedVector &u)
+  {
+    const ScopedTimer timer(effect_cost.seconds);
+    ++effect_cost.calls;
+    for(Node &node : nodes)
+    {
+      node.temperature = temperatures[node.wall](node.place.position, time);
+      u.set(node.place.node, solver.kirchhoff(node.temperature - melting_temperature));
+    }
+  }
+
+  double
+  WallTemperature::react(const StepFormula &step, const StepProblem &problem,
+                         const cases::Material &material, const CompensatedVector &u,
+                         const std::vector<double> &rhs, std::vector<double> &enthalpy)
+  {
+    const ScopedTimer timer(effect_cost.seconds);
+    double sum = 0;
+    for(const Node &node : nodes)
+    {
+      const unsigned int i = node.place.node;
+      const double specific = node.temperature == melting_temperature
+                                  ? std::clamp(enthalpy[i] / material.solid.density, 0.,
+                                               material.latent_heat)
+                                  : material.enthalpy(node.temperature);
+      enthalpy[i] = material.solid.density * specific;
+      sum += problem.volume[i] * enthalpy[i] - rhs[i]
+             - step.c * problem.conduction.inflow(i, u);
+    }
+    return sum;
+  }
+} // namespace meltfront::reference_fem
