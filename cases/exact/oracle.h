@@ -51,8 +51,8 @@ namespace meltfront::cases
     /** Undercooled liquid or superheated solid is meant, not an error. */
     bool metastable = false;
 
-    /** Chebyshev intervals per phase; 0: doubled from 12 until the initial profile is
-     * resolved. */
+    /** Chebyshev intervals per phase; 0: raised from 12 in steps of a half until the last
+     * coefficients are at round-off throughout the run. */
     int nodes = 0;
     double tolerance = 1e-12; ///< of each time step, relative
   };
@@ -108,6 +108,10 @@ namespace meltfront::cases
 
     /** Time steps taken. */
     long steps() const;
+
+    /** Largest share of the two highest Chebyshev coefficients over the run: an estimate
+     * of the error in space, relative to the range of temperature. */
+    double resolution_defect() const;
 
   private:
     class Run;

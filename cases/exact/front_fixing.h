@@ -1,0 +1,90 @@
+#ifndef meltfront_cases_exact_front_fixing_h
+#define meltfront_cases_exact_front_fixing_h
+
+#include <cases/exact/chebyshev.h>
+#include <cases/exact/oracle.h>
+
+#include <Eigen/Dense>
+
+namespace meltfront::cases::spectral
+{
+  /**
+   * The Stefan problem in space: each phase mapped onto [0, 1] and collocated.
+   *
+   * The state holds the nodal excesses T - T_m of the phase at the inner wall, those of
+   * the phase beyond the front, and the front. Nodes on the front (T = T_m) and on walls
+   * (given by the condition there) are left out. A phase that holds the axis or the
+   * centre is mapped by x = (r/s)^2, in which it is smooth:
+   *
+   *   T_t = a (4 x T_xx + 2 (1 + m) T_x)/s^2 + 2 x s'/s T_x;
+   *
+   * other phases linearly. With a line sink its T excludes Q/(2 pi k) ln(r/s), for which
+   * a uniform source Q/(2 pi k) s'/s stands in.
+   */
+  class FrontFixing
+  {
+  public:
+    /** Temperatures at a time, ready to be evaluated anywhere. */
+    struct Profile
+    {
+      double time;
+      double front;
+      Eigen::VectorXd near, far; ///< excesses at all nodes, without the sink's logarithm
+    };
+
+    FrontFixing(const OracleProblem &problem, int intervals);
+
+    Eigen::VectorXd initial_state() const;
+
+    void rate(double time, const Eigen::VectorXd &state, Eigen::VectorXd &rate) const;
+
+    Eigen::VectorXd scale(const Eigen::VectorXd &state) const;
+
+    /** The front lies inside the domain. */
+    bool admissible(const Eigen::VectorXd &state) const;
+
+    /** @throws NumericalError where the front is at a wall, a phase is beyond the melting
+     * temperature (unless metastable), or a value is not finite. */
+    void check(long step, double time, const Eigen::VectorXd &state) const;
+
+    /** Last Chebyshev coefficients relative to the scale of temperature. */
+    double resolution_defect(double time, const Eigen::VectorXd &state) const;
+
+    Profile profile(double time, const Eigen::VectorXd &state) const;
+
+    double temperature(const Profile &profile, double coordinate) const;
+
+    double heat_content(const Profile &profile, double lower, double upper) const;
+
+  private:
+    /** One phase on its interval. */
+    struct Side
+    {
+      PhaseProperties material;
+      OracleWall wall;
+      bool solid;
+      bool solved; ///< false: at the melting temperature throughout
+      bool centre; ///< holds r = 0: squared map, no wall
+      int first;   ///< first node that is an unknown
+      int unknowns;
+      int offset; ///< of the unknowns in the state
+    };
+
+    Eigen::VectorXd near_values(double time, const Eigen::VectorXd &state) const;
+    Eigen::VectorXd far_values(double time, const Eigen::VectorXd &state) const;
+    void set_wall(const Side &side, int node, double time, double length,
+                  Eigen::VectorXd &values) const;
+    double logarithm(double coordinate, double front) const;
+    double excess(const Profile &profile, double coordinate) const;
+
+    OracleProblem problem;
+    ChebyshevBasis basis;
+    int exponent; ///< m: 0 planar, 1 cylindrical, 2 spherical
+    Side near, far;
+    int size;
+    double sink_factor; ///< Q/(2 pi k), K
+    double temperature_scale;
+  };
+} // namespace meltfront::cases::spectral
+
+#endif
