@@ -19,14 +19,13 @@ namespace meltfront::cases
       EffectDecision (*decide)(const Scene &);
     };
 
-    EffectDecision
-    decide(Effect effect, bool on, const std::string &why, const std::string &why_not)
+    EffectDecision decide(Effect effect, bool on, const std::string &why,
+                          const std::string &why_not)
     {
       return {effect, on, on ? why : why_not};
     }
 
-    EffectDecision
-    phase_change(const Scene &scene)
+    EffectDecision phase_change(const Scene &scene)
     {
       return decide(
           Effect::phase_change, scene.material.latent_heat > 0,
@@ -34,8 +33,7 @@ namespace meltfront::cases
           "the material has no latent heat");
     }
 
-    EffectDecision
-    phase_conductivity(const Scene &scene)
+    EffectDecision phase_conductivity(const Scene &scene)
     {
       const double solid = scene.material.solid.conductivity;
       const double liquid = scene.material.liquid.conductivity;
@@ -45,8 +43,7 @@ namespace meltfront::cases
                     fmt::format("both phases conduct {:.6g} W/(m K)", solid));
     }
 
-    EffectDecision
-    phase_heat_capacity(const Scene &scene)
+    EffectDecision phase_heat_capacity(const Scene &scene)
     {
       const double solid = scene.material.solid.specific_heat_capacity;
       const double liquid = scene.material.liquid.specific_heat_capacity;
@@ -56,8 +53,7 @@ namespace meltfront::cases
                     fmt::format("both phases store {:.6g} J/(kg K)", solid));
     }
 
-    EffectDecision
-    heat_sources(const Scene &scene)
+    EffectDecision heat_sources(const Scene &scene)
     {
       return decide(Effect::heat_sources, !scene.sources.empty(),
                     fmt::format("there {} {} point or line source{}",
@@ -67,8 +63,8 @@ namespace meltfront::cases
                     "there is no source");
     }
 
-    EffectDecision
-    walls(const Scene &scene, Effect effect, BoundaryKind kind, const char *what)
+    EffectDecision walls(const Scene &scene, Effect effect, BoundaryKind kind,
+                         const char *what)
     {
       std::string names;
       for(const Side side : scene.sides())
@@ -79,21 +75,18 @@ namespace meltfront::cases
                     fmt::format("no wall prescribes {}", what));
     }
 
-    EffectDecision
-    wall_temperature(const Scene &scene)
+    EffectDecision wall_temperature(const Scene &scene)
     {
       return walls(scene, Effect::wall_temperature, BoundaryKind::fixed_temperature,
                    "a temperature");
     }
 
-    EffectDecision
-    wall_flux(const Scene &scene)
+    EffectDecision wall_flux(const Scene &scene)
     {
       return walls(scene, Effect::wall_flux, BoundaryKind::flux, "a heat flux");
     }
 
-    EffectDecision
-    liquid_motion(const Scene &scene)
+    EffectDecision liquid_motion(const Scene &scene)
     {
       const double solid = scene.material.solid.density;
       const double liquid = scene.material.liquid.density;
@@ -121,27 +114,23 @@ namespace meltfront::cases
          liquid_motion}};
     static_assert(std::size(rules) == n_effects);
 
-    const Rule &
-    rule(Effect effect)
+    const Rule &rule(Effect effect)
     {
       return rules[static_cast<std::size_t>(effect)];
     }
   } // namespace
 
-  const char *
-  to_string(Effect effect)
+  const char *to_string(Effect effect)
   {
     return rule(effect).name;
   }
 
-  const char *
-  description(Effect effect)
+  const char *description(Effect effect)
   {
     return rule(effect).description;
   }
 
-  const std::vector<Effect> &
-  all_effects()
+  const std::vector<Effect> &all_effects()
   {
     static const std::vector<Effect> list = []
     {
@@ -153,26 +142,24 @@ namespace meltfront::cases
     return list;
   }
 
-  EffectSet::EffectSet(std::vector<EffectDecision> decisions) : list(std::move(decisions))
+  EffectSet::EffectSet(std::vector<EffectDecision> decisions)
+    : list(std::move(decisions))
   {
   }
 
-  bool
-  EffectSet::contains(Effect effect) const
+  bool EffectSet::contains(Effect effect) const
   {
     return std::any_of(list.begin(), list.end(),
                        [effect](const EffectDecision &decision)
                        { return decision.effect == effect && decision.on; });
   }
 
-  const std::vector<EffectDecision> &
-  EffectSet::decisions() const
+  const std::vector<EffectDecision> &EffectSet::decisions() const
   {
     return list;
   }
 
-  EffectSet
-  effects_called_for(const Scene &scene)
+  EffectSet effects_called_for(const Scene &scene)
   {
     std::vector<EffectDecision> decisions;
     for(const Rule &r : rules)
@@ -191,8 +178,7 @@ namespace meltfront::cases
     return EffectSet(std::move(decisions));
   }
 
-  Scene
-  simulated_scene(const Scene &scene, const EffectSet &effects)
+  Scene simulated_scene(const Scene &scene, const EffectSet &effects)
   {
     Scene result = scene;
     const PhaseProperties &solid = scene.material.solid;

@@ -6,9 +6,12 @@ namespace meltfront::cases
 {
   NumericalError::NumericalError(const std::string &method, long step, double time,
                                  const std::string &quantity, const std::string &problem)
-      : std::runtime_error(fmt::format("{}, step {}, t = {:.6g}: {} {}", method, step,
-                                       time, quantity, problem)),
-        method(method), step(step), time(time), quantity(quantity)
+    : std::runtime_error(fmt::format("{}, step {}, t = {:.6g}: {} {}", method, step, time,
+                                     quantity, problem))
+    , method(method)
+    , step(step)
+    , time(time)
+    , quantity(quantity)
   {
   }
 } // namespace meltfront::cases

@@ -4,8 +4,7 @@
 
 namespace meltfront::cases
 {
-  double
-  ExactSolution::solid_volume(double lower, double upper, double time) const
+  double ExactSolution::solid_volume(double lower, double upper, double time) const
   {
     const double split = std::clamp(front(time), lower, upper);
     return solid_at_origin() ? volume_between(symmetry(), lower, split)

@@ -26,8 +26,7 @@ namespace meltfront::cases
     virtual Symmetry symmetry() const = 0;
 
     /** First time at which it may be evaluated (s); usually 0. */
-    virtual double
-    start_time() const
+    virtual double start_time() const
     {
       return 0;
     }
@@ -50,23 +49,20 @@ namespace meltfront::cases
     double solid_volume(double lower, double upper, double time) const;
 
     /** The same temperature at a point of space. */
-    double
-    temperature(const Position &position, double time) const
+    double temperature(const Position &position, double time) const
     {
       return temperature(coordinate(symmetry(), position), time);
     }
 
     /** Signed distance to the front (m): negative in the phase that holds the origin. */
-    double
-    signed_distance(const Position &position, double time) const
+    double signed_distance(const Position &position, double time) const
     {
       return coordinate(symmetry(), position) - front(time);
     }
 
     /** True where solid holds the origin (freezing from a cold wall or a sink; the usual
      * case). */
-    virtual bool
-    solid_at_origin() const
+    virtual bool solid_at_origin() const
     {
       return true;
     }

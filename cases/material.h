@@ -13,15 +13,13 @@ namespace meltfront::cases
     double density = 1;                ///< kg/m^3
 
     /** J/(m^3 K) */
-    double
-    volumetric_heat_capacity() const
+    double volumetric_heat_capacity() const
     {
       return density * specific_heat_capacity;
     }
 
     /** Thermal diffusivity k/(rho c), m^2/s. */
-    double
-    diffusivity() const
+    double diffusivity() const
     {
       return conductivity / volumetric_heat_capacity();
     }
@@ -43,8 +41,7 @@ namespace meltfront::cases
         = 0; ///< K or degrees Celsius, as the scene's other temperatures
 
     /** T(H), inverse of the enthalpy graph. */
-    double
-    temperature(double enthalpy) const
+    double temperature(double enthalpy) const
     {
       return melting_temperature + std::min(enthalpy, 0.) / solid.specific_heat_capacity
              + std::max(enthalpy - latent_heat, 0.) / liquid.specific_heat_capacity;
@@ -52,8 +49,7 @@ namespace meltfront::cases
 
     /** H(T) of a point that holds the given mass fraction of solid when T is the melting
      * point. */
-    double
-    enthalpy(double temperature, double solid_fraction_at_melting = 0) const
+    double enthalpy(double temperature, double solid_fraction_at_melting = 0) const
     {
       const double excess = temperature - melting_temperature;
       if(excess < 0)
@@ -65,8 +61,7 @@ namespace meltfront::cases
 
     /** clamp(1 - H/L, 0, 1), the mass fraction of solid; without latent heat a step at H
      * = 0. */
-    double
-    solid_fraction(double enthalpy) const
+    double solid_fraction(double enthalpy) const
     {
       if(latent_heat == 0)
         return enthalpy < 0 ? 1. : 0.;

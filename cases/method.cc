@@ -7,8 +7,7 @@
 
 namespace meltfront::cases
 {
-  void
-  require_effects(const Method &method, const EffectSet &effects)
+  void require_effects(const Method &method, const EffectSet &effects)
   {
     const auto supported = method.supported_effects();
     std::string missing;

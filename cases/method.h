@@ -50,8 +50,7 @@ namespace meltfront::cases
     virtual ~Observer() = default;
 
     /** Called once, after set-up and before the first snapshot. */
-    virtual void
-    begin(const RunDescription &)
+    virtual void begin(const RunDescription &)
     {
     }
 
@@ -104,8 +103,7 @@ namespace meltfront::cases
 
     /** Name of the method of which this is the form as published (`sph` for `sph-2005`),
      * or empty. */
-    virtual std::string
-    corrected_form() const
+    virtual std::string corrected_form() const
     {
       return {};
     }

@@ -13,9 +13,8 @@ namespace meltfront::cases
   namespace
   {
     template <typename Number>
-    Number
-    parse_number(const OptionDeclaration &option, const std::string &text,
-                 const char *kind)
+    Number parse_number(const OptionDeclaration &option, const std::string &text,
+                        const char *kind)
     {
       Number number{};
       const auto [end, error]
@@ -29,8 +28,7 @@ namespace meltfront::cases
       return number;
     }
 
-    OptionValue
-    parse(const OptionDeclaration &option, const std::string &text)
+    OptionValue parse(const OptionDeclaration &option, const std::string &text)
     {
       switch(option.default_value.index())
       {
@@ -54,8 +52,7 @@ namespace meltfront::cases
       }
     }
 
-    std::size_t
-    edit_distance(const std::string &a, const std::string &b)
+    std::size_t edit_distance(const std::string &a, const std::string &b)
     {
       std::vector<std::size_t> row(b.size() + 1);
       std::iota(row.begin(), row.end(), 0);
@@ -74,12 +71,11 @@ namespace meltfront::cases
   } // namespace
 
   Options::Options(std::vector<OptionDeclaration> declarations)
-      : declared(std::move(declarations))
+    : declared(std::move(declarations))
   {
   }
 
-  const OptionDeclaration &
-  Options::declaration(const std::string &key) const
+  const OptionDeclaration &Options::declaration(const std::string &key) const
   {
     std::vector<std::string> keys;
     for(const OptionDeclaration &option : declared)
@@ -94,45 +90,38 @@ namespace meltfront::cases
                                        key, nearest_name(key, keys)));
   }
 
-  void
-  Options::set(const std::string &key, const std::string &text)
+  void Options::set(const std::string &key, const std::string &text)
   {
     overridden[key] = parse(declaration(key), text);
   }
 
-  const OptionValue &
-  Options::value(const std::string &key) const
+  const OptionValue &Options::value(const std::string &key) const
   {
     const auto found = overridden.find(key);
     return found == overridden.end() ? declaration(key).default_value : found->second;
   }
 
-  bool
-  Options::get_bool(const std::string &key) const
+  bool Options::get_bool(const std::string &key) const
   {
     return std::get<bool>(value(key));
   }
 
-  long
-  Options::get_integer(const std::string &key) const
+  long Options::get_integer(const std::string &key) const
   {
     return std::get<long>(value(key));
   }
 
-  double
-  Options::get_double(const std::string &key) const
+  double Options::get_double(const std::string &key) const
   {
     return std::get<double>(value(key));
   }
 
-  const std::string &
-  Options::get_string(const std::string &key) const
+  const std::string &Options::get_string(const std::string &key) const
   {
     return std::get<std::string>(value(key));
   }
 
-  std::map<std::string, std::string>
-  Options::values() const
+  std::map<std::string, std::string> Options::values() const
   {
     std::map<std::string, std::string> result;
     for(const OptionDeclaration &option : declared)
@@ -140,20 +129,18 @@ namespace meltfront::cases
     return result;
   }
 
-  const std::vector<OptionDeclaration> &
-  Options::declarations() const
+  const std::vector<OptionDeclaration> &Options::declarations() const
   {
     return declared;
   }
 
-  std::string
-  to_text(const OptionValue &value)
+  std::string to_text(const OptionValue &value)
   {
     return std::visit([](const auto &held) { return fmt::format("{}", held); }, value);
   }
 
-  std::string
-  nearest_name(const std::string &word, const std::vector<std::string> &candidates)
+  std::string nearest_name(const std::string &word,
+                           const std::vector<std::string> &candidates)
   {
     const auto nearest
         = std::min_element(candidates.begin(), candidates.end(),

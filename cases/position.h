@@ -21,8 +21,7 @@ namespace meltfront::cases
   };
 
   /** The one coordinate that a symmetric solution depends on; x for Symmetry::none. */
-  inline double
-  coordinate(Symmetry symmetry, const Position &p)
+  inline double coordinate(Symmetry symmetry, const Position &p)
   {
     switch(symmetry)
     {
@@ -37,8 +36,7 @@ namespace meltfront::cases
 
   /** Volume between two coordinates: length, pi r^2 or 4/3 pi r^3 differences (m, m^2,
    * m^3). */
-  inline double
-  volume_between(Symmetry symmetry, double lower, double upper)
+  inline double volume_between(Symmetry symmetry, double lower, double upper)
   {
     switch(symmetry)
     {
@@ -53,8 +51,7 @@ namespace meltfront::cases
   }
 
   /** Inverse of volume_between(symmetry, 0, r): the coordinate that encloses a volume. */
-  inline double
-  enclosing_coordinate(Symmetry symmetry, double volume)
+  inline double enclosing_coordinate(Symmetry symmetry, double volume)
   {
     switch(symmetry)
     {

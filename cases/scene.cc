@@ -8,21 +8,18 @@
 
 namespace meltfront::cases
 {
-  Field
-  Field::uniform(double value)
+  Field Field::uniform(double value)
   {
     return {fmt::format("{}", value), [value](const Position &, double) { return value; },
             true};
   }
 
-  double
-  Domain::side() const
+  double Domain::side() const
   {
     return shape == DomainShape::ball ? 2 * radius : upper[0] - lower[0];
   }
 
-  const char *
-  to_string(Side side)
+  const char *to_string(Side side)
   {
     constexpr const char *names[]
         = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "outer"};
@@ -30,8 +27,7 @@ namespace meltfront::cases
     return names[static_cast<std::size_t>(side)];
   }
 
-  const Boundary &
-  Scene::boundary(Side side) const
+  const Boundary &Scene::boundary(Side side) const
   {
     const auto &found = boundaries[static_cast<std::size_t>(side)];
     if(!found)
@@ -39,8 +35,7 @@ namespace meltfront::cases
     return *found;
   }
 
-  std::vector<Side>
-  Scene::sides() const
+  std::vector<Side> Scene::sides() const
   {
     std::vector<Side> result;
     for(std::size_t s = 0; s < n_sides; ++s)
@@ -57,8 +52,7 @@ namespace meltfront::cases
     /** The sample points of a line of `samples_across` points in each direction of the
      * domain. */
     template <typename Visit>
-    void
-    visit_points(const Domain &domain, const Visit &visit)
+    void visit_points(const Domain &domain, const Visit &visit)
     {
       const bool ball = domain.shape == DomainShape::ball;
       std::array<int, 3> count{1, 1, 1};
@@ -83,8 +77,7 @@ namespace meltfront::cases
           }
     }
 
-    bool
-    on_side(const Domain &domain, Side side, const Position &p)
+    bool on_side(const Domain &domain, Side side, const Position &p)
     {
       const double tolerance = 1e-9 * domain.side();
       if(side == Side::outer)
@@ -97,8 +90,7 @@ namespace meltfront::cases
     }
   } // namespace
 
-  TemperatureBounds
-  temperature_bounds(const Scene &scene)
+  TemperatureBounds temperature_bounds(const Scene &scene)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double lower = infinity, upper = -infinity;
@@ -163,9 +155,9 @@ namespace meltfront::cases
     return {lower - slack, upper + slack};
   }
 
-  void
-  check_temperature(const TemperatureBounds &bounds, double lowest, double highest,
-                    const std::string &method, long step, double time, double tolerance)
+  void check_temperature(const TemperatureBounds &bounds, double lowest, double highest,
+                         const std::string &method, long step, double time,
+                         double tolerance)
   {
     if(!std::isfinite(lowest) || !std::isfinite(highest))
       throw NumericalError(method, step, time, "temperature", "is not finite");

@@ -24,8 +24,7 @@ namespace meltfront::cases
     std::function<double(const Position &, double time)> value;
     bool constant = false; ///< neither space nor time matters
 
-    double
-    operator()(const Position &position, double time) const
+    double operator()(const Position &position, double time) const
     {
       return value(position, time);
     }

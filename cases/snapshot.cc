@@ -5,8 +5,7 @@
 
 namespace meltfront::cases
 {
-  double
-  HeatBudget::defect() const
+  double HeatBudget::defect() const
   {
     const double scale = std::max({std::abs(stored) + std::abs(latent), std::abs(initial),
                                    std::abs(boundary), std::abs(sources)});
