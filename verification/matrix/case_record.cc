@@ -1,0 +1,298 @@
+#include <verification/matrix/case_record.h>
+#include <verification/matrix/hash.h>
+#include <verification/matrix/json_values.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using nlohmann::json;
+    using verification::json_of;
+
+    const char *name_of(cases::Symmetry symmetry)
+    {
+      switch(symmetry)
+      {
+      case cases::Symmetry::planar:
+        return "planar";
+      case cases::Symmetry::cylindrical:
+        return "cylindrical";
+      case cases::Symmetry::spherical:
+        return "spherical";
+      default:
+        return "none";
+      }
+    }
+
+    const char *name_of(cases::DomainShape shape)
+    {
+      switch(shape)
+      {
+      case cases::DomainShape::slab:
+        return "slab";
+      case cases::DomainShape::box:
+        return "box";
+      default:
+        return "ball";
+      }
+    }
+
+    const char *name_of(cases::Statistic statistic)
+    {
+      switch(statistic)
+      {
+      case cases::Statistic::value:
+        return "value";
+      case cases::Statistic::order:
+        return "order";
+      default:
+        return "worst";
+      }
+    }
+
+    cases::Statistic statistic_named(const std::string &name)
+    {
+      if(name == name_of(cases::Statistic::value))
+        return cases::Statistic::value;
+      return name == name_of(cases::Statistic::order) ? cases::Statistic::order
+                                                      : cases::Statistic::worst;
+    }
+
+    std::string words(const cases::Boundary &boundary)
+    {
+      switch(boundary.kind)
+      {
+      case cases::BoundaryKind::fixed_temperature:
+        return boundary.exact ? "temperature of the exact solution"
+                              : "fixed temperature " + boundary.value.expression;
+      case cases::BoundaryKind::flux:
+        return "heat flux inward " + boundary.value.expression;
+      case cases::BoundaryKind::periodic:
+        return "periodic";
+      default:
+        return "insulated";
+      }
+    }
+
+    std::string words(const cases::Scene &scene, const cases::PointSource &source)
+    {
+      const auto coordinates
+          = std::vector(source.position.begin(),
+                        source.position.begin() + std::max(scene.domain.dimension, 1));
+      const char *unit = scene.domain.dimension == 3 ? "W" : "W/m";
+      return fmt::format("at ({}): {}{}", fmt::join(coordinates, ", "), source.expression,
+                         scene.units == "SI" ? fmt::format(" {}", unit) : "");
+    }
+
+    std::string words(const cases::InitialState &state)
+    {
+      if(state.exact)
+        return "the exact solution at the start time";
+      std::string result = "temperature " + state.temperature.expression;
+      if(state.solid_fraction_at_melting != 0)
+        result += fmt::format("; solid fraction {} where it is the melting point",
+                              state.solid_fraction_at_melting);
+      return result;
+    }
+
+    json json_of(const cases::PhaseProperties &phase)
+    {
+      return {{"conductivity", json_of(phase.conductivity)},
+              {"specific_heat_capacity", json_of(phase.specific_heat_capacity)},
+              {"density", json_of(phase.density)}};
+    }
+
+    cases::PhaseProperties phase_in(const json &json)
+    {
+      return {number_in(json.at("conductivity")),
+              number_in(json.at("specific_heat_capacity")),
+              number_in(json.at("density"))};
+    }
+
+    json json_of(const cases::Material &material)
+    {
+      return {{"solid", json_of(material.solid)},
+              {"liquid", json_of(material.liquid)},
+              {"latent_heat", json_of(material.latent_heat)},
+              {"melting_temperature", json_of(material.melting_temperature)}};
+    }
+
+    cases::Material material_in(const json &json)
+    {
+      return {phase_in(json.at("solid")), phase_in(json.at("liquid")),
+              number_in(json.at("latent_heat")),
+              number_in(json.at("melting_temperature"))};
+    }
+
+    json json_of(const cases::Measurement &m)
+    {
+      return {{"samples", m.samples},
+              {"square_root_clock", m.square_root_clock},
+              {"temperature_from", json_of(m.temperature_from)},
+              {"temperature_to", json_of(m.temperature_to)},
+              {"front_floor", json_of(m.front_floor)},
+              {"monotone_front", m.monotone_front}};
+    }
+
+    cases::Measurement measurement_in(const json &json)
+    {
+      return {json.at("samples"),
+              json.at("square_root_clock"),
+              number_in(json.at("temperature_from")),
+              number_in(json.at("temperature_to")),
+              number_in(json.at("front_floor")),
+              json.at("monotone_front")};
+    }
+
+    json json_of(const cases::Criterion &c)
+    {
+      return {{"text", c.text},
+              {"method", c.method},
+              {"quantity", c.quantity},
+              {"statistic", name_of(c.statistic)},
+              {"n", c.n},
+              {"n_from", c.n_from},
+              {"n_to", c.n_to},
+              {"lower", json_of(c.lower)},
+              {"upper", json_of(c.upper)},
+              {"known_shortfall", c.known_shortfall}};
+    }
+
+    cases::Criterion criterion_in(const json &json)
+    {
+      cases::Criterion criterion;
+      criterion.text = json.at("text");
+      criterion.method = json.at("method");
+      criterion.quantity = json.at("quantity");
+      criterion.statistic = statistic_named(json.at("statistic"));
+      criterion.n = json.at("n");
+      criterion.n_from = json.at("n_from");
+      criterion.n_to = json.at("n_to");
+      criterion.lower = number_in(json.at("lower"));
+      criterion.upper = number_in(json.at("upper"));
+      criterion.known_shortfall = json.at("known_shortfall");
+      return criterion;
+    }
+
+    json json_of(const cases::PrintedValue &p)
+    {
+      return {{"source", p.source},
+              {"method", p.method},
+              {"quantity", p.quantity},
+              {"n", p.n},
+              {"value", json_of(p.value)}};
+    }
+
+    cases::PrintedValue printed_in(const json &json)
+    {
+      return {json.at("source"), json.at("method"), json.at("quantity"), json.at("n"),
+              number_in(json.at("value"))};
+    }
+
+    /** Calls visit(name, member) for each member that JSON knows as it is. */
+    template <typename Record, typename Visit>
+    void visit_plain(Record &record, const Visit &visit)
+    {
+      visit("name", record.name);
+      visit("title", record.title);
+      visit("description", record.description);
+      visit("tags", record.tags);
+      visit("limits", record.limits);
+      visit("units", record.units);
+      visit("symmetry", record.symmetry);
+      visit("shape", record.shape);
+      visit("dimension", record.dimension);
+      visit("initial_state", record.initial_state);
+      visit("boundaries", record.boundaries);
+      visit("sources", record.sources);
+      visit("exact", record.exact);
+      visit("text", record.text);
+      visit("hash", record.hash);
+    }
+  } // namespace
+
+  CaseRecord make_case_record(const cases::Case &c)
+  {
+    const cases::Scene &scene = c.scene;
+    CaseRecord record;
+    record.name = scene.name;
+    record.title = c.title;
+    record.description = c.description;
+    record.tags = c.tags;
+    record.limits = c.limits;
+    record.units = scene.units;
+    record.symmetry = name_of(scene.symmetry);
+    record.shape = name_of(scene.domain.shape);
+    record.dimension = scene.domain.dimension;
+    record.lower = scene.domain.lower;
+    record.upper = scene.domain.upper;
+    record.radius = scene.domain.radius;
+    record.material = scene.material;
+    record.initial_state = words(scene.initial);
+    for(const cases::Side side : scene.sides())
+      record.boundaries.push_back(
+          fmt::format("{}: {}", cases::to_string(side), words(scene.boundary(side))));
+    for(const cases::PointSource &source : scene.sources)
+    {
+      record.source_positions.push_back(source.position);
+      record.sources.push_back(words(scene, source));
+    }
+    record.start_time = scene.start_time;
+    record.end_time = scene.end_time;
+    record.exact = c.exact ? c.exact->description() : "";
+    record.front_exact_end = c.exact ? c.exact->front(scene.end_time)
+                                     : std::numeric_limits<double>::quiet_NaN();
+    record.measurement = c.measurement;
+    record.criteria = c.criteria;
+    record.printed = c.printed;
+    record.text = c.text;
+    record.hash = sha256(c.text);
+    return record;
+  }
+
+  void to_json(nlohmann::json &json, const CaseRecord &record)
+  {
+    json = nlohmann::json::object();
+    visit_plain(record, [&](const char *name, const auto &value) { json[name] = value; });
+    json["lower"] = json_of(record.lower);
+    json["upper"] = json_of(record.upper);
+    json["radius"] = json_of(record.radius);
+    json["material"] = json_of(record.material);
+    json["start_time"] = json_of(record.start_time);
+    json["end_time"] = json_of(record.end_time);
+    json["front_exact_end"] = json_of(record.front_exact_end);
+    json["measurement"] = json_of(record.measurement);
+    for(const char *list : {"source_positions", "criteria", "printed"})
+      json[list] = nlohmann::json::array();
+    for(const cases::Position &position : record.source_positions)
+      json["source_positions"].push_back(json_of(position));
+    for(const cases::Criterion &criterion : record.criteria)
+      json["criteria"].push_back(json_of(criterion));
+    for(const cases::PrintedValue &printed : record.printed)
+      json["printed"].push_back(json_of(printed));
+  }
+
+  void from_json(const nlohmann::json &json, CaseRecord &record)
+  {
+    record = {};
+    visit_plain(record,
+                [&](const char *name, auto &value) { json.at(name).get_to(value); });
+    record.lower = position_in(json.at("lower"));
+    record.upper = position_in(json.at("upper"));
+    record.radius = number_in(json.at("radius"));
+    record.material = material_in(json.at("material"));
+    record.start_time = number_in(json.at("start_time"));
+    record.end_time = number_in(json.at("end_time"));
+    record.front_exact_end = number_in(json.at("front_exact_end"));
+    record.measurement = measurement_in(json.at("measurement"));
+    for(const auto &position : json.at("source_positions"))
+      record.source_positions.push_back(position_in(position));
+    for(const auto &criterion : json.at("criteria"))
+      record.criteria.push_back(criterion_in(criterion));
+    for(const auto &printed : json.at("printed"))
+      record.printed.push_back(printed_in(printed));
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,175 @@
+#include <verification/matrix/criteria.h>
+#include <verification/measure/order_fit.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr int fewest_levels = 4;
+
+    using Runs = std::vector<const RunRecord *>;
+
+    /** The runs that a criterion is about. */
+    Runs runs_of(const MatrixResult &result, const std::string &case_name,
+                 const cases::Criterion &criterion)
+    {
+      Runs runs;
+      const bool at_one_n = criterion.statistic == cases::Statistic::value;
+      for(const RunRecord &run : result.runs)
+        if(run.case_name == case_name && run.label == criterion.method
+           && (at_one_n ? run.n == criterion.n
+                        : run.n >= criterion.n_from && run.n <= criterion.n_to))
+          runs.push_back(&run);
+      return runs;
+    }
+
+    int different_resolutions(const Runs &runs)
+    {
+      std::vector<int> n;
+      for(const RunRecord *run : runs)
+        if(std::ranges::find(n, run->n) == n.end())
+          n.push_back(run->n);
+      return static_cast<int>(n.size());
+    }
+
+    std::string quantity_text(const cases::Criterion &criterion)
+    {
+      if(criterion.statistic == cases::Statistic::value)
+        return fmt::format("{} at n={}", criterion.quantity, criterion.n);
+      const bool all
+          = criterion.n_from <= 0 && criterion.n_to == std::numeric_limits<int>::max();
+      return fmt::format(
+          "{} {}{}",
+          criterion.statistic == cases::Statistic::order ? "order of" : "worst",
+          criterion.quantity,
+          all ? "" : fmt::format(" over n={}..{}", criterion.n_from, criterion.n_to));
+    }
+
+    /** Why the matrix says nothing on a criterion; empty if it does. */
+    std::string reason_not_judged(const Runs &runs, const cases::Criterion &criterion)
+    {
+      if(runs.empty())
+        return "the matrix has no such run";
+      if(criterion.statistic == cases::Statistic::order
+         && different_resolutions(runs) < fewest_levels)
+        return "an order needs four resolutions and the matrix has fewer";
+      return {};
+    }
+
+    double order_over(const Runs &runs, const std::string &quantity)
+    {
+      std::vector<double> h, errors;
+      for(const RunRecord *run : runs)
+        if(run->status != RunStatus::refused)
+        {
+          h.push_back(run->status == RunStatus::finished ? run->description.spacing
+                                                         : nan);
+          errors.push_back(table_value(*run, quantity));
+        }
+      const OrderFit fit = fit_order(h, errors);
+      return fit.levels >= fewest_levels ? fit.order : nan;
+    }
+
+    double worst_over(const Runs &runs, const std::string &quantity)
+    {
+      double worst = nan;
+      for(const RunRecord *run : runs)
+      {
+        if(run->status == RunStatus::refused)
+          continue;
+        const double value = table_value(*run, quantity);
+        if(std::isnan(value))
+          return nan;
+        worst = std::fmax(worst, value);
+      }
+      return worst;
+    }
+
+    double mean_over(const Runs &runs, const std::string &quantity)
+    {
+      double sum = 0;
+      for(const RunRecord *run : runs)
+        sum += table_value(*run, quantity);
+      return sum / static_cast<double>(runs.size());
+    }
+
+    double value_of(const Runs &runs, const cases::Criterion &criterion)
+    {
+      switch(criterion.statistic)
+      {
+      case cases::Statistic::order:
+        return order_over(runs, criterion.quantity);
+      case cases::Statistic::worst:
+        return worst_over(runs, criterion.quantity);
+      default:
+        return mean_over(runs, criterion.quantity);
+      }
+    }
+
+    std::string omission(const RunRecord &run)
+    {
+      return fmt::format("{}, {}, n = {}{}: {}: {}", run.case_name, run.label, run.n,
+                         run.seed == 1 ? "" : fmt::format(", seed {}", run.seed),
+                         to_string(run.status), run.message);
+    }
+  } // namespace
+
+  double table_value(const RunRecord &run, const std::string &name)
+  {
+    if(run.status != RunStatus::finished)
+      return nan;
+    if(const auto found = run.quantities.find(name); found != run.quantities.end())
+      return found->second;
+    const cases::Cost &cost = run.cost;
+    const std::map<std::string, double> columns{
+        {"h", run.description.spacing},
+        {"unknowns", static_cast<double>(cost.unknowns)},
+        {"steps", static_cast<double>(cost.steps)},
+        {"work", static_cast<double>(cost.work)},
+        {"solver_iterations", static_cast<double>(cost.solver_iterations)},
+        {"capped_steps", static_cast<double>(cost.capped_steps)},
+        {"cpu_seconds", cost.setup_cpu + cost.stepping_cpu},
+        {"wall_seconds", cost.setup_wall + cost.stepping_wall},
+        {"peak_memory_mb", run.peak_memory_mb}};
+    const auto found = columns.find(name);
+    return found == columns.end() ? nan : found->second;
+  }
+
+  void evaluate(MatrixResult &result)
+  {
+    result.criteria.clear();
+    result.passed = true;
+    for(const RunRecord &run : result.runs)
+      if(run.status != RunStatus::finished)
+      {
+        result.omissions.push_back(omission(run));
+        result.passed = result.passed && run.status == RunStatus::refused;
+      }
+    for(const CaseRecord &record : result.cases)
+      for(const cases::Criterion &criterion : record.criteria)
+      {
+        const Runs runs = runs_of(result, record.name, criterion);
+        const std::string reason = reason_not_judged(runs, criterion);
+        if(!reason.empty())
+        {
+          result.omissions.push_back(fmt::format("{}, {}: {}: not judged: {}",
+                                                 record.name, criterion.method,
+                                                 quantity_text(criterion), reason));
+          continue;
+        }
+        const double value = value_of(runs, criterion);
+        const bool passed = value >= criterion.lower && value <= criterion.upper;
+        result.criteria.push_back({record.name, criterion.method,
+                                   quantity_text(criterion), value, criterion.lower,
+                                   criterion.upper, passed, criterion.known_shortfall});
+        result.passed = result.passed && passed;
+      }
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,38 @@
+#ifndef meltfront_verification_matrix_criteria_h
+#define meltfront_verification_matrix_criteria_h
+
+#include <verification/matrix/matrix_result.h>
+
+#include <string>
+
+namespace meltfront::verification
+{
+  /**
+   * A number of a finished run by its column's name: a quantity, or `h`, `unknowns`,
+   * `steps`, `work`, `solver_iterations`, `capped_steps`, `cpu_seconds`, `wall_seconds`,
+   * `peak_memory_mb`. NaN for a run that did not finish and for an unknown name.
+   */
+  double table_value(const RunRecord &run, const std::string &name);
+
+  /**
+   * Hold the criteria of every case of a matrix against its runs; fills `criteria` and
+   * `passed`, and appends to `omissions`.
+   *
+   * A criterion concerns the runs whose label is its method, which is to say with no
+   * option set by the matrix. Runs of several seeds count with their mean (`worst`: the
+   * largest). Refused runs are no part of an order or a worst value. A criterion is not
+   * judged, and listed as an omission, if the matrix has no such run: no run of the
+   * method at its n, none at all for `worst`, fewer than four resolutions for an order.
+   * A run that failed, was refused at the criterion's n or is missing makes the
+   * value NaN, which does not pass.
+   *
+   * `passed` asks that every criterion judged passes and that no run failed or is
+   * missing.
+   *
+   * Omissions are the refused, failed and missing runs with their reasons, and the
+   * criteria that were not judged.
+   */
+  void evaluate(MatrixResult &result);
+} // namespace meltfront::verification
+
+#endif

@@ -1,0 +1,117 @@
+#include <cases/error.h>
+#include <verification/matrix/matrix.h>
+#include <verification/matrix/run_one.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using OptionValues = std::map<std::string, std::string>;
+
+    /** Every combination of the values that a block gives to one method's options. */
+    std::vector<OptionValues> combinations(const MatrixBlock &block,
+                                           const std::string &method)
+    {
+      std::vector<OptionValues> result{{}};
+      for(const OptionAxis &axis : block.options)
+      {
+        if(axis.method != method)
+          continue;
+        std::vector<OptionValues> extended;
+        for(const OptionValues &values : result)
+          for(const std::string &value : axis.values)
+          {
+            extended.push_back(values);
+            extended.back()[axis.key] = value;
+          }
+        result = std::move(extended);
+      }
+      return result;
+    }
+
+    void check(const Matrix &matrix, const MatrixBlock &block)
+    {
+      const auto fail = [&](const std::string &problem)
+      { throw cases::InputError(fmt::format("matrix '{}': {}", matrix.name, problem)); };
+      if(block.cases.empty() || block.methods.empty() || block.resolutions.empty()
+         || block.seeds.empty() || block.threads.empty())
+        fail("a block needs at least one case, one method, one resolution, one seed and "
+             "one "
+             "number of threads");
+      for(const int n : block.resolutions)
+        if(n < 1)
+          fail(fmt::format("a resolution must be at least 1, not {}", n));
+      for(const int threads : block.threads)
+        if(threads < 1)
+          fail(fmt::format("a run needs at least 1 thread, not {}", threads));
+      for(const OptionAxis &axis : block.options)
+      {
+        if(std::ranges::find(block.methods, axis.method) == block.methods.end())
+          fail(
+              fmt::format("option {}.{} belongs to a method that its block does not name",
+                          axis.method, axis.key));
+        if(axis.values.empty())
+          fail(fmt::format("option {}.{} has no value", axis.method, axis.key));
+      }
+    }
+
+    void add_runs(const MatrixBlock &block, const std::string &case_name,
+                  const MethodLookup &methods, std::vector<PlannedRun> &runs)
+    {
+      for(const std::string &name : block.methods)
+      {
+        const cases::Method &method = methods(name);
+        for(const OptionValues &values : combinations(block, name))
+          for(const int threads : block.threads)
+          {
+            cases::Options options(method.option_declarations());
+            for(const auto &[key, value] : values)
+              options.set(key, value);
+            for(const int n : block.resolutions)
+              for(const std::uint64_t seed : block.seeds)
+                runs.push_back({case_name, name, run_label(name, values, threads),
+                                cases::Resolution{n, options, seed, threads}});
+          }
+      }
+    }
+  } // namespace
+
+  std::string PlannedRun::file() const
+  {
+    std::string folder = label;
+    std::ranges::replace(folder, '/', '_');
+    return fmt::format("runs/{}/{}/n={}{}/run.json", case_name, folder, resolution.n,
+                       resolution.seed == 1 ? ""
+                                            : fmt::format(",seed={}", resolution.seed));
+  }
+
+  std::vector<std::string> case_names(const Matrix &matrix)
+  {
+    std::vector<std::string> names;
+    for(const MatrixBlock &block : matrix.blocks)
+      for(const std::string &name : block.cases)
+        if(std::ranges::find(names, name) == names.end())
+          names.push_back(name);
+    return names;
+  }
+
+  std::vector<PlannedRun> plan_runs(const Matrix &matrix, const MethodLookup &methods)
+  {
+    for(const MatrixBlock &block : matrix.blocks)
+      check(matrix, block);
+    std::vector<PlannedRun> runs;
+    for(const std::string &name : case_names(matrix))
+      for(const MatrixBlock &block : matrix.blocks)
+        if(std::ranges::find(block.cases, name) != block.cases.end())
+          add_runs(block, name, methods, runs);
+    std::set<std::string> known;
+    std::erase_if(runs, [&](const PlannedRun &run)
+                  { return !known.insert(run.file()).second; });
+    return runs;
+  }
+} // namespace meltfront::verification

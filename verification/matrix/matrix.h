@@ -1,0 +1,78 @@
+#ifndef meltfront_verification_matrix_matrix_h
+#define meltfront_verification_matrix_matrix_h
+
+#include <cases/case.h>
+#include <cases/method.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace meltfront::verification
+{
+  /** Values that a matrix gives to an option of a method. */
+  struct OptionAxis
+  {
+    std::string method;
+    std::string key;
+    std::vector<std::string> values;
+  };
+
+  /** Every case with every method at every resolution, with every combination of the
+   * option values that are the method's. */
+  struct MatrixBlock
+  {
+    std::vector<std::string> cases;
+    std::vector<std::string> methods;
+    std::vector<int> resolutions;
+    std::vector<OptionAxis> options;
+    std::vector<std::uint64_t> seeds{1};
+    std::vector<int> threads{1};
+  };
+
+  /** Cases x methods x resolutions: what is to be run. */
+  struct Matrix
+  {
+    std::string name;
+    std::string title;
+    std::string description;
+    bool hard_cases = false; ///< the report shows the table held / refused / failed
+    double time_limit = 600; ///< of one run (wall s)
+    std::vector<MatrixBlock> blocks;
+  };
+
+  /** One cell of a matrix. */
+  struct PlannedRun
+  {
+    std::string case_name;
+    std::string method;
+    std::string label;
+    cases::Resolution resolution;
+
+    /** `runs/CASE/LABEL/n=N/run.json`, with `,seed=S` after N for a seed other than 1. */
+    std::string file() const;
+  };
+
+  /** Finds a case by name. @throws InputError */
+  using CaseLoader = std::function<cases::Case(const std::string &name)>;
+
+  /** Finds a method by name. @throws InputError */
+  using MethodLookup = std::function<const cases::Method &(const std::string &name)>;
+
+  /** The cases of a matrix, each once, in the order in which they are first named. */
+  std::vector<std::string> case_names(const Matrix &matrix);
+
+  /**
+   * The runs of a matrix, each once: by case as first named, then by method, option
+   * values, resolution and seed as written.
+   *
+   * @throws InputError for a method that there is not, an option that the method does not
+   * have or a value that it does not take, options of a method that the block does not
+   * name, a resolution or number of threads below 1, and a block without any run.
+   */
+  std::vector<PlannedRun> plan_runs(const Matrix &matrix, const MethodLookup &methods);
+} // namespace meltfront::verification
+
+#endif

@@ -1,0 +1,31 @@
+#ifndef meltfront_verification_matrix_matrix_files_h
+#define meltfront_verification_matrix_matrix_files_h
+
+#include <verification/matrix/matrix.h>
+#include <verification/matrix/matrix_result.h>
+
+#include <string>
+#include <vector>
+
+namespace meltfront::verification
+{
+  /**
+   * Write what is known before the first run: DIR/matrix.json (title, date, version and
+   * the list of runs) and DIR/cases/CASE.json. With it, load_matrix_result() can read a
+   * matrix that is still running or was killed.
+   */
+  void write_plan(const std::string &directory, const Matrix &matrix,
+                  const std::vector<CaseRecord> &cases,
+                  const std::vector<PlannedRun> &runs,
+                  const std::string &program_version);
+
+  /**
+   * Write DIR/summary.json: `passed`, `criteria` (each with `case`, `method`, `quantity`,
+   * `value`, `bound`, `passed`, `known_shortfall`; `bound` is a number where one side is
+   * bounded, which one says `relation`, `<=` or `>=`; and [lower, upper] with `in`),
+   * `omissions`.
+   */
+  void write_summary(const std::string &directory, const MatrixResult &result);
+} // namespace meltfront::verification
+
+#endif

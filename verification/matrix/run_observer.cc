@@ -1,0 +1,264 @@
+#include <cases/error.h>
+#include <verification/matrix/end_profile.h>
+#include <verification/matrix/run_observer.h>
+#include <verification/measure/temperature_error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr int fewest_samples = 50;
+
+    /** Relative to the duration: a time this near another is the same. */
+    constexpr double time_tolerance = 1e-9;
+
+    /** Farthest that a front fell back behind where it had been on its way from the first
+     * to the last position. */
+    double largest_backstep(const std::vector<double> &front)
+    {
+      if(front.empty())
+        return nan;
+      const double direction = front.back() < front.front() ? -1 : 1;
+      double farthest = direction * front.front(), backstep = 0;
+      for(const double position : front)
+      {
+        farthest = std::max(farthest, direction * position);
+        backstep = std::max(backstep, farthest - direction * position);
+      }
+      return backstep;
+    }
+
+    double partly_frozen_fraction(const cases::Snapshot &snapshot)
+    {
+      double sum = 0;
+      int sites = 0;
+      for(std::size_t i = 0; i < snapshot.solid_fraction.size(); ++i)
+      {
+        const double fraction = snapshot.solid_fraction[i];
+        if(snapshot.weights[i] > 0 && fraction > 0 && fraction < 1)
+        {
+          sum += fraction;
+          ++sites;
+        }
+      }
+      return sites > 0 ? sum / sites : nan;
+    }
+  } // namespace
+
+  void ErrorStatistics::add(double error)
+  {
+    if(std::isnan(error))
+      return;
+    ++count;
+    squares += error * error;
+    maximum = std::max(maximum, std::abs(error));
+  }
+
+  double ErrorStatistics::root_mean_square() const
+  {
+    return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : nan;
+  }
+
+  double ErrorStatistics::largest() const
+  {
+    return count > 0 ? maximum : nan;
+  }
+
+  RunObserver::RunObserver(const cases::Case &c, const cases::Scene &simulated,
+                           const std::string &method, cases::Observer *second)
+    : the_case(c)
+    , scene(simulated)
+    , exact(c.exact.get())
+    , method(method)
+    , second(second)
+    , bounds(cases::temperature_bounds(simulated))
+  {
+    if(!(scene.end_time > scene.start_time))
+      throw cases::InputError(fmt::format(
+          "{}: the end time {} is not after the start time {}, so that there is "
+          "nothing to measure",
+          scene.name, scene.end_time, scene.start_time));
+    const int samples = c.measurement.samples;
+    if(samples != 0 && samples < fewest_samples)
+      throw cases::InputError(fmt::format("{}: {} samples are too few for a root mean "
+                                          "square over time; take {} or more, or "
+                                          "0 for every step",
+                                          scene.name, samples, fewest_samples));
+  }
+
+  void RunObserver::begin(const cases::RunDescription &description)
+  {
+    run_description = description;
+    reader.emplace(scene, exact, description.spacing, description.smoothing_length);
+    if(second)
+      second->begin(description);
+  }
+
+  double RunObserver::clock(double time) const
+  {
+    const bool roots = the_case.measurement.square_root_clock;
+    const auto reading = [&](double t) { return roots ? std::sqrt(t) : t; };
+    return (reading(time) - reading(scene.start_time))
+           / (reading(scene.end_time) - reading(scene.start_time));
+  }
+
+  bool RunObserver::wants_itself(long step, double time) const
+  {
+    const int samples = the_case.measurement.samples;
+    return step == 0 || samples == 0
+           || clock(time) * samples >= samples_taken - samples * time_tolerance;
+  }
+
+  bool RunObserver::wants(long step, double time)
+  {
+    const bool second_wants = second && second->wants(step, time);
+    return wants_itself(step, time) || second_wants;
+  }
+
+  void RunObserver::observe(const cases::Snapshot &snapshot)
+  {
+    if(snapshot.step == last_step)
+      return;
+    const bool at_the_end = clock(snapshot.time) >= 1 - time_tolerance;
+    if(wants_itself(snapshot.step, snapshot.time) || at_the_end)
+      measure(snapshot);
+    if(at_the_end)
+      measure_end(snapshot);
+    if(second
+       && (second->wants(snapshot.step, snapshot.time) || snapshot.step == 0
+           || at_the_end))
+      second->observe(snapshot);
+    last_step = snapshot.step;
+  }
+
+  void RunObserver::judge(const cases::Snapshot &snapshot, double lowest,
+                          double highest) const
+  {
+    const auto finite = [](double value) { return std::isfinite(value); };
+    if(!std::ranges::all_of(snapshot.temperature, finite))
+      throw cases::NumericalError(method, snapshot.step, snapshot.time, "temperature",
+                                  "is not finite");
+    if(!std::ranges::all_of(snapshot.solid_fraction, finite))
+      throw cases::NumericalError(method, snapshot.step, snapshot.time, "solid fraction",
+                                  "is not finite");
+    if(!std::isfinite(snapshot.heat.defect()))
+      throw cases::NumericalError(method, snapshot.step, snapshot.time, "heat budget",
+                                  "is not finite");
+    cases::check_temperature(bounds, lowest, highest, method, snapshot.step,
+                             snapshot.time);
+  }
+
+  void RunObserver::measure(const cases::Snapshot &snapshot)
+  {
+    const auto [lowest, highest] = std::ranges::minmax(snapshot.temperature);
+    judge(snapshot, lowest, highest);
+    const int samples = the_case.measurement.samples;
+    samples_taken
+        = static_cast<int>(std::floor(samples * (clock(snapshot.time) + time_tolerance)))
+          + 1;
+    const FrontReading reading = reader->read(snapshot);
+    run_series.time.push_back(snapshot.time);
+    run_series.front.push_back(reading.latent_heat);
+    run_series.front_isotherm.push_back(reading.isotherm);
+    run_series.budget_defect.push_back(snapshot.heat.defect());
+    run_series.temperature_min.push_back(lowest);
+    run_series.temperature_max.push_back(highest);
+    if(exact)
+      compare_fronts(snapshot, reading);
+  }
+
+  void RunObserver::compare_fronts(const cases::Snapshot &snapshot,
+                                   const FrontReading &reading)
+  {
+    const bool known = snapshot.time >= exact->start_time();
+    const double expected = known ? exact->front(snapshot.time) : nan;
+    run_series.front_exact.push_back(expected);
+    if(!known || (snapshot.step == 0 && expected == 0))
+      return;
+    front.add(reading.latent_heat - expected);
+    if(snapshot.time >= (scene.start_time + scene.end_time) / 2)
+      late_front.add(reading.latent_heat - expected);
+    isotherm.add(reading.isotherm - expected);
+    if(std::isnan(reading.max_ice))
+      return;
+    max_ice.add(reading.max_ice - expected);
+    heat_loss.add(reading.heat_loss - expected);
+  }
+
+  void RunObserver::measure_end(const cases::Snapshot &snapshot)
+  {
+    const std::vector<double> &coordinates = reader->coordinates(snapshot);
+    end_profile = make_end_profile(snapshot, coordinates, exact, run_description.spacing);
+    at_end["front_end_position"] = run_series.front.back();
+    at_end["front_row_solid_fraction"] = partly_frozen_fraction(snapshot);
+    if(!exact)
+      return;
+    at_end["front_end"]
+        = std::abs(run_series.front.back() - run_series.front_exact.back());
+    const TemperatureError error = temperature_error(
+        snapshot, coordinates, *exact, scene.material.melting_temperature,
+        the_case.measurement.temperature_from, the_case.measurement.temperature_to);
+    at_end["temperature_l2"] = error.l2;
+    at_end["temperature_max"] = error.maximum;
+    at_end["temperature_rmse"] = error.rmse;
+  }
+
+  void RunObserver::require_end() const
+  {
+    const double reached = run_series.time.empty() ? nan : run_series.time.back();
+    if(at_end.empty())
+      throw cases::NumericalError(
+          method, last_step, reached, "time",
+          fmt::format("was not taken to the end, {:.6g}", scene.end_time));
+  }
+
+  const cases::RunDescription &RunObserver::description() const
+  {
+    return run_description;
+  }
+
+  const RunSeries &RunObserver::series() const
+  {
+    return run_series;
+  }
+
+  const RunProfile &RunObserver::profile() const
+  {
+    return end_profile;
+  }
+
+  std::map<std::string, double> RunObserver::quantities() const
+  {
+    const double end = exact ? std::abs(exact->front(scene.end_time)) : nan;
+    std::map<std::string, double> values{
+        {"front_end", nan},
+        {"front_end_position", nan},
+        {"front_row_solid_fraction", nan},
+        {"temperature_l2", nan},
+        {"temperature_max", nan},
+        {"temperature_rmse", nan},
+    };
+    for(const auto &[name, value] : at_end)
+      values[name] = value;
+    values["front_rms"] = front.root_mean_square();
+    values["front_max"] = front.largest();
+    values["front_rms_relative"] = front.root_mean_square() / end;
+    values["front_end_relative"] = values["front_end"] / end;
+    values["front_late_max_relative"] = late_front.largest() / end;
+    values["front_isotherm_rms"] = isotherm.root_mean_square();
+    values["front_max_ice_rms"] = max_ice.root_mean_square();
+    values["front_heat_loss_rms"] = heat_loss.root_mean_square();
+    values["front_backsteps"] = largest_backstep(run_series.front);
+    const auto &defects = run_series.budget_defect;
+    values["budget_defect"] = defects.empty() ? nan : std::ranges::max(defects);
+    if(the_case.measurement.front_floor > 0)
+      values["front_floor"] = the_case.measurement.front_floor;
+    return values;
+  }
+} // namespace meltfront::verification

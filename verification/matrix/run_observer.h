@@ -1,0 +1,112 @@
+#ifndef meltfront_verification_matrix_run_observer_h
+#define meltfront_verification_matrix_run_observer_h
+
+#include <cases/case.h>
+#include <cases/method.h>
+#include <verification/matrix/run_record.h>
+#include <verification/measure/front_reader.h>
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace meltfront::verification
+{
+  /** Errors gathered one by one; NaN is passed over. */
+  class ErrorStatistics
+  {
+  public:
+    void add(double error);
+
+    /** Root mean square; NaN for no error at all. */
+    double root_mean_square() const;
+
+    /** Largest magnitude; NaN for no error at all. */
+    double largest() const;
+
+  private:
+    long count = 0;
+    double squares = 0;
+    double maximum = 0;
+  };
+
+  /**
+   * Measures a run while it goes on: reads fronts and budgets from each snapshot, holds
+   * them against the case's exact solution, keeps the profile of the end.
+   *
+   * Snapshots are taken of the initial state, of the first step at or after each of
+   * Measurement::samples times equidistant in t or sqrt(t), and of the end. Each is
+   * judged: a state that is not finite or breaks the maximum principle ends the run with
+   * a NumericalError.
+   */
+  class RunObserver : public cases::Observer
+  {
+  public:
+    /**
+     * @param c the case, which outlives the observer
+     * @param simulated the case's scene as it is handed to the method, outlives it too
+     * @param method its name, for messages
+     * @param second receives what it wants of the same run, or null
+     * @throws InputError if the run ends when it starts (every error would be that of the
+     * initial state), or for fewer than 50 samples (but 0, every step).
+     */
+    RunObserver(const cases::Case &c, const cases::Scene &simulated,
+                const std::string &method, cases::Observer *second = nullptr);
+
+    void begin(const cases::RunDescription &description) override;
+    bool wants(long step, double time) override;
+    void observe(const cases::Snapshot &snapshot) override;
+
+    /** @throws NumericalError if the method did not take the run to its end. */
+    void require_end() const;
+
+    const cases::RunDescription &description() const;
+    const RunSeries &series() const;
+    const RunProfile &profile() const;
+
+    /**
+     * Results by name, NaN where not defined; errors of the front are found - exact, in
+     * m:
+     *
+     * front_rms, front_max: over all snapshots but an initial one without a front;
+     * front_end: |error| at the end; front_end_position: the front found there;
+     * front_rms_relative, front_end_relative: over the exact front at the end;
+     * front_late_max_relative: largest over the second half of the time, over the same;
+     * front_isotherm_rms: of the front read from T = T_m;
+     * front_max_ice_rms, front_heat_loss_rms: of the readings of the same names, over
+     * snapshots with at least one fully frozen site;
+     * front_row_solid_fraction: mean solid fraction of the partly frozen sites at the
+     * end; front_backsteps: farthest that the front fell back behind where it had been;
+     * front_floor: Measurement::front_floor, where it is not zero;
+     * temperature_l2, temperature_max, temperature_rmse: TemperatureError at the end;
+     * budget_defect: largest of any snapshot.
+     */
+    std::map<std::string, double> quantities() const;
+
+  private:
+    double clock(double time) const;
+    bool wants_itself(long step, double time) const;
+    void judge(const cases::Snapshot &snapshot, double lowest, double highest) const;
+    void measure(const cases::Snapshot &snapshot);
+    void compare_fronts(const cases::Snapshot &snapshot, const FrontReading &reading);
+    void measure_end(const cases::Snapshot &snapshot);
+
+    const cases::Case &the_case;
+    const cases::Scene &scene;
+    const cases::ExactSolution *exact;
+    std::string method;
+    cases::Observer *second;
+    cases::TemperatureBounds bounds;
+
+    cases::RunDescription run_description;
+    std::optional<FrontReader> reader;
+    int samples_taken = 0; ///< index of the next sample, equidistant on the clock
+    long last_step = -1;
+    RunSeries run_series;
+    RunProfile end_profile;
+    ErrorStatistics front, late_front, isotherm, max_ice, heat_loss;
+    std::map<std::string, double> at_end;
+  };
+} // namespace meltfront::verification
+
+#endif

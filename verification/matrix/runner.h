@@ -1,0 +1,51 @@
+#ifndef meltfront_verification_matrix_runner_h
+#define meltfront_verification_matrix_runner_h
+
+#include <verification/matrix/matrix.h>
+#include <verification/matrix/matrix_result.h>
+#include <verification/matrix/run_one.h>
+
+#include <cstdio>
+#include <string>
+
+namespace meltfront::verification
+{
+  /** How a matrix is run. */
+  struct RunnerOptions
+  {
+    std::string directory; ///< results are written to it
+    int jobs = 0;          ///< threads in use at once; 0: one for each core
+    std::string program_version;
+    std::string program_hash; ///< empty: the SHA-256 of the running program's file
+    std::string command_line;
+    std::FILE *progress = nullptr; ///< null: say nothing
+    RepeatPolicy repeats{};
+  };
+
+  /**
+   * Run a matrix and return what load_matrix_result() reads from its directory.
+   *
+   * Every run has a process of its own, the largest first, as many at once as `jobs`
+   * allows (a run counts with its threads). It writes its record under a temporary name
+   * and renames it. A run that crashes or exceeds the matrix's time limit is recorded as
+   * failed with the reason; the others go on.
+   *
+   * Resumable: a record of the same case text, method, option values, n, seed, threads
+   * and program is kept and not made again if the run finished, was refused, or failed by
+   * itself (it would again). Runs that crashed or were killed, for which the machine may
+   * be to blame, are made again; so is everything once the program or the case has
+   * changed. Killed at any moment and called again, it loses and repeats nothing that was
+   * finished.
+   *
+   * Written: matrix.json, cases/CASE.json, runs/CASE/LABEL/n=N/run.json (and run.log, if
+   * the run printed something), summary.json.
+   *
+   * @param load_case is called once for each case, before any run
+   * @throws InputError if a case or the matrix is wrong, before any run; OutputError if
+   * the directory cannot be written to or another process is at work in it.
+   */
+  MatrixResult run_matrix(const Matrix &matrix, const RunnerOptions &options,
+                          const CaseLoader &load_case, const MethodLookup &methods);
+} // namespace meltfront::verification
+
+#endif
