@@ -11,8 +11,7 @@ namespace meltfront::particles
 {
   namespace
   {
-    std::vector<double>
-    lattice_line(const LatticeDirection &direction, double spacing)
+    std::vector<double> lattice_line(const LatticeDirection &direction, double spacing)
     {
       const double spacings = (direction.upper - direction.lower) / spacing;
       const double whole = std::round(spacings);
@@ -32,8 +31,7 @@ namespace meltfront::particles
     }
   } // namespace
 
-  double
-  lattice_spacing(double length, int n, LatticeLayout layout)
+  double lattice_spacing(double length, int n, LatticeLayout layout)
   {
     const int spacings = layout == LatticeLayout::cell_centred ? n : n - 1;
     if(spacings < 4)
@@ -42,9 +40,9 @@ namespace meltfront::particles
     return length / spacings;
   }
 
-  ParticleStorage
-  arrange_in_box(int dimension, const std::array<LatticeDirection, 3> &directions,
-                 double spacing)
+  ParticleStorage arrange_in_box(int dimension,
+                                 const std::array<LatticeDirection, 3> &directions,
+                                 double spacing)
   {
     std::array<std::vector<double>, 3> line{{{0.}, {0.}, {0.}}};
     for(int d = 0; d < dimension; ++d)
@@ -57,9 +55,8 @@ namespace meltfront::particles
     return particles;
   }
 
-  ParticleStorage
-  arrange_in_shell(int dimension, double inner, double outer, double spacing,
-                   LatticeLayout layout)
+  ParticleStorage arrange_in_shell(int dimension, double inner, double outer,
+                                   double spacing, LatticeLayout layout)
   {
     const double offset = layout == LatticeLayout::cell_centred ? 0.5 : 0;
     const int reach = static_cast<int>(std::ceil(outer / spacing)) + 1;
@@ -80,9 +77,8 @@ namespace meltfront::particles
     return particles;
   }
 
-  void
-  jitter(ParticleStorage &particles, double amplitude, std::uint64_t seed,
-         const std::function<bool(const std::array<double, 3> &)> &movable)
+  void jitter(ParticleStorage &particles, double amplitude, std::uint64_t seed,
+              const std::function<bool(const std::array<double, 3> &)> &movable)
   {
     std::mt19937_64 generator(seed);
     for(std::size_t i = 0; i < particles.size(); ++i)

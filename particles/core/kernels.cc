@@ -15,8 +15,7 @@ namespace meltfront::particles
   {
     using std::numbers::pi;
 
-    constexpr double
-    power(double base, int exponent)
+    constexpr double power(double base, int exponent)
     {
       double result = 1;
       for(int i = 0; i < exponent; ++i)
@@ -31,37 +30,32 @@ namespace meltfront::particles
                                     {3. / 2, 9 / pi, 495 / (32 * pi)},
                                     {55. / 32, 78 / (7 * pi), 1365 / (64 * pi)}};
 
-    double
-    cubic(double q)
+    double cubic(double q)
     {
       if(q < 1)
         return 1 + q * q * (-1.5 + 0.75 * q);
       return 0.25 * power(2 - q, 3);
     }
 
-    double
-    cubic_slope(double q)
+    double cubic_slope(double q)
     {
       return q < 1 ? -3 + 2.25 * q : -0.75 * power(2 - q, 2) / q;
     }
 
-    double
-    quintic(double q)
+    double quintic(double q)
     {
       return power(3 - q, 5) - 6 * power(std::max(2 - q, 0.), 5)
              + 15 * power(std::max(1 - q, 0.), 5);
     }
 
-    double
-    quintic_slope(double q)
+    double quintic_slope(double q)
     {
       if(q < 1)
         return -120 + q * q * (120 - 50 * q);
       return -5 * (power(3 - q, 4) - 6 * power(std::max(2 - q, 0.), 4)) / q;
     }
 
-    double
-    wendland(KernelShape shape, bool line, double q)
+    double wendland(KernelShape shape, bool line, double q)
     {
       const double p = 1 - q;
       switch(shape)
@@ -77,8 +71,7 @@ namespace meltfront::particles
       }
     }
 
-    double
-    wendland_slope(KernelShape shape, bool line, double q)
+    double wendland_slope(KernelShape shape, bool line, double q)
     {
       const double p = 1 - q;
       switch(shape)
@@ -94,23 +87,20 @@ namespace meltfront::particles
       }
     }
 
-    bool
-    is_wendland(KernelShape shape)
+    bool is_wendland(KernelShape shape)
     {
       return shape != KernelShape::cubic_spline && shape != KernelShape::quintic_spline;
     }
   } // namespace
 
-  const std::vector<std::string> &
-  kernel_names()
+  const std::vector<std::string> &kernel_names()
   {
     static const std::vector<std::string> names{
         "cubic_spline", "quintic_spline", "wendland_c2", "wendland_c4", "wendland_c6"};
     return names;
   }
 
-  KernelShape
-  kernel_shape(const std::string &name)
+  KernelShape kernel_shape(const std::string &name)
   {
     const auto &names = kernel_names();
     const auto found = std::find(names.begin(), names.end(), name);
@@ -122,14 +112,15 @@ namespace meltfront::particles
 
   SmoothingKernel::SmoothingKernel(KernelShape shape, int dimension,
                                    double smoothing_length)
-      : shape(shape), dim(dimension), h(smoothing_length),
-        scale(is_wendland(shape) ? 2 * smoothing_length : smoothing_length)
+    : shape(shape)
+    , dim(dimension)
+    , h(smoothing_length)
+    , scale(is_wendland(shape) ? 2 * smoothing_length : smoothing_length)
   {
     norm = norms[static_cast<int>(shape)][dim - 1] / power(scale, dim);
   }
 
-  double
-  SmoothingKernel::value(double distance) const
+  double SmoothingKernel::value(double distance) const
   {
     if(distance >= support())
       return 0;
@@ -145,8 +136,7 @@ namespace meltfront::particles
     }
   }
 
-  double
-  SmoothingKernel::radial_derivative_over_distance(double distance) const
+  double SmoothingKernel::radial_derivative_over_distance(double distance) const
   {
     if(distance >= support())
       return 0;
@@ -163,26 +153,22 @@ namespace meltfront::particles
     }
   }
 
-  double
-  SmoothingKernel::support() const
+  double SmoothingKernel::support() const
   {
     return shape == KernelShape::quintic_spline ? 3 * h : 2 * h;
   }
 
-  double
-  SmoothingKernel::smoothing_length() const
+  double SmoothingKernel::smoothing_length() const
   {
     return h;
   }
 
-  int
-  SmoothingKernel::dimension() const
+  int SmoothingKernel::dimension() const
   {
     return dim;
   }
 
-  double
-  lattice_second_moment(const SmoothingKernel &kernel, double spacing)
+  double lattice_second_moment(const SmoothingKernel &kernel, double spacing)
   {
     const int d = kernel.dimension();
     const int reach = static_cast<int>(std::ceil(kernel.support() / spacing));

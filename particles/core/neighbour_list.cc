@@ -16,7 +16,8 @@ namespace meltfront::particles
     public:
       CellGrid(const ParticleStorage &points, double radius,
                const Periodicity &periodicity)
-          : dimension(points.dimension), periodicity(periodicity)
+        : dimension(points.dimension)
+        , periodicity(periodicity)
       {
         for(int d = 0; d < dimension; ++d)
           set_up_direction(points, d, radius);
@@ -37,8 +38,7 @@ namespace meltfront::particles
 
       /** Visit every point in the cells around a place, each point once. */
       template <typename Visit>
-      void
-      visit(const std::array<double, 3> &place, const Visit &visitor) const
+      void visit(const std::array<double, 3> &place, const Visit &visitor) const
       {
         const std::array<int, 3> centre = cell_index(place);
         std::array<int, 3> cell{};
@@ -57,8 +57,7 @@ namespace meltfront::particles
       }
 
     private:
-      void
-      set_up_direction(const ParticleStorage &points, int d, double radius)
+      void set_up_direction(const ParticleStorage &points, int d, double radius)
       {
         const auto &x = points.position[d];
         if(x.empty())
@@ -77,8 +76,7 @@ namespace meltfront::particles
         width[d] = extent > 0 ? extent / count[d] : 1;
       }
 
-      std::array<int, 3>
-      cell_index(const std::array<double, 3> &place) const
+      std::array<int, 3> cell_index(const std::array<double, 3> &place) const
       {
         std::array<int, 3> index{};
         for(int d = 0; d < dimension; ++d)
@@ -90,14 +88,12 @@ namespace meltfront::particles
         return index;
       }
 
-      std::uint32_t
-      cell_number(const std::array<int, 3> &index) const
+      std::uint32_t cell_number(const std::array<int, 3> &index) const
       {
         return (std::uint32_t(index[2]) * count[1] + index[1]) * count[0] + index[0];
       }
 
-      bool
-      neighbour_cell(int d, int centre, int step, int &cell) const
+      bool neighbour_cell(int d, int centre, int step, int &cell) const
       {
         cell = centre + step;
         if(periodicity.period[d] > 0 && count[d] > 1)
@@ -114,9 +110,8 @@ namespace meltfront::particles
       std::vector<std::uint32_t> members;
     };
 
-    void
-    require_long_periods(const ParticleStorage &particles, double radius,
-                         const Periodicity &periodicity)
+    void require_long_periods(const ParticleStorage &particles, double radius,
+                              const Periodicity &periodicity)
     {
       for(int d = 0; d < particles.dimension; ++d)
         if(periodicity.period[d] > 0 && periodicity.period[d] < 2 * radius * (1 - 1e-12))
@@ -126,10 +121,9 @@ namespace meltfront::particles
               periodicity.period[d], d, radius));
     }
 
-    void
-    collect(const ParticleStorage &particles, const ParticleStorage &others,
-            double radius, const Periodicity &periodicity, bool same,
-            std::vector<std::size_t> &begin, std::vector<std::uint32_t> &entries)
+    void collect(const ParticleStorage &particles, const ParticleStorage &others,
+                 double radius, const Periodicity &periodicity, bool same,
+                 std::vector<std::size_t> &begin, std::vector<std::uint32_t> &entries)
     {
       require_long_periods(particles, radius, periodicity);
       const CellGrid grid(others, radius, periodicity);

@@ -18,8 +18,7 @@ namespace meltfront::particles
     std::array<double, 3> period{};
 
     /** The difference of two coordinates, taken between the nearest images. */
-    double
-    shortest(int direction, double difference) const
+    double shortest(int direction, double difference) const
     {
       const double length = period[direction];
       return length > 0 ? difference - length * std::nearbyint(difference / length)
@@ -46,28 +45,24 @@ namespace meltfront::particles
     NeighbourList(const ParticleStorage &particles, const ParticleStorage &others,
                   double radius, const Periodicity &periodicity = {});
 
-    std::size_t
-    rows() const
+    std::size_t rows() const
     {
       return begin.size() - 1;
     }
 
     /** Number of entries over all rows. */
-    std::size_t
-    size() const
+    std::size_t size() const
     {
       return entries.size();
     }
 
     /** Position of a row's first entry in the flat array; offset(rows()) is its end. */
-    std::size_t
-    offset(std::size_t row) const
+    std::size_t offset(std::size_t row) const
     {
       return begin[row];
     }
 
-    std::span<const std::uint32_t>
-    operator[](std::size_t row) const
+    std::span<const std::uint32_t> operator[](std::size_t row) const
     {
       return {entries.data() + begin[row], begin[row + 1] - begin[row]};
     }

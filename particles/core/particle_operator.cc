@@ -6,7 +6,8 @@ namespace meltfront::particles
 {
   ParticleOperator::ParticleOperator(const NeighbourList &neighbours,
                                      std::span<const double> coefficients)
-      : n_rows(neighbours.rows()), n_interactions(neighbours.size())
+    : n_rows(neighbours.rows())
+    , n_interactions(neighbours.size())
   {
     const std::size_t n_slices = (n_rows + lanes - 1) / lanes;
     slice_begin.assign(1, 0);
@@ -39,9 +40,8 @@ namespace meltfront::particles
     refresh(neighbours, coefficients);
   }
 
-  void
-  ParticleOperator::refresh(const NeighbourList &neighbours,
-                            std::span<const double> coefficients)
+  void ParticleOperator::refresh(const NeighbourList &neighbours,
+                                 std::span<const double> coefficients)
   {
     coefficient.assign(slice_begin.back(), 0.);
     for(std::size_t a = 0; a < n_rows; ++a)
@@ -55,8 +55,7 @@ namespace meltfront::particles
     }
   }
 
-  std::size_t
-  ParticleOperator::bytes() const
+  std::size_t ParticleOperator::bytes() const
   {
     return slice_begin.size() * sizeof(slice_begin[0])
            + slice_interactions.size() * sizeof(slice_interactions[0])
@@ -64,19 +63,18 @@ namespace meltfront::particles
            + coefficient.size() * sizeof(coefficient[0]);
   }
 
-  void
-  ParticleOperator::apply(std::span<const double> value, std::span<double> result,
-                          int threads) const
+  void ParticleOperator::apply(std::span<const double> value, std::span<double> result,
+                               int threads) const
   {
-    const auto difference = [](double own, double other) { return other - own; };
+    const double *v = value.data();
+    const auto difference = [v](std::size_t a, std::size_t b) { return v[b] - v[a]; };
 #pragma omp parallel for schedule(static) num_threads(threads) if(threads > 1)
     for(std::size_t slice = 0; slice < slices(); ++slice)
-      apply_to_slice(slice, difference, value.data(), result.data());
+      apply_to_slice(slice, difference, result.data());
   }
 
-  void
-  ParticleOperator::slice_adjacency(std::vector<std::size_t> &offsets,
-                                    std::vector<std::uint32_t> &adjacent) const
+  void ParticleOperator::slice_adjacency(std::vector<std::size_t> &offsets,
+                                         std::vector<std::uint32_t> &adjacent) const
   {
     offsets.assign(1, 0);
     adjacent.clear();

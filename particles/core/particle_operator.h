@@ -37,35 +37,30 @@ namespace meltfront::particles
     /** Take new coefficients for the same neighbours. */
     void refresh(const NeighbourList &neighbours, std::span<const double> coefficients);
 
-    std::size_t
-    rows() const
+    std::size_t rows() const
     {
       return n_rows;
     }
 
     /** Length that arrays handed to the operator must have: rows() in full slices. */
-    std::size_t
-    padded_rows() const
+    std::size_t padded_rows() const
     {
       return slices() * lanes;
     }
 
-    std::size_t
-    slices() const
+    std::size_t slices() const
     {
       return slice_begin.empty() ? 0 : slice_begin.size() - 1;
     }
 
     /** Entries of all rows, without the padding. */
-    std::size_t
-    interactions() const
+    std::size_t interactions() const
     {
       return n_interactions;
     }
 
     /** Entries of the rows of one slice, without the padding. */
-    std::size_t
-    interactions(std::size_t slice) const
+    std::size_t interactions(std::size_t slice) const
     {
       return slice_interactions[slice];
     }
@@ -77,14 +72,16 @@ namespace meltfront::particles
     void apply(std::span<const double> value, std::span<double> result,
                int threads) const;
 
-    /** Overwrite the rows of some slices with the sum of another pair function. */
+    /**
+     * Overwrite the rows of some slices with the sum of another pair function, given the
+     * numbers of the row and of its neighbour.
+     */
     template <typename Pair>
-    void
-    apply_to_slices(std::span<const std::uint32_t> chosen, const Pair &pair,
-                    std::span<const double> value, std::span<double> result) const
+    void apply_to_slices(std::span<const std::uint32_t> chosen, const Pair &pair,
+                         std::span<double> result) const
     {
       for(const std::uint32_t slice : chosen)
-        apply_to_slice(slice, pair, value.data(), result.data());
+        apply_to_slice(slice, pair, result.data());
     }
 
     /**
@@ -96,11 +93,9 @@ namespace meltfront::particles
 
   private:
     template <typename Pair>
-    void
-    apply_to_slice(std::size_t slice, const Pair &pair, const double *value,
-                   double *result) const
+    void apply_to_slice(std::size_t slice, const Pair &pair, double *result) const
     {
-      const double *own = value + slice * lanes;
+      const std::size_t row = slice * lanes;
       double sum[lanes] = {};
       for(std::size_t e = slice_begin[slice]; e < slice_begin[slice + 1]; e += lanes)
       {
@@ -108,10 +103,10 @@ namespace meltfront::particles
         const double *factor = coefficient.data() + e;
 #pragma omp simd
         for(std::size_t lane = 0; lane < lanes; ++lane)
-          sum[lane] += factor[lane] * pair(own[lane], value[neighbour[lane]]);
+          sum[lane] += factor[lane] * pair(row + lane, neighbour[lane]);
       }
       for(std::size_t lane = 0; lane < lanes; ++lane)
-        result[slice * lanes + lane] = sum[lane];
+        result[row + lane] = sum[lane];
     }
 
     std::size_t n_rows = 0;

@@ -9,8 +9,7 @@ namespace meltfront::particles
   namespace
   {
     /** Put the lowest 21 bits of a coordinate two bits apart. */
-    std::uint64_t
-    spread(std::uint64_t bits)
+    std::uint64_t spread(std::uint64_t bits)
     {
       bits &= 0x1fffff;
       bits = (bits | bits << 32) & 0x1f00000000ffff;
@@ -21,15 +20,13 @@ namespace meltfront::particles
     }
   } // namespace
 
-  void
-  ParticleStorage::add(const std::array<double, 3> &point)
+  void ParticleStorage::add(const std::array<double, 3> &point)
   {
     for(int d = 0; d < dimension; ++d)
       position[d].push_back(point[d]);
   }
 
-  std::array<double, 3>
-  ParticleStorage::point(std::size_t particle) const
+  std::array<double, 3> ParticleStorage::point(std::size_t particle) const
   {
     std::array<double, 3> result{};
     for(int d = 0; d < dimension; ++d)
@@ -37,8 +34,8 @@ namespace meltfront::particles
     return result;
   }
 
-  std::vector<std::uint32_t>
-  order_along_curve(const ParticleStorage &particles, double cube_side)
+  std::vector<std::uint32_t> order_along_curve(const ParticleStorage &particles,
+                                               double cube_side)
   {
     std::vector<std::uint64_t> key(particles.size(), 0);
     for(int d = 0; d < particles.dimension; ++d)
@@ -56,8 +53,7 @@ namespace meltfront::particles
     return order;
   }
 
-  void
-  reorder(ParticleStorage &particles, std::span<const std::uint32_t> order)
+  void reorder(ParticleStorage &particles, std::span<const std::uint32_t> order)
   {
     for(int d = 0; d < particles.dimension; ++d)
     {

@@ -15,8 +15,7 @@ namespace meltfront::particles
     int dimension = 1;
     std::array<std::vector<double>, 3> position; ///< m; empty beyond the dimension
 
-    std::size_t
-    size() const
+    std::size_t size() const
     {
       return position[0].size();
     }

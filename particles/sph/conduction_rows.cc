@@ -20,17 +20,17 @@ namespace meltfront::particles
     public:
       Assembly(const Discretisation &discretisation, bool moment_correction,
                ConductionRows &result)
-          : dis(discretisation), result(result),
-            neighbours(dis.particles, dis.kernel.support(), dis.periodicity),
-            ghost_neighbours(dis.particles, dis.ghosts, dis.kernel.support())
+        : dis(discretisation)
+        , result(result)
+        , neighbours(dis.particles, reach_of_kernel(), dis.periodicity)
+        , ghost_neighbours(dis.particles, dis.ghosts, reach_of_kernel())
       {
         find_walls_in_reach();
         if(moment_correction)
           correct_second_moment();
       }
 
-      void
-      assemble()
+      void assemble()
       {
         std::vector<double> coefficients(neighbours.size());
         std::vector<double> row_sum(dis.particles.size(), 0.);
@@ -58,8 +58,13 @@ namespace meltfront::particles
       }
 
     private:
-      void
-      find_walls_in_reach()
+      /** The support, without the pairs that rounding alone puts inside it. */
+      double reach_of_kernel() const
+      {
+        return dis.kernel.support() * (1 - 1e-9);
+      }
+
+      void find_walls_in_reach()
       {
         reach.assign(dis.particles.size(), 0);
         for(std::size_t w = 0; w < dis.walls.size(); ++w)
@@ -73,8 +78,7 @@ namespace meltfront::particles
 
       /** The walls beyond which images of a particle act on another: none in the edge
        * layout, where particles lie on the walls. */
-      WallSet
-      common_walls(std::size_t a, std::size_t b) const
+      WallSet common_walls(std::size_t a, std::size_t b) const
       {
         return dis.layout == LatticeLayout::cell_centred ? reach[a] & reach[b] : 0;
       }
@@ -82,8 +86,7 @@ namespace meltfront::particles
       /** Visit the non-empty subsets of a set that hold at most one wall per direction.
        */
       template <typename Visit>
-      void
-      visit_images(WallSet set, const Visit &visit) const
+      void visit_images(WallSet set, const Visit &visit) const
       {
         for(WallSet subset = set; subset != 0; subset = (subset - 1) & set)
         {
@@ -101,8 +104,7 @@ namespace meltfront::particles
        * Distance between one particle and the image of another, squared. The same bits
        * for (a, b) and (b, a).
        */
-      double
-      squared_distance(std::size_t a, std::size_t b, WallSet mirrors) const
+      double squared_distance(std::size_t a, std::size_t b, WallSet mirrors) const
       {
         const auto [first, second] = std::minmax(a, b);
         std::array<double, 3> difference{};
@@ -120,19 +122,17 @@ namespace meltfront::particles
                + difference[2] * difference[2];
       }
 
-      /** -F(r); zero at the edge of the support whatever the rounding of r. */
-      double
-      slope(double squared) const
+      /** -F(r) */
+      double slope(double squared) const
       {
-        const double support = dis.kernel.support();
-        return squared < support * support * (1 - 1e-12)
-                   ? -dis.kernel.radial_derivative_over_distance(std::sqrt(squared))
+        const double distance = std::sqrt(squared);
+        return distance < reach_of_kernel()
+                   ? -dis.kernel.radial_derivative_over_distance(distance)
                    : 0.;
       }
 
       /** g of a pair at a distance. */
-      double
-      strength(std::size_t a, std::size_t b, double squared) const
+      double strength(std::size_t a, std::size_t b, double squared) const
       {
         const double correction = inverse_moment.empty()
                                       ? 1 / result.second_moment
@@ -143,8 +143,7 @@ namespace meltfront::particles
 
       /** True if the image's deviation from the wall is the opposite of the particle's.
        */
-      bool
-      antisymmetric(WallSet mirrors) const
+      bool antisymmetric(WallSet mirrors) const
       {
         bool odd = false;
         for(std::size_t w = 0; w < dis.walls.size(); ++w)
@@ -154,8 +153,7 @@ namespace meltfront::particles
         return odd;
       }
 
-      double
-      pair_coefficient(std::size_t a, std::size_t b) const
+      double pair_coefficient(std::size_t a, std::size_t b) const
       {
         double g = strength(a, b, squared_distance(a, b, 0));
         visit_images(common_walls(a, b),
@@ -169,8 +167,7 @@ namespace meltfront::particles
       }
 
       /** What the images of all particles, its own among them, add to a row. */
-      void
-      link_to_images(std::size_t a)
+      void link_to_images(std::size_t a)
       {
         std::vector<double> to_temperature(dis.walls.size(), 0.);
         std::vector<double> to_flux(dis.walls.size(), 0.);
@@ -212,8 +209,7 @@ namespace meltfront::particles
 
       /** Edge layout: particles on a wall take its flux; those at a prescribed
        * temperature are held. */
-      void
-      link_to_edges(std::size_t a)
+      void link_to_edges(std::size_t a)
       {
         for(const PlaneWall &wall : dis.walls)
           if(wall.boundary->kind == BoundaryKind::flux && dis.on_wall(wall, a))
@@ -221,9 +217,8 @@ namespace meltfront::particles
                      dis.particle_volume / dis.spacing);
       }
 
-      void
-      add_link(std::vector<WallPoint> &points, std::vector<WallLink> &links,
-               std::size_t a, const PlaneWall &wall, double strength) const
+      void add_link(std::vector<WallPoint> &points, std::vector<WallLink> &links,
+                    std::size_t a, const PlaneWall &wall, double strength) const
       {
         if(strength <= 0)
           return;
@@ -237,8 +232,7 @@ namespace meltfront::particles
        * Otherwise the line from the particle through the rim's value is continued to the
        * ghost (Morris, Fox and Zhu 1997): 1 + d_ghost/d_particle times the difference.
        */
-      void
-      link_to_ghosts(std::size_t a)
+      void link_to_ghosts(std::size_t a)
       {
         if(dis.ghosts.size() == 0)
           return;
@@ -274,8 +268,7 @@ namespace meltfront::particles
       }
 
       /** Make the areas of the particles that share a wall's flux add up to the wall. */
-      void
-      normalise_flux_areas()
+      void normalise_flux_areas()
       {
         for(const cases::Side side : dis.scene.sides())
         {
@@ -292,8 +285,7 @@ namespace meltfront::particles
         }
       }
 
-      double
-      wall_area(cases::Side side) const
+      double wall_area(cases::Side side) const
       {
         const cases::Domain &domain = dis.scene.domain;
         if(side == cases::Side::outer)
@@ -311,8 +303,7 @@ namespace meltfront::particles
        * mu_a = -(1/d) sum_b V_b F_ab r_ab^2. Summed where particles are displaced and
        * images or ghosts complete the support; the lattice's value elsewhere.
        */
-      void
-      correct_second_moment()
+      void correct_second_moment()
       {
         result.second_moment = lattice_second_moment(dis.kernel, dis.spacing);
         if(!dis.displaced)
@@ -352,8 +343,7 @@ namespace meltfront::particles
         }
       }
 
-      bool
-      complete_support(std::size_t a) const
+      bool complete_support(std::size_t a) const
       {
         if(dis.scene.domain.shape != cases::DomainShape::ball)
           return dis.layout == LatticeLayout::cell_centred || reach[a] == 0;

@@ -11,33 +11,34 @@ namespace meltfront::particles
 
   namespace
   {
-    double
-    power(double base, int exponent)
+    double power(double base, int exponent)
     {
       return exponent == 0 ? 1. : base * power(base, exponent - 1);
     }
 
     /** Particles across the strip that stands for a slab: two radii of interaction wide.
      */
-    int
-    columns_needed(const SmoothingKernel &kernel, double spacing)
+    int columns_needed(const SmoothingKernel &kernel, double spacing)
     {
       return static_cast<int>(std::ceil(2 * kernel.support() / spacing - 1e-9));
     }
   } // namespace
 
-  cases::Position
-  PlaneWall::project(cases::Position position) const
+  cases::Position PlaneWall::project(cases::Position position) const
   {
     position[direction] = coordinate;
     return position;
   }
 
   Discretisation::Discretisation(const cases::Scene &scene, const SphParameters &p)
-      : scene(scene), dimension(p.dimension), layout(p.layout),
-        spacing(lattice_spacing(scene.domain.side(), p.n, p.layout)),
-        kernel(p.kernel, p.dimension, p.smoothing * spacing), displaced(p.jitter > 0),
-        particle_volume(power(spacing, p.dimension)), cross_section(1)
+    : scene(scene)
+    , dimension(p.dimension)
+    , layout(p.layout)
+    , spacing(lattice_spacing(scene.domain.side(), p.n, p.layout))
+    , kernel(p.kernel, p.dimension, p.smoothing * spacing)
+    , displaced(p.jitter > 0)
+    , particle_volume(power(spacing, p.dimension))
+    , cross_section(1)
   {
     particles.dimension = ghosts.dimension = dimension;
     if(scene.domain.shape == DomainShape::ball)
@@ -59,8 +60,7 @@ namespace meltfront::particles
     find_held_particles();
   }
 
-  void
-  Discretisation::fill_slab_or_box(const SphParameters &p)
+  void Discretisation::fill_slab_or_box(const SphParameters &p)
   {
     const bool slab = scene.domain.shape == DomainShape::slab;
     std::array<LatticeDirection, 3> directions;
@@ -88,8 +88,7 @@ namespace meltfront::particles
     particles = arrange_in_box(dimension, directions, spacing);
   }
 
-  void
-  Discretisation::fill_ball()
+  void Discretisation::fill_ball()
   {
     const double radius = scene.domain.radius;
     particles = arrange_in_shell(dimension, 0, radius, spacing, layout);
@@ -98,15 +97,13 @@ namespace meltfront::particles
                                 layout);
   }
 
-  bool
-  Discretisation::on_wall(const PlaneWall &wall, std::size_t particle) const
+  bool Discretisation::on_wall(const PlaneWall &wall, std::size_t particle) const
   {
     return std::abs(particles.position[wall.direction][particle] - wall.coordinate)
            < 1e-6 * spacing;
   }
 
-  void
-  Discretisation::find_held_particles()
+  void Discretisation::find_held_particles()
   {
     if(layout == LatticeLayout::cell_centred)
       return;

@@ -18,10 +18,9 @@ namespace meltfront::particles
   public:
     /** Run one pass of the effect. */
     template <typename Pass>
-    auto
-    measure(const Pass &pass)
+    auto measure(const Pass &pass)
     {
-      if(calls++ % interval != 0)
+      if(++calls % interval != 0)
         return pass();
       const Timer timer(timed_seconds);
       ++timed_calls;
@@ -30,15 +29,13 @@ namespace meltfront::particles
 
     /** Run a part of the effect's set-up, which is always timed. */
     template <typename Pass>
-    auto
-    measure_setup(const Pass &pass)
+    auto measure_setup(const Pass &pass)
     {
       const Timer timer(setup_seconds);
       return pass();
     }
 
-    cases::EffectCost
-    cost(cases::Effect effect, std::size_t bytes) const
+    cases::EffectCost cost(cases::Effect effect, std::size_t bytes) const
     {
       const double share = timed_calls > 0 ? double(calls) / timed_calls : 0;
       return {effect, calls, static_cast<long>(bytes),
@@ -52,7 +49,8 @@ namespace meltfront::particles
     {
     public:
       explicit Timer(double &seconds)
-          : total(seconds), start(std::chrono::steady_clock::now())
+        : total(seconds)
+        , start(std::chrono::steady_clock::now())
       {
       }
 

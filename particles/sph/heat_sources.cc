@@ -8,8 +8,10 @@
 namespace meltfront::particles
 {
   HeatSources::HeatSources(const Discretisation &dis)
-      : scale(dis.cross_section), sources(dis.scene.sources),
-        start_time(dis.scene.start_time), power(sources.size(), 0.)
+    : scale(dis.cross_section)
+    , sources(dis.scene.sources)
+    , start_time(dis.scene.start_time)
+    , power(sources.size(), 0.)
   {
     // A slab's source is a plane: only the distance from this plane counts.
     const bool plane = dis.scene.domain.shape == cases::DomainShape::slab;
@@ -42,16 +44,14 @@ namespace meltfront::particles
     }
   }
 
-  void
-  HeatSources::prepare_step(double begin, double end)
+  void HeatSources::prepare_step(double begin, double end)
   {
     for(std::size_t s = 0; s < sources.size(); ++s)
       power[s]
           = scale * (sources[s].energy(end) - sources[s].energy(begin)) / (end - begin);
   }
 
-  void
-  HeatSources::add(std::span<double> flow, double flow_scale)
+  void HeatSources::add(std::span<double> flow, double flow_scale)
   {
     meter.measure(
         [&]
@@ -61,8 +61,7 @@ namespace meltfront::particles
         });
   }
 
-  double
-  HeatSources::heat(double time) const
+  double HeatSources::heat(double time) const
   {
     double sum = 0;
     for(const cases::PointSource &source : sources)
@@ -70,8 +69,7 @@ namespace meltfront::particles
     return sum;
   }
 
-  cases::EffectCost
-  HeatSources::cost() const
+  cases::EffectCost HeatSources::cost() const
   {
     return meter.cost(cases::Effect::heat_sources,
                       shares.size() * sizeof(Share) + power.size() * sizeof(double));

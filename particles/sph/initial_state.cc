@@ -8,8 +8,7 @@ namespace meltfront::particles
   namespace
   {
     /** Mean enthalpy of a cell of a planar scene, from the exact heat within it. */
-    double
-    planar_mean(const Discretisation &dis, const cases::Position &position)
+    double planar_mean(const Discretisation &dis, const cases::Position &position)
     {
       const cases::Scene &scene = dis.scene;
       const double half = 0.5 * dis.spacing;
@@ -21,8 +20,7 @@ namespace meltfront::particles
 
     /** Part of a cell that lies within the front, by points on a fine grid in the cell.
      */
-    double
-    inner_fraction(const Discretisation &dis, const cases::Position &centre)
+    double inner_fraction(const Discretisation &dis, const cases::Position &centre)
     {
       const int points = dis.dimension == 2 ? 32 : 12;
       const int points_z = dis.dimension > 2 ? points : 1;
@@ -41,8 +39,7 @@ namespace meltfront::particles
       return double(inside) / (points * points * points_z);
     }
 
-    double
-    from_exact(const Discretisation &dis, const cases::Position &position)
+    double from_exact(const Discretisation &dis, const cases::Position &position)
     {
       const cases::Scene &scene = dis.scene;
       const cases::ExactSolution &exact = *scene.initial.exact;
@@ -60,8 +57,7 @@ namespace meltfront::particles
     }
   } // namespace
 
-  std::vector<double>
-  initial_enthalpy(const Discretisation &dis)
+  std::vector<double> initial_enthalpy(const Discretisation &dis)
   {
     const cases::Scene &scene = dis.scene;
     std::vector<double> enthalpy(dis.particles.size());

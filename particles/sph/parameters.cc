@@ -6,17 +6,16 @@
 
 namespace meltfront::particles
 {
-  const SphPolicy &
-  corrected_policy()
+  const SphPolicy &corrected_policy()
   {
     static const SphPolicy policy{
         "sph",
         "Smoothed particle hydrodynamics on enthalpy, corrected: exact second moment, "
-        "the partner's conductivity at the melting point, mirrored walls.",
+        "fronts placed within particles, mirrored walls.",
         "",
         false,
         "cell",
-        "partner",
+        "sub_particle",
         true,
         1.0,
         "rkl2",
@@ -24,8 +23,7 @@ namespace meltfront::particles
     return policy;
   }
 
-  const SphPolicy &
-  published_policy()
+  const SphPolicy &published_policy()
   {
     static const SphPolicy policy{
         "sph-2005",
@@ -42,8 +40,7 @@ namespace meltfront::particles
     return policy;
   }
 
-  std::vector<cases::OptionDeclaration>
-  sph_options(const SphPolicy &policy)
+  std::vector<cases::OptionDeclaration> sph_options(const SphPolicy &policy)
   {
     return {
         {"dimension", "1", 0L,
@@ -60,10 +57,11 @@ namespace meltfront::particles
         {"moment_correction", "", policy.moment_correction,
          "Divide the kernel's gradient by its second moment, so that the Laplacian of a "
          "quadratic is exact."},
-        {"melting_conductivity", "", policy.melting_conductivity,
-         "Conductivity of a particle at the melting temperature: its partner's, or the "
-         "liquid's until it has frozen.",
-         0, 0, std::vector<std::string>{"partner", "liquid"}},
+        {"front", "", policy.front,
+         "Exchange of heat at a front: with the front at its place within the melting "
+         "particle, with a melting particle conducting as its partner, or as the liquid "
+         "until it has frozen.",
+         0, 0, std::vector<std::string>{"sub_particle", "partner", "liquid"}},
         {"time_scheme", "", policy.time_scheme,
          "Explicit Euler steps, or Runge-Kutta-Legendre super steps of second order.", 0,
          0, std::vector<std::string>{"euler", "rkl2"}},
@@ -80,8 +78,14 @@ namespace meltfront::particles
 
   namespace
   {
-    int
-    resolve_dimension(const SphPolicy &policy, const cases::Scene &scene, long wanted)
+    FrontRule front_rule(const std::string &name)
+    {
+      if(name == "sub_particle")
+        return FrontRule::sub_particle;
+      return name == "partner" ? FrontRule::partner : FrontRule::liquid;
+    }
+
+    int resolve_dimension(const SphPolicy &policy, const cases::Scene &scene, long wanted)
     {
       if(scene.domain.shape == cases::DomainShape::slab)
         return wanted > 0 ? static_cast<int>(wanted) : (policy.as_published ? 2 : 1);
@@ -93,9 +97,8 @@ namespace meltfront::particles
     }
   } // namespace
 
-  SphParameters
-  resolve_parameters(const SphPolicy &policy, const cases::Scene &scene,
-                     const cases::Resolution &resolution)
+  SphParameters resolve_parameters(const SphPolicy &policy, const cases::Scene &scene,
+                                   const cases::Resolution &resolution)
   {
     const cases::Options &options = resolution.options;
     SphParameters p;
@@ -108,9 +111,7 @@ namespace meltfront::particles
     p.layout = options.get_string("layout") == "edge" ? LatticeLayout::on_edge
                                                       : LatticeLayout::cell_centred;
     p.moment_correction = options.get_bool("moment_correction");
-    p.melting_conductivity = options.get_string("melting_conductivity") == "partner"
-                                 ? MeltingConductivity::partner
-                                 : MeltingConductivity::liquid;
+    p.front = front_rule(options.get_string("front"));
     p.time_scheme = options.get_string("time_scheme") == "euler" ? TimeScheme::euler
                                                                  : TimeScheme::rkl2;
     p.stages = static_cast<int>(options.get_integer("stages"));

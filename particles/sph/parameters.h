@@ -10,11 +10,14 @@
 
 namespace meltfront::particles
 {
-  /** Which conductivity a particle at the melting temperature has. */
-  enum class MeltingConductivity
+  /** How particles exchange heat across a front. */
+  enum class FrontRule
   {
-    partner, ///< that of the particle it exchanges heat with, for it is isothermal
-    liquid   ///< the liquid's until it has frozen (Monaghan et al. 2005, section 3)
+    sub_particle, ///< the front lies within the melting particle, where its solid
+                  ///< fraction puts it
+    partner,      ///< a melting particle has the conductivity of its partner
+    liquid        ///< that of the liquid until it has frozen (Monaghan et al. 2005,
+                  ///< section 3)
   };
 
   enum class TimeScheme
@@ -34,7 +37,7 @@ namespace meltfront::particles
     std::string corrected_form;
     bool as_published; ///< a slab is a square of n x n particles, as in the paper
     std::string layout;
-    std::string melting_conductivity;
+    std::string front;
     bool moment_correction;
     double smoothing; ///< 0: as the paper, by the scene's symmetry
     std::string time_scheme;
@@ -59,7 +62,7 @@ namespace meltfront::particles
     double smoothing; ///< h/dp
     LatticeLayout layout;
     bool moment_correction;
-    MeltingConductivity melting_conductivity;
+    FrontRule front;
     TimeScheme time_scheme;
     int stages;         ///< most stages of a super step
     double step_factor; ///< 0: the paper's step

@@ -15,8 +15,7 @@ namespace meltfront::particles
         = {Effect::phase_change, Effect::phase_heat_capacity, Effect::phase_conductivity};
   } // namespace
 
-  Extremes
-  find_extremes(std::span<const double> values, int threads)
+  Extremes find_extremes(std::span<const double> values, int threads)
   {
     const double *value = values.data();
     double lowest = infinity, highest = -infinity, zero = 0;
@@ -33,34 +32,30 @@ namespace meltfront::particles
 
   ConductionVariable::ConductionVariable(const cases::Material &material,
                                          const cases::EffectSet &effects)
-      : material(material),
-        is_mapped(std::any_of(std::begin(phase_effects), std::end(phase_effects),
-                              [&](Effect effect) { return effects.contains(effect); })),
-        solid_factor(material.solid.conductivity / material.solid.specific_heat_capacity),
-        liquid_factor(material.liquid.conductivity
-                      / material.liquid.specific_heat_capacity)
+    : material(material)
+    , is_mapped(std::any_of(std::begin(phase_effects), std::end(phase_effects),
+                            [&](Effect effect) { return effects.contains(effect); }))
+    , solid_factor(material.solid.conductivity / material.solid.specific_heat_capacity)
+    , liquid_factor(material.liquid.conductivity / material.liquid.specific_heat_capacity)
   {
   }
 
-  double
-  ConductionVariable::of_temperature(double temperature) const
+  double ConductionVariable::of_temperature(double temperature) const
   {
     const double excess = temperature - material.melting_temperature;
     const cases::PhaseProperties &phase = excess < 0 ? material.solid : material.liquid;
     return (is_mapped ? phase.conductivity : phase.specific_heat_capacity) * excess;
   }
 
-  double
-  ConductionVariable::temperature(double w) const
+  double ConductionVariable::temperature(double w) const
   {
     const cases::PhaseProperties &phase = w < 0 ? material.solid : material.liquid;
     return material.melting_temperature
            + w / (is_mapped ? phase.conductivity : phase.specific_heat_capacity);
   }
 
-  Extremes
-  ConductionVariable::map(std::span<const double> enthalpy, std::span<double> w,
-                          int threads)
+  Extremes ConductionVariable::map(std::span<const double> enthalpy, std::span<double> w,
+                                   int threads)
   {
     return meter.measure(
         [&]

@@ -35,15 +35,13 @@ namespace meltfront::particles
     ConductionVariable(const cases::Material &material, const cases::EffectSet &effects);
 
     /** w differs from H. */
-    bool
-    mapped() const
+    bool mapped() const
     {
       return is_mapped;
     }
 
     /** Heat flow = flow_scale * sum of coefficients * differences of w. */
-    double
-    flow_scale() const
+    double flow_scale() const
     {
       return is_mapped ? 1. : liquid_factor;
     }

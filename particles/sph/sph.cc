@@ -9,30 +9,27 @@ namespace meltfront::particles
     class SphMethod : public cases::Method
     {
     public:
-      explicit SphMethod(const SphPolicy &policy) : policy(policy)
+      explicit SphMethod(const SphPolicy &policy)
+        : policy(policy)
       {
       }
 
-      std::string
-      name() const override
+      std::string name() const override
       {
         return policy.name;
       }
 
-      std::string
-      summary() const override
+      std::string summary() const override
       {
         return policy.summary;
       }
 
-      std::string
-      corrected_form() const override
+      std::string corrected_form() const override
       {
         return policy.corrected_form;
       }
 
-      std::vector<cases::Effect>
-      supported_effects() const override
+      std::vector<cases::Effect> supported_effects() const override
       {
         using cases::Effect;
         return {Effect::phase_change,        Effect::phase_conductivity,
@@ -40,15 +37,14 @@ namespace meltfront::particles
                 Effect::wall_temperature,    Effect::wall_flux};
       }
 
-      std::vector<cases::OptionDeclaration>
-      option_declarations() const override
+      std::vector<cases::OptionDeclaration> option_declarations() const override
       {
         return sph_options(policy);
       }
 
-      cases::Cost
-      solve(const cases::Scene &scene, const cases::EffectSet &effects,
-            const cases::Resolution &resolution, cases::Observer &observer) const override
+      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
+                        const cases::Resolution &resolution,
+                        cases::Observer &observer) const override
       {
         cases::require_effects(*this, effects);
         // A run without options of its own uses the declared defaults.
@@ -63,14 +59,12 @@ namespace meltfront::particles
     };
   } // namespace
 
-  std::unique_ptr<cases::Method>
-  make_sph()
+  std::unique_ptr<cases::Method> make_sph()
   {
     return std::make_unique<SphMethod>(corrected_policy());
   }
 
-  std::unique_ptr<cases::Method>
-  make_sph_2005()
+  std::unique_ptr<cases::Method> make_sph_2005()
   {
     return std::make_unique<SphMethod>(published_policy());
   }

@@ -1,73 +1,54 @@
 #include <cases/scene.h>
-#include <particles/sph/heat_sources.h>
+#include <particles/sph/careful_sum.h>
+#include <particles/sph/heat_flow.h>
 #include <particles/sph/initial_state.h>
-#include <particles/sph/phase_conductivity.h>
 #include <particles/sph/sph_run.h>
 #include <particles/sph/stopwatch.h>
 #include <particles/sph/time_stepping.h>
-#include <particles/sph/wall_flux.h>
-#include <particles/sph/wall_temperature.h>
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
+#include <limits>
 
 namespace meltfront::particles
 {
-  using cases::Effect;
-
   namespace
   {
-    /** A sum that keeps the digits its additions would lose (Neumaier 1974). */
-    class CarefulSum
-    {
-    public:
-      void
-      add(double value)
-      {
-        const double next = sum + value;
-        lost += std::abs(sum) >= std::abs(value) ? (sum - next) + value
-                                                 : (value - next) + sum;
-        sum = next;
-      }
-
-      double
-      value() const
-      {
-        return sum + lost;
-      }
-
-    private:
-      double sum = 0;
-      double lost = 0;
-    };
-
-    /** One run: the state, and the passes that the scene's effects call for. */
+    /** One run: the state and its advance in time. */
     class SphRun
     {
     public:
       SphRun(const SphPolicy &policy, const cases::Scene &scene,
              const cases::EffectSet &effects, const cases::Resolution &resolution)
-          : name(policy.name), scene(scene), effects(effects),
-            parameters(resolve_parameters(policy, scene, resolution)),
-            dis(scene, parameters), conduction(dis, parameters.moment_correction),
-            variable(scene.material, effects), bounds(cases::temperature_bounds(scene)),
-            particle_mass(dis.particle_volume * scene.material.solid.density),
-            plan(plan_steps(
-                parameters, scene,
-                monotone_step(scene.material, particle_mass, conduction.largest_row_sum),
-                dis.kernel.smoothing_length())),
-            super_step(plan.stages)
+        : name(policy.name)
+        , scene(scene)
+        , parameters(resolve_parameters(policy, scene, resolution))
+        , dis(scene, parameters)
+        , n(dis.particles.size())
+        , heat_flow(dis, effects, parameters)
+        , bounds(cases::temperature_bounds(scene))
+        , particle_mass(dis.particle_volume * scene.material.solid.density)
+        , plan(plan_steps(parameters, scene, heat_flow.monotone_step(particle_mass),
+                          dis.kernel.smoothing_length()))
+        , super_step(plan.stages)
+        , temperature(n)
+        , solid_fraction(n)
       {
-        compose();
-        allocate();
+        const std::size_t size = heat_flow.padded_size();
+        enthalpy = initial_enthalpy(dis);
+        enthalpy.resize(size, 0.);
+        flow.resize(size);
+        if(plan.stages > 1)
+          for(auto *array : {&start, &before, &start_flow})
+            array->resize(size);
+        heat_flow.prepare_step(scene.start_time, time_of(1));
+        heat_flow.hold_walls(0, enthalpy);
+        heat_flow.follow(enthalpy);
+        initial_heat = heat_content();
       }
 
-      cases::RunDescription describe() const;
-
-      cases::Cost
-      run(cases::Observer &observer, Stopwatch &setup)
+      cases::Cost run(cases::Observer &observer, Stopwatch &setup)
       {
         setup.pause();
         observer.begin(describe());
@@ -75,8 +56,8 @@ namespace meltfront::particles
         Stopwatch stepping;
         for(long step = 1; step <= plan.steps; ++step)
         {
-          const double begin = time_of(step - 1), end = time_of(step);
-          advance(begin, end);
+          const double end = time_of(step);
+          advance(step, time_of(step - 1), end);
           check(step, end);
           if(observer.wants(step, end) || step == plan.steps)
           {
@@ -90,123 +71,26 @@ namespace meltfront::particles
       }
 
     private:
-      /** Build the passes of the effects at hand, and no others. */
-      void
-      compose()
-      {
-        if(effects.contains(Effect::phase_conductivity))
-          phase_conductivity.emplace(scene.material, parameters.melting_conductivity,
-                                     conduction.rows);
-        if(effects.contains(Effect::heat_sources))
-          heat_sources.emplace(dis);
-        if(effects.contains(Effect::wall_temperature))
-          wall_temperature.emplace(dis, conduction, variable);
-        if(effects.contains(Effect::wall_flux))
-          wall_flux.emplace(dis, conduction);
-      }
-
-      void
-      allocate()
-      {
-        const std::size_t padded = conduction.rows.padded_rows();
-        enthalpy = initial_enthalpy(dis);
-        enthalpy.resize(padded, 0.);
-        flow.resize(padded);
-        if(variable.mapped())
-          mapped.resize(padded);
-        if(plan.stages > 1)
-          for(auto *array : {&start, &before, &start_flow})
-            array->resize(padded);
-        if(wall_temperature)
-        {
-          wall_temperature->prepare_step(scene.start_time, time_of(1));
-          wall_temperature->hold(0, enthalpy);
-        }
-        extremes = update_variable();
-        temperature.resize(dis.particles.size());
-        solid_fraction.resize(dis.particles.size());
-        initial_heat = heat_content();
-      }
-
       /** Time after a step; the end exactly. */
-      double
-      time_of(long step) const
+      double time_of(long step) const
       {
         return step == plan.steps ? scene.end_time : scene.start_time + step * plan.step;
       }
 
-      std::span<double>
-      particles_of(std::vector<double> &array) const
+      void advance(long step, double begin, double end)
       {
-        return std::span(array).first(dis.particles.size());
-      }
-
-      /** Bring the conduction variable up to date with the enthalpy. */
-      Extremes
-      update_variable()
-      {
-        return variable.mapped() ? variable.map(particles_of(enthalpy),
-                                                particles_of(mapped), parameters.threads)
-                                 : Extremes{};
-      }
-
-      std::span<const double>
-      conducted() const
-      {
-        return variable.mapped() ? mapped : enthalpy;
-      }
-
-      /**
-       * Heat flow into each particle at a fraction of the step, in units of the
-       * variable's flow scale.
-       * @return heat flow through walls, likewise.
-       */
-      double
-      evaluate(double fraction, std::vector<double> &into)
-      {
-        const auto w = conducted();
-        conduction.rows.apply(w, into, parameters.threads);
-        ++evaluations;
-        if(phase_conductivity)
-          phase_conductivity->apply(conduction.rows, w, into);
-        if(heat_sources)
-          heat_sources->add(into, variable.flow_scale());
-        double through_walls = 0;
-        if(wall_flux)
-          through_walls += wall_flux->add(fraction, into, variable.flow_scale());
-        if(wall_temperature)
-        {
-          if(phase_conductivity)
-            through_walls += phase_conductivity->with_pair(
-                [&](const auto &pair)
-                { return wall_temperature->add(pair, fraction, w, into); });
-          else
-            through_walls += wall_temperature->add(
-                [](double own, double wall) { return wall - own; }, fraction, w, into);
-        }
-        return through_walls;
-      }
-
-      void
-      advance(double begin, double end)
-      {
-        if(heat_sources)
-          heat_sources->prepare_step(begin, end);
-        if(wall_temperature)
-          wall_temperature->prepare_step(begin, end);
-        if(wall_flux)
-          wall_flux->prepare_step(begin, end);
-        const double duration = end - begin;
-        double wall_heat
-            = plan.stages > 1 ? take_super_step(duration) : take_euler_steps(duration, 1);
+        heat_flow.prepare_step(begin, end);
+        const bool super = plan.stages > 1 && step > plan.resolved_steps;
+        double wall_heat = super ? take_super_step(end - begin)
+                                 : take_euler_steps(end - begin, plan.euler_substeps);
         finish_step();
-        if(plan.stages > 1 && breaks_bounds())
+        if(super && breaks_bounds())
         {
           // Only convex combinations keep the maximum principle for certain: repeat the
           // step with these.
           std::swap(enthalpy, start);
-          update_variable();
-          wall_heat = take_euler_steps(duration, plan.euler_substeps);
+          heat_flow.follow(enthalpy);
+          wall_heat = take_euler_steps(end - begin, plan.euler_substeps);
           finish_step();
           ++repeated_steps;
         }
@@ -214,70 +98,67 @@ namespace meltfront::particles
         boundary_heat.add(held_heat);
       }
 
-      void
-      finish_step()
+      void finish_step()
       {
-        held_heat = wall_temperature ? wall_temperature->hold(1, enthalpy) : 0;
-        extremes = update_variable();
-        if(!variable.mapped())
-          extremes = find_extremes(particles_of(enthalpy), parameters.threads);
+        held_heat = heat_flow.hold_walls(1, enthalpy);
+        heat_flow.follow(enthalpy);
+        extremes = heat_flow.temperatures(enthalpy);
       }
 
       /** @return heat through walls. */
-      double
-      take_euler_steps(double duration, int steps)
+      double take_euler_steps(double duration, int steps)
       {
-        const double step = duration / steps;
+        const double step = duration / steps * heat_flow.scale();
         double wall_heat = 0;
         for(int i = 0; i < steps; ++i)
         {
           if(i > 0)
-            update_variable();
-          wall_heat += step * variable.flow_scale() * evaluate(double(i) / steps, flow);
-          const double factor = step * variable.flow_scale() / particle_mass;
-          double *h = enthalpy.data();
-          const double *f = flow.data();
-          const std::size_t n = dis.particles.size();
-#pragma omp parallel for simd schedule(static)                                           \
-    num_threads(parameters.threads) if(parameters.threads > 1)
-          for(std::size_t a = 0; a < n; ++a)
-            h[a] += factor * f[a];
+            heat_flow.follow(enthalpy);
+          wall_heat += step * heat_flow.evaluate(enthalpy, double(i) / steps, flow);
+          add_flow(enthalpy, step / particle_mass, flow);
         }
         return wall_heat;
       }
 
       /** One step of RKL2. @return heat through walls, by the same recursion. */
-      double
-      take_super_step(double duration)
+      double take_super_step(double duration)
       {
-        const double scale = duration * variable.flow_scale();
-        const double factor = scale / particle_mass;
-        const std::size_t n = dis.particles.size();
+        const double step = duration * heat_flow.scale();
+        const double factor = step / particle_mass;
         start = enthalpy;
         before = enthalpy;
-        const double start_rate = evaluate(0, start_flow);
+        const double start_rate = heat_flow.evaluate(enthalpy, 0, start_flow);
         double wall_before = 0;
-        double wall = super_step.first_rate * scale * start_rate;
-        for(std::size_t a = 0; a < n; ++a)
-          enthalpy[a] = start[a] + super_step.first_rate * factor * start_flow[a];
+        double wall = super_step.first_rate * step * start_rate;
+        add_flow(enthalpy, super_step.first_rate * factor, start_flow);
         for(const SuperStage &stage : super_step.stages)
         {
-          update_variable();
-          const double rate = evaluate(stage.fraction, flow);
-          combine(stage, factor, n);
+          heat_flow.follow(enthalpy);
+          const double rate = heat_flow.evaluate(enthalpy, stage.fraction, flow);
+          combine(stage, factor);
           std::swap(before, enthalpy);
           const double wall_next
               = stage.previous * wall + stage.before * wall_before
-                + scale * (stage.rate * rate + stage.start_rate * start_rate);
+                + step * (stage.rate * rate + stage.start_rate * start_rate);
           wall_before = wall;
           wall = wall_next;
         }
         return wall;
       }
 
+      void add_flow(std::vector<double> &array, double factor,
+                    const std::vector<double> &added) const
+      {
+        double *h = array.data();
+        const double *f = added.data();
+#pragma omp parallel for simd schedule(static)                                           \
+    num_threads(parameters.threads) if(parameters.threads > 1)
+        for(std::size_t a = 0; a < n; ++a)
+          h[a] += factor * f[a];
+      }
+
       /** Y_j, into the array of Y_(j-2). */
-      void
-      combine(const SuperStage &stage, double factor, std::size_t n)
+      void combine(const SuperStage &stage, double factor)
       {
         const double *previous = enthalpy.data(), *first = start.data();
         const double *f = flow.data(), *first_flow = start_flow.data();
@@ -292,36 +173,30 @@ namespace meltfront::particles
 
       static constexpr double bound_tolerance = 1e-9;
 
-      bool
-      breaks_bounds() const
+      bool breaks_bounds() const
       {
         const double span = bounds.upper - bounds.lower;
         const double slack = 0.5 * bound_tolerance * (std::isfinite(span) ? span : 0);
-        return !extremes.finite
-               || variable.temperature(extremes.lowest) < bounds.lower - slack
-               || variable.temperature(extremes.highest) > bounds.upper + slack;
+        return !extremes.finite || extremes.lowest < bounds.lower - slack
+               || extremes.highest > bounds.upper + slack;
       }
 
-      void
-      check(long step, double time) const
+      void check(long step, double time) const
       {
-        const double broken = std::numeric_limits<double>::quiet_NaN();
-        cases::check_temperature(
-            bounds, extremes.finite ? variable.temperature(extremes.lowest) : broken,
-            extremes.finite ? variable.temperature(extremes.highest) : broken, name, step,
-            time, bound_tolerance);
+        constexpr double broken = std::numeric_limits<double>::quiet_NaN();
+        cases::check_temperature(bounds, extremes.finite ? extremes.lowest : broken,
+                                 extremes.finite ? extremes.highest : broken, name, step,
+                                 time, bound_tolerance);
       }
 
-      cases::HeatBudget
-      heat_content() const
+      cases::HeatBudget heat_content() const
       {
         const cases::Material &m = scene.material;
         CarefulSum stored, latent;
-        for(std::size_t a = 0; a < dis.particles.size(); ++a)
+        for(std::size_t a = 0; a < n; ++a)
         {
           const double mass = dis.weights[a] * m.solid.density;
-          const double molten = m.latent_heat > 0 ? 1 - m.solid_fraction(enthalpy[a]) : 0;
-          latent.add(mass * m.latent_heat * molten);
+          latent.add(mass * std::clamp(enthalpy[a], 0., m.latent_heat));
           stored.add(
               mass
               * (std::min(enthalpy[a], 0.) + std::max(enthalpy[a] - m.latent_heat, 0.)));
@@ -333,11 +208,10 @@ namespace meltfront::particles
         return heat;
       }
 
-      cases::Snapshot
-      snapshot(long step, double time)
+      cases::Snapshot snapshot(long step, double time)
       {
         const cases::Material &m = scene.material;
-        for(std::size_t a = 0; a < dis.particles.size(); ++a)
+        for(std::size_t a = 0; a < n; ++a)
         {
           temperature[a] = m.temperature(enthalpy[a]);
           solid_fraction[a] = m.solid_fraction(enthalpy[a]);
@@ -354,121 +228,89 @@ namespace meltfront::particles
         result.heat = heat_content();
         result.heat.initial = initial_heat.initial;
         result.heat.boundary = boundary_heat.value();
-        if(heat_sources)
-          result.heat.sources = heat_sources->heat(time) / dis.cross_section;
+        result.heat.sources = heat_flow.source_heat(time) / dis.cross_section;
         return result;
       }
 
-      cases::Cost cost(const Stopwatch &setup, const Stopwatch &stepping) const;
+      long unknowns() const
+      {
+        return static_cast<long>(n - dis.held.size());
+      }
+
+      cases::RunDescription describe() const
+      {
+        cases::RunDescription description;
+        description.dimension = dis.dimension;
+        description.spacing = dis.spacing;
+        description.smoothing_length = dis.kernel.smoothing_length();
+        description.time_step = plan.step;
+        description.unknowns = unknowns();
+        const auto add
+            = [&](const char *what, const std::string &value, const char *unit) {
+                description.parameters.push_back({what, value, unit});
+              };
+        add("kernel", kernel_names()[static_cast<std::size_t>(parameters.kernel)], "");
+        add("smoothing length / spacing", fmt::format("{:.6g}", parameters.smoothing),
+            "1");
+        add("layout",
+            dis.layout == LatticeLayout::on_edge ? "particles on the edge"
+                                                 : "cell-centred",
+            "");
+        if(dis.displaced)
+          add("jitter", fmt::format("{:.6g}", parameters.jitter), "spacings");
+        add("particles", fmt::format("{}", n), "1");
+        for(const cases::Parameter &parameter : heat_flow.describe())
+          description.parameters.push_back(parameter);
+        add("time scheme",
+            plan.stages > 1 ? fmt::format("RKL2, {} stages", plan.stages)
+                            : "explicit Euler",
+            "");
+        add("largest explicit step that keeps the maximum principle",
+            fmt::format("{:.6g}", plan.monotone), "s");
+        return description;
+      }
+
+      cases::Cost cost(const Stopwatch &setup, const Stopwatch &stepping) const
+      {
+        cases::Cost result;
+        result.setup_wall = setup.wall();
+        result.setup_cpu = setup.cpu();
+        result.stepping_wall = stepping.wall();
+        result.stepping_cpu = stepping.cpu();
+        result.steps = plan.steps;
+        result.unknowns = unknowns();
+        result.work = heat_flow.work();
+        result.capped_steps = repeated_steps;
+        result.effects = heat_flow.effect_costs();
+        return result;
+      }
 
       std::string name;
       const cases::Scene &scene;
-      const cases::EffectSet &effects;
       SphParameters parameters;
       Discretisation dis;
-      ConductionRows conduction;
-      ConductionVariable variable;
+      std::size_t n; ///< particles
+      HeatFlow heat_flow;
       cases::TemperatureBounds bounds;
       double particle_mass;
       StepPlan plan;
       SuperStep super_step;
 
-      std::optional<PhaseConductivity> phase_conductivity;
-      std::optional<HeatSources> heat_sources;
-      std::optional<WallTemperature> wall_temperature;
-      std::optional<WallFlux> wall_flux;
-
-      std::vector<double> enthalpy; ///< per mass, the state (J/kg)
-      std::vector<double> mapped;   ///< conduction variable, where it is not the enthalpy
-      std::vector<double> flow;     ///< heat flow into each particle
+      std::vector<double> enthalpy;                    ///< per mass, the state (J/kg)
+      std::vector<double> flow;                        ///< heat flow into each particle
       std::vector<double> start, before, start_flow;   ///< Y_0, Y_(j-2), F(Y_0) of RKL2
-      Extremes extremes{};                             ///< of the conduction variable
       std::vector<double> temperature, solid_fraction; ///< for snapshots
+      Extremes extremes{};                             ///< of the temperature
       cases::HeatBudget initial_heat;
       CarefulSum boundary_heat;
       double held_heat = 0; ///< of the step's new wall temperatures
-      long evaluations = 0;
       long repeated_steps = 0;
     };
-
-    cases::RunDescription
-    SphRun::describe() const
-    {
-      cases::RunDescription description;
-      description.dimension = dis.dimension;
-      description.spacing = dis.spacing;
-      description.smoothing_length = dis.kernel.smoothing_length();
-      description.time_step = plan.step;
-      description.unknowns = static_cast<long>(dis.particles.size() - dis.held.size());
-      const auto add = [&](const char *what, const std::string &value, const char *unit) {
-        description.parameters.push_back({what, value, unit});
-      };
-      add("kernel", kernel_names()[static_cast<std::size_t>(parameters.kernel)], "");
-      add("smoothing length / spacing", fmt::format("{:.6g}", parameters.smoothing), "1");
-      add("layout",
-          dis.layout == LatticeLayout::on_edge ? "particles on the edge" : "cell-centred",
-          "");
-      add("particles", fmt::format("{}", dis.particles.size()), "1");
-      add("interactions per particle",
-          fmt::format("{:.4g}",
-                      double(conduction.rows.interactions()) / dis.particles.size()),
-          "1");
-      add("second moment divided out", fmt::format("{:.10g}", conduction.second_moment),
-          "1");
-      if(phase_conductivity)
-        add("conductivity at the melting temperature",
-            parameters.melting_conductivity == MeltingConductivity::partner
-                ? "the partner's"
-                : "the liquid's until frozen",
-            "");
-      add("time scheme",
-          plan.stages > 1 ? fmt::format("RKL2, {} stages", plan.stages)
-                          : "explicit Euler",
-          "");
-      add("largest explicit step that keeps the maximum principle",
-          fmt::format("{:.6g}", plan.monotone), "s");
-      if(dis.displaced)
-        add("jitter", fmt::format("{:.6g}", parameters.jitter), "spacings");
-      return description;
-    }
-
-    cases::Cost
-    SphRun::cost(const Stopwatch &setup, const Stopwatch &stepping) const
-    {
-      cases::Cost result;
-      result.setup_wall = setup.wall();
-      result.setup_cpu = setup.cpu();
-      result.stepping_wall = stepping.wall();
-      result.stepping_cpu = stepping.cpu();
-      result.steps = plan.steps;
-      result.unknowns = static_cast<long>(dis.particles.size() - dis.held.size());
-      result.capped_steps = repeated_steps;
-      std::size_t per_evaluation = conduction.rows.interactions();
-      if(wall_temperature)
-        per_evaluation += wall_temperature->size();
-      if(wall_flux)
-        per_evaluation += wall_flux->size();
-      result.work = evaluations * static_cast<long>(per_evaluation);
-      result.effects = variable.costs(effects, mapped.size() * sizeof(double));
-      if(phase_conductivity)
-      {
-        result.work += phase_conductivity->work();
-        result.effects.push_back(phase_conductivity->cost());
-      }
-      if(heat_sources)
-        result.effects.push_back(heat_sources->cost());
-      if(wall_temperature)
-        result.effects.push_back(wall_temperature->cost());
-      if(wall_flux)
-        result.effects.push_back(wall_flux->cost());
-      return result;
-    }
   } // namespace
 
-  cases::Cost
-  run_sph(const SphPolicy &policy, const cases::Scene &scene,
-          const cases::EffectSet &effects, const cases::Resolution &resolution,
-          cases::Observer &observer)
+  cases::Cost run_sph(const SphPolicy &policy, const cases::Scene &scene,
+                      const cases::EffectSet &effects,
+                      const cases::Resolution &resolution, cases::Observer &observer)
   {
     Stopwatch setup;
     SphRun run(policy, scene, effects, resolution);

@@ -15,8 +15,7 @@ namespace meltfront::particles
       resume();
     }
 
-    void
-    pause()
+    void pause()
     {
       wall_seconds
           += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start)
@@ -24,29 +23,25 @@ namespace meltfront::particles
       cpu_seconds += process_seconds() - cpu_start;
     }
 
-    void
-    resume()
+    void resume()
     {
       wall_start = std::chrono::steady_clock::now();
       cpu_start = process_seconds();
     }
 
     /** Seconds until the last pause. */
-    double
-    wall() const
+    double wall() const
     {
       return wall_seconds;
     }
 
-    double
-    cpu() const
+    double cpu() const
     {
       return cpu_seconds;
     }
 
   private:
-    static double
-    process_seconds()
+    static double process_seconds()
     {
       timespec now{};
       clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);

@@ -13,43 +13,38 @@ namespace meltfront::particles
     /** Fewest steps of a run, so that fronts can be sampled at 100 times. */
     constexpr long fewest_steps = 200;
 
-    long
-    steps_for(double duration, double step)
+    long steps_for(double duration, double step)
     {
       return std::max(fewest_steps,
                       static_cast<long>(std::ceil(duration / step * (1 - 1e-12))));
     }
   } // namespace
 
-  double
-  monotone_step(const cases::Material &material, double particle_mass,
-                double largest_row_sum)
+  double monotone_step(const cases::Material &material, double particle_mass,
+                       double largest_row_sum, double largest_front_factor)
   {
     const double solid = material.solid.conductivity;
     const double liquid = material.liquid.conductivity;
     const double mean = solid == liquid ? 0 : 2 * solid * liquid / (solid + liquid);
-    return particle_mass / largest_row_sum
+    return particle_mass / (largest_front_factor * largest_row_sum)
            * std::min(material.solid.specific_heat_capacity / std::max(solid, mean),
                       material.liquid.specific_heat_capacity / std::max(liquid, mean));
   }
 
-  double
-  published_step(const cases::Material &material, double smoothing_length)
+  double published_step(const cases::Material &material, double smoothing_length)
   {
     return 0.15 * smoothing_length * smoothing_length
            * std::min(1 / material.solid.diffusivity(),
                       1 / material.liquid.diffusivity());
   }
 
-  double
-  super_step_reach(int stages)
+  double super_step_reach(int stages)
   {
     return (double(stages) * stages + stages - 2) / 4;
   }
 
-  StepPlan
-  plan_steps(const SphParameters &p, const cases::Scene &scene, double monotone,
-             double smoothing_length)
+  StepPlan plan_steps(const SphParameters &p, const cases::Scene &scene, double monotone,
+                      double smoothing_length)
   {
     const double duration = scene.end_time - scene.start_time;
     const double euler = p.step_factor > 0
@@ -60,7 +55,7 @@ namespace meltfront::particles
           "a step of {:.6g} s is {:.4g} times the largest one, {:.6g} s, that keeps the "
           "maximum principle and is certainly stable",
           euler, euler / monotone, monotone));
-    StepPlan plan{steps_for(duration, euler), 0, 1, monotone, 1};
+    StepPlan plan{steps_for(duration, euler), 0, 1, monotone, 1, 8};
     if(p.time_scheme == TimeScheme::rkl2)
     {
       const long steps = steps_for(duration, euler * super_step_reach(p.stages));

@@ -11,15 +11,16 @@ namespace meltfront::particles
   /**
    * The largest explicit step that is guaranteed to keep the maximum principle:
    *
-   *   dt = min over phases p of m c_p / (k'_p max_a sum_b g_ab),
+   *   dt = min over phases p of m c_p / (x k'_p max_a sum_b g_ab),
    *
-   * k'_p the larger of the phase's conductivity and, where phases differ, of the harmonic
-   * mean 2 k_s k_l/(k_s + k_l). New temperatures are then convex combinations of old ones
+   * x the largest factor of the exchange at fronts, k'_p the larger of the phase's
+   * conductivity and, where phases differ, of the harmonic mean 2 k_s k_l/(k_s + k_l).
+   * New temperatures are then convex combinations of old ones
    * and of the walls'; by Gershgorin's theorem the step lies within the linear stability
    * limit 2/lambda_max as well.
    */
   double monotone_step(const cases::Material &material, double particle_mass,
-                       double largest_row_sum);
+                       double largest_row_sum, double largest_front_factor);
 
   /** 0.15 c rho h^2/k, the smaller of both phases' (Monaghan et al. 2005, equation 2.20).
    */
@@ -29,10 +30,13 @@ namespace meltfront::particles
   struct StepPlan
   {
     long steps;
-    double step;        ///< s
-    int stages;         ///< of each step; 1: explicit Euler
-    double monotone;    ///< monotone_step (s)
-    int euler_substeps; ///< Euler steps that replace a super step which broke a bound
+    double step;         ///< s
+    int stages;          ///< of each step; 1: explicit Euler
+    double monotone;     ///< monotone_step (s)
+    int euler_substeps;  ///< Euler steps in place of a super step, where it is resolved
+                         ///< or broke a bound
+    long resolved_steps; ///< so many first steps are resolved by Euler steps: a
+                         ///< discontinuous start is not smooth enough for a super step
   };
 
   /**

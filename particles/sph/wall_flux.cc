@@ -3,18 +3,17 @@
 namespace meltfront::particles
 {
   WallFlux::WallFlux(const Discretisation &discretisation, const ConductionRows &rows)
-      : links(rows.flux_links), values(discretisation.scene, rows.flux_points, links)
+    : links(rows.flux_links)
+    , values(discretisation.scene, rows.flux_points, links)
   {
   }
 
-  void
-  WallFlux::prepare_step(double begin, double end)
+  void WallFlux::prepare_step(double begin, double end)
   {
     meter.measure_setup([&] { values.prepare_step(begin, end); });
   }
 
-  double
-  WallFlux::add(double fraction, std::span<double> flow, double flow_scale)
+  double WallFlux::add(double fraction, std::span<double> flow, double flow_scale)
   {
     return meter.measure(
         [&]
@@ -31,8 +30,7 @@ namespace meltfront::particles
         });
   }
 
-  cases::EffectCost
-  WallFlux::cost() const
+  cases::EffectCost WallFlux::cost() const
   {
     return meter.cost(cases::Effect::wall_flux,
                       links.size() * sizeof(WallLink) + values.bytes());

@@ -27,8 +27,7 @@ namespace meltfront::particles
     double add(double fraction, std::span<double> flow, double flow_scale);
 
     /** Links to walls, the entries that one pass touches. */
-    std::size_t
-    size() const
+    std::size_t size() const
     {
       return links.size();
     }

@@ -5,9 +5,9 @@ namespace meltfront::particles
   namespace
   {
     /** Points for the links of free particles, then one per held particle. */
-    std::vector<WallPoint>
-    all_points(const Discretisation &dis, const ConductionRows &rows,
-               std::vector<WallLink> &links)
+    std::vector<WallPoint> all_points(const Discretisation &dis,
+                                      const ConductionRows &rows,
+                                      std::vector<WallLink> &links)
     {
       std::vector<WallPoint> points = rows.temperature_points;
       links = rows.temperature_links;
@@ -24,8 +24,7 @@ namespace meltfront::particles
     }
 
     /** Add up neighbouring links of one row to one point. */
-    std::vector<WallLink>
-    merged(std::span<const WallLink> links)
+    std::vector<WallLink> merged(std::span<const WallLink> links)
     {
       std::vector<WallLink> result;
       for(const WallLink &link : links)
@@ -48,8 +47,10 @@ namespace meltfront::particles
 
   WallTemperature::WallTemperature(const Discretisation &dis, const ConductionRows &rows,
                                    const ConductionVariable &variable)
-      : variable(variable), material(dis.scene.material), held(dis.held),
-        values(dis.scene, all_points(dis, rows, links), links)
+    : variable(variable)
+    , material(dis.scene.material)
+    , held(dis.held)
+    , values(dis.scene, all_points(dis, rows, links), links)
   {
     const std::size_t free = links.size() - held.size();
     held_links.assign(links.begin() + free, links.end());
@@ -59,14 +60,12 @@ namespace meltfront::particles
     wall_variable.resize(values.size());
   }
 
-  void
-  WallTemperature::prepare_step(double begin, double end)
+  void WallTemperature::prepare_step(double begin, double end)
   {
     meter.measure_setup([&] { values.prepare_step(begin, end); });
   }
 
-  double
-  WallTemperature::hold(double fraction, std::span<double> enthalpy)
+  double WallTemperature::hold(double fraction, std::span<double> enthalpy)
   {
     double heat = 0;
     for(std::size_t i = 0; i < held.size(); ++i)
@@ -79,8 +78,7 @@ namespace meltfront::particles
     return heat;
   }
 
-  cases::EffectCost
-  WallTemperature::cost() const
+  cases::EffectCost WallTemperature::cost() const
   {
     return meter.cost(cases::Effect::wall_temperature,
                       (links.size() + held_links.size()) * sizeof(WallLink)

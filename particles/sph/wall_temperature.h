@@ -24,14 +24,13 @@ namespace meltfront::particles
     void prepare_step(double begin, double end);
 
     /**
-     * Add the heat from the walls to the particles' flows; particles that hold a wall's
-     * temperature keep none.
+     * Add the heat from the walls to the particles' flows, exchange(row, variable of the
+     * wall) times the links' strengths; particles that hold a wall's temperature keep
+     * none.
      * @return heat flow into the scene, in the flows' unit.
      */
-    template <typename Pair>
-    double
-    add(const Pair &pair, double fraction, std::span<const double> w,
-        std::span<double> flow)
+    template <typename Exchange>
+    double add(const Exchange &exchange, double fraction, std::span<double> flow)
     {
       return meter.measure(
           [&]
@@ -42,7 +41,7 @@ namespace meltfront::particles
             for(const WallLink &link : links)
             {
               const double heat
-                  = link.strength * pair(w[link.row], wall_variable[link.point]);
+                  = link.strength * exchange(link.row, wall_variable[link.point]);
               flow[link.row] += heat;
               sum += heat;
             }
@@ -62,8 +61,7 @@ namespace meltfront::particles
     double hold(double fraction, std::span<double> enthalpy);
 
     /** Links to walls, the entries that one pass touches. */
-    std::size_t
-    size() const
+    std::size_t size() const
     {
       return links.size() + held.size();
     }

@@ -13,8 +13,7 @@ namespace meltfront::particles
     /** Equal for points whose values cannot differ. */
     using Key = std::tuple<const cases::Boundary *, std::array<std::int64_t, 3>>;
 
-    Key
-    key(const cases::Scene &scene, const WallPoint &point)
+    Key key(const cases::Scene &scene, const WallPoint &point)
     {
       const double grain = 1e-10 * scene.domain.side();
       std::array<std::int64_t, 3> place{};
@@ -37,10 +36,10 @@ namespace meltfront::particles
   WallValues::WallValues(const cases::Scene &scene,
                          const std::vector<WallPoint> &all_points,
                          std::vector<WallLink> &links)
-      : last_time(std::numeric_limits<double>::quiet_NaN()),
-        constant(std::all_of(all_points.begin(), all_points.end(),
-                             [](const WallPoint &point)
-                             { return point.boundary->value.constant; }))
+    : last_time(std::numeric_limits<double>::quiet_NaN())
+    , constant(std::all_of(all_points.begin(), all_points.end(),
+                           [](const WallPoint &point)
+                           { return point.boundary->value.constant; }))
   {
     std::map<Key, std::uint32_t> numbers;
     std::vector<std::uint32_t> number_of;
@@ -62,15 +61,13 @@ namespace meltfront::particles
     last.resize(points.size());
   }
 
-  void
-  WallValues::evaluate(double time, std::vector<double> &values) const
+  void WallValues::evaluate(double time, std::vector<double> &values) const
   {
     for(std::size_t p = 0; p < points.size(); ++p)
       values[p] = points[p].boundary->value(points[p].position, time);
   }
 
-  void
-  WallValues::prepare_step(double begin, double end)
+  void WallValues::prepare_step(double begin, double end)
   {
     if(constant)
     {
@@ -90,8 +87,7 @@ namespace meltfront::particles
     last_time = end;
   }
 
-  std::size_t
-  WallValues::bytes() const
+  std::size_t WallValues::bytes() const
   {
     return points.size() * (sizeof(WallPoint) + 2 * sizeof(double));
   }

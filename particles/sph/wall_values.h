@@ -23,14 +23,12 @@ namespace meltfront::particles
     void prepare_step(double begin, double end);
 
     /** A value at a fraction of the step. */
-    double
-    at(std::size_t point, double fraction) const
+    double at(std::size_t point, double fraction) const
     {
       return first[point] + fraction * (last[point] - first[point]);
     }
 
-    std::size_t
-    size() const
+    std::size_t size() const
     {
       return points.size();
     }

@@ -1,0 +1,166 @@
+#ifndef meltfront_particles_sph_front_exchange_h
+#define meltfront_particles_sph_front_exchange_h
+
+#include <cases/material.h>
+#include <particles/core/particle_operator.h>
+#include <particles/sph/effect_meter.h>
+#include <particles/sph/parameters.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace meltfront::particles
+{
+  /** The state that the exchange at fronts depends on. */
+  struct FrontState
+  {
+    const double *u;        ///< Kirchhoff variable k (T - T_m) of each particle
+    const double *enthalpy; ///< J/kg
+  };
+
+  /**
+   * What drives heat between particles at a front, with the front at its place within the
+   * melting particle (the enthalpy method of Tacke 1985, carried over to particles).
+   *
+   * A melting particle of solid fraction f is at T_m, but its front is not at its centre:
+   * seen from the solid it is (f - 1/2) spacings beyond it. So the difference u_b to a
+   * solid partner is divided by 1/2 + f, to a liquid one by 3/2 - f. Between solid and
+   * liquid the front is half way, at T_m: it takes 2 |u_s| to one side and gets 2 u_l
+   * from the other, and the particle that is about to change phase bears the difference,
+   * so that the pair exchanges twice the larger of the two. Each factor is at most 2.
+   */
+  struct SubParticlePair
+  {
+    FrontState state;
+    double inverse_latent_heat;
+
+    double operator()(std::size_t a, std::size_t b) const
+    {
+      const double own = state.u[a], other = state.u[b];
+      if(own == 0)
+        return to_melting(a, other);
+      if(other == 0)
+        return -to_melting(b, own);
+      return between(own, other);
+    }
+
+    /** From a wall with the Kirchhoff variable `wall`, half a spacing from the particle's
+     * centre: the frozen (molten) part of the particle is all that lies between. */
+    double from_wall(std::size_t a, double wall) const
+    {
+      const double own = state.u[a];
+      if(own == 0)
+      {
+        const double molten = state.enthalpy[a] * inverse_latent_heat;
+        return wall / std::max(0.5, 2 * (wall < 0 ? 1 - molten : molten));
+      }
+      return wall == 0 ? -own : between(own, wall);
+    }
+
+  private:
+    double to_melting(std::size_t a, double partner) const
+    {
+      const double molten = state.enthalpy[a] * inverse_latent_heat;
+      return partner / (partner < 0 ? 1.5 - molten : 0.5 + molten);
+    }
+
+    static double between(double own, double other)
+    {
+      if((own < 0) == (other < 0))
+        return other - own;
+      const double larger = 2 * std::max(std::abs(own), std::abs(other));
+      return own < 0 ? larger : -larger;
+    }
+  };
+
+  /**
+   * What drives heat between particles whose phases conduct differently, with every front
+   * half way between particles: within a phase u_b - u_a; between solid and liquid the
+   * harmonic mean of Cleary and Monaghan (1999), 2 k_s k_l/(k_s + k_l) (T_b - T_a). A
+   * melting particle has u = 0, so that u_b - u_a gives it its partner's conductivity; as
+   * published it counts as liquid until it has frozen.
+   */
+  struct HarmonicPair
+  {
+    FrontState state;
+    double solid_scale;  ///< 2 k_l/(k_s + k_l)
+    double liquid_scale; ///< 2 k_s/(k_s + k_l)
+    bool melting_is_liquid;
+
+    double operator()(std::size_t a, std::size_t b) const
+    {
+      return from_wall(a, state.u[b]);
+    }
+
+    double from_wall(std::size_t a, double other) const
+    {
+      const double own = state.u[a];
+      const bool differ = melting_is_liquid
+                              ? (own < 0) != (other < 0)
+                              : (own < 0 && other > 0) || (own > 0 && other < 0);
+      return differ ? scaled(other) - scaled(own) : other - own;
+    }
+
+  private:
+    double scaled(double u) const
+    {
+      return u * (u < 0 ? solid_scale : liquid_scale);
+    }
+  };
+
+  /**
+   * The exchange of heat at fronts: overwrites the rows near fronts, found from the
+   * phases in each slice of the operator, and touches no other row.
+   */
+  class FrontExchange
+  {
+  public:
+    /** @param rule FrontRule::sub_particle for a material with latent heat only */
+    FrontExchange(const cases::Material &material, FrontRule rule,
+                  const ParticleOperator &rows);
+
+    /** The largest factor by which a pair exchanges more than u_b - u_a. */
+    static double largest_factor(FrontRule rule);
+
+    /** Correct the heat flows of the rows near fronts. */
+    void apply(const ParticleOperator &rows, FrontState state, std::span<double> flow);
+
+    /** Call a function with the pair function in use. */
+    template <typename Use>
+    auto with_pair(FrontState state, const Use &use) const
+    {
+      if(rule == FrontRule::sub_particle)
+        return use(SubParticlePair{state, inverse_latent_heat});
+      return use(
+          HarmonicPair{state, solid_scale, liquid_scale, rule == FrontRule::liquid});
+    }
+
+    /** Interactions that apply() touched so far. */
+    long work() const
+    {
+      return touched;
+    }
+
+    /** The cost, booked under the effect that calls for the exchange. */
+    cases::EffectCost cost(cases::Effect effect) const;
+
+  private:
+    void find_fronts(const double *u);
+    bool update_phases(const double *u);
+
+    FrontRule rule;
+    double inverse_latent_heat;
+    double solid_scale;
+    double liquid_scale;
+    std::vector<std::size_t> offsets;
+    std::vector<std::uint32_t> adjacent; ///< slices that a slice's rows reach
+    std::vector<unsigned char> phases;   ///< of a slice's particles, a set of bits
+    std::vector<std::uint32_t> fronts;   ///< slices that reach more than one phase
+    long touched = 0;
+    EffectMeter meter;
+  };
+} // namespace meltfront::particles
+
+#endif

@@ -1,0 +1,178 @@
+#include <particles/sph/heat_flow.h>
+#include <particles/sph/time_stepping.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meltfront::particles
+{
+  using cases::Effect;
+
+  HeatFlow::HeatFlow(const Discretisation &dis, const cases::EffectSet &effects,
+                     const SphParameters &parameters)
+    : effects(effects)
+    , material(dis.scene.material)
+    , threads(parameters.threads)
+    , n(dis.particles.size())
+    , conduction(dis, parameters.moment_correction)
+    , variable(material, effects)
+    , front_rule(parameters.front)
+    , exchange_effect(Effect::phase_conductivity)
+  {
+    // Without latent heat no particle melts gradually: fronts lie between particles.
+    if(front_rule == FrontRule::sub_particle)
+    {
+      if(effects.contains(Effect::phase_change) && material.latent_heat > 0)
+        exchange_effect = Effect::phase_change;
+      else
+        front_rule = FrontRule::partner;
+    }
+    if(exchange_at_fronts())
+      front_exchange.emplace(material, front_rule, conduction.rows);
+    if(variable.mapped())
+      mapped.resize(padded_size());
+    if(effects.contains(Effect::heat_sources))
+      heat_sources.emplace(dis);
+    if(effects.contains(Effect::wall_temperature))
+      wall_temperature.emplace(dis, conduction, variable);
+    if(effects.contains(Effect::wall_flux))
+      wall_flux.emplace(dis, conduction);
+  }
+
+  void HeatFlow::prepare_step(double begin, double end)
+  {
+    if(heat_sources)
+      heat_sources->prepare_step(begin, end);
+    if(wall_temperature)
+      wall_temperature->prepare_step(begin, end);
+    if(wall_flux)
+      wall_flux->prepare_step(begin, end);
+  }
+
+  double HeatFlow::hold_walls(double fraction, std::span<double> enthalpy)
+  {
+    return wall_temperature ? wall_temperature->hold(fraction, enthalpy) : 0.;
+  }
+
+  void HeatFlow::follow(std::span<const double> enthalpy)
+  {
+    if(!variable.mapped())
+      return;
+    extremes = variable.map(enthalpy.first(n), std::span(mapped).first(n), threads);
+    // Padding has the phase of its slice, so as not to look like a front.
+    std::fill(mapped.begin() + static_cast<std::ptrdiff_t>(n), mapped.end(),
+              mapped[n - 1]);
+  }
+
+  Extremes HeatFlow::temperatures(std::span<const double> enthalpy) const
+  {
+    const Extremes w
+        = variable.mapped() ? extremes : find_extremes(enthalpy.first(n), threads);
+    return {variable.temperature(w.lowest), variable.temperature(w.highest), w.finite};
+  }
+
+  double HeatFlow::wall_flow(FrontState state, double fraction, std::span<double> flow)
+  {
+    if(!front_exchange)
+      return wall_temperature->add([state](std::size_t row, double wall)
+                                   { return wall - state.u[row]; },
+                                   fraction, flow);
+    return front_exchange->with_pair(state,
+                                     [&](const auto &pair)
+                                     {
+                                       return wall_temperature->add(
+                                           [&pair](std::size_t row, double wall)
+                                           { return pair.from_wall(row, wall); },
+                                           fraction, flow);
+                                     });
+  }
+
+  double HeatFlow::evaluate(std::span<const double> enthalpy, double fraction,
+                            std::span<double> flow)
+  {
+    const std::span<const double> w
+        = variable.mapped() ? std::span<const double>(mapped) : enthalpy;
+    const FrontState state{w.data(), enthalpy.data()};
+    conduction.rows.apply(w, flow, threads);
+    ++evaluations;
+    if(front_exchange)
+      front_exchange->apply(conduction.rows, state, flow);
+    if(heat_sources)
+      heat_sources->add(flow, scale());
+    double through_walls = 0;
+    if(wall_flux)
+      through_walls += wall_flux->add(fraction, flow, scale());
+    if(wall_temperature)
+      through_walls += wall_flow(state, fraction, flow);
+    return through_walls;
+  }
+
+  double HeatFlow::source_heat(double time) const
+  {
+    return heat_sources ? heat_sources->heat(time) : 0.;
+  }
+
+  double HeatFlow::monotone_step(double particle_mass) const
+  {
+    return particles::monotone_step(
+        material, particle_mass, conduction.largest_row_sum,
+        front_exchange ? FrontExchange::largest_factor(front_rule) : 1.);
+  }
+
+  std::vector<cases::Parameter> HeatFlow::describe() const
+  {
+    std::vector<cases::Parameter> result{
+        {"interactions per particle",
+         fmt::format("{:.4g}", double(conduction.rows.interactions()) / n), "1"},
+        {"second moment divided out", fmt::format("{:.10g}", conduction.second_moment),
+         "1"}};
+    if(front_exchange)
+      result.push_back({"exchange at fronts",
+                        front_rule == FrontRule::sub_particle
+                            ? "front within the melting particle"
+                        : front_rule == FrontRule::partner
+                            ? "melting particles conduct as their partners"
+                            : "melting particles conduct as the liquid",
+                        ""});
+    return result;
+  }
+
+  long HeatFlow::work() const
+  {
+    std::size_t per_evaluation = conduction.rows.interactions();
+    if(wall_temperature)
+      per_evaluation += wall_temperature->size();
+    if(wall_flux)
+      per_evaluation += wall_flux->size();
+    return evaluations * static_cast<long>(per_evaluation)
+           + (front_exchange ? front_exchange->work() : 0);
+  }
+
+  std::vector<cases::EffectCost> HeatFlow::effect_costs() const
+  {
+    std::vector<cases::EffectCost> costs
+        = variable.costs(effects, mapped.size() * sizeof(double));
+    const auto add = [&costs](const cases::EffectCost &cost)
+    {
+      for(cases::EffectCost &known : costs)
+        if(known.effect == cost.effect)
+        {
+          known.calls += cost.calls;
+          known.bytes += cost.bytes;
+          known.seconds += cost.seconds;
+          return;
+        }
+      costs.push_back(cost);
+    };
+    if(front_exchange)
+      add(front_exchange->cost(exchange_effect));
+    if(heat_sources)
+      add(heat_sources->cost());
+    if(wall_temperature)
+      add(wall_temperature->cost());
+    if(wall_flux)
+      add(wall_flux->cost());
+    return costs;
+  }
+} // namespace meltfront::particles

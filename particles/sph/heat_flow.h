@@ -1,0 +1,102 @@
+#ifndef meltfront_particles_sph_heat_flow_h
+#define meltfront_particles_sph_heat_flow_h
+
+#include <particles/sph/conduction_rows.h>
+#include <particles/sph/front_exchange.h>
+#include <particles/sph/heat_sources.h>
+#include <particles/sph/phase_map.h>
+#include <particles/sph/wall_flux.h>
+#include <particles/sph/wall_temperature.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace meltfront::particles
+{
+  /**
+   * The heat flow into each particle, composed once from the passes of the effects at
+   * hand: an effect that is absent has no pass and no array.
+   */
+  class HeatFlow
+  {
+  public:
+    HeatFlow(const Discretisation &discretisation, const cases::EffectSet &effects,
+             const SphParameters &parameters);
+
+    HeatFlow(const HeatFlow &) = delete;
+    HeatFlow &operator=(const HeatFlow &) = delete;
+
+    /** Evaluate walls and sources for a step. */
+    void prepare_step(double begin, double end);
+
+    /** Set particles on walls to the wall's temperature at a fraction of the step.
+     * @return heat that this took from the walls (J in the measure of the scene). */
+    double hold_walls(double fraction, std::span<double> enthalpy);
+
+    /** Follow a change of the enthalpy; needed before evaluate(). */
+    void follow(std::span<const double> enthalpy);
+
+    /** Lowest and highest temperature of the enthalpy followed last. */
+    Extremes temperatures(std::span<const double> enthalpy) const;
+
+    /**
+     * Heat flow into each particle at a fraction of the step, over scale().
+     * @return heat flow through walls into the scene, likewise.
+     */
+    double evaluate(std::span<const double> enthalpy, double fraction,
+                    std::span<double> flow);
+
+    /** Unit of the flows (W for 1). */
+    double scale() const
+    {
+      return variable.flow_scale();
+    }
+
+    /** Heat from sources since the start of the scene (J m^(d-3)). */
+    double source_heat(double time) const;
+
+    /** The largest explicit step that keeps the maximum principle (s). */
+    double monotone_step(double particle_mass) const;
+
+    /** Length of arrays of enthalpy and flow. */
+    std::size_t padded_size() const
+    {
+      return conduction.rows.padded_rows();
+    }
+
+    /** What the report prints of the operator. */
+    std::vector<cases::Parameter> describe() const;
+
+    /** Interactions and wall links touched so far. */
+    long work() const;
+
+    std::vector<cases::EffectCost> effect_costs() const;
+
+  private:
+    bool exchange_at_fronts() const
+    {
+      return effects.contains(exchange_effect);
+    }
+
+    double wall_flow(FrontState state, double fraction, std::span<double> flow);
+
+    const cases::EffectSet &effects;
+    const cases::Material &material;
+    int threads;
+    std::size_t n; ///< particles
+    ConductionRows conduction;
+    ConductionVariable variable;
+    FrontRule front_rule;
+    cases::Effect exchange_effect; ///< the effect that calls for the exchange at fronts
+    std::vector<double> mapped;    ///< conduction variable, where it is not the enthalpy
+    Extremes extremes{};           ///< of the conduction variable
+    std::optional<FrontExchange> front_exchange;
+    std::optional<HeatSources> heat_sources;
+    std::optional<WallTemperature> wall_temperature;
+    std::optional<WallFlux> wall_flux;
+    long evaluations = 0;
+  };
+} // namespace meltfront::particles
+
+#endif
