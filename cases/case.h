@@ -4,6 +4,7 @@
 #include <cases/exact_solution.h>
 #include <cases/scene.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,7 +27,9 @@ namespace meltfront::cases
     std::string method;
     std::string quantity; ///< a column of the convergence table, e.g. `front_rms`
     Statistic statistic = Statistic::value;
-    int n = 0; ///< for Statistic::value
+    int n = 0;      ///< for Statistic::value
+    int n_from = 0; ///< for the others: rows n_from <= n <= n_to of the table count
+    int n_to = std::numeric_limits<int>::max();
     double lower = -std::numeric_limits<double>::infinity();
     double upper = std::numeric_limits<double>::infinity();
     /** Why it is not met and by how much, measured; empty when it is met. Does not make

@@ -12,15 +12,13 @@ namespace meltfront::cases
     const std::string initial_keys = "Scene/Initial state";
     constexpr int times_sampled = 16;
 
-    double
-    sampled_time(const Scene &scene, int i)
+    double sampled_time(const Scene &scene, int i)
     {
       return scene.start_time + (scene.end_time - scene.start_time) * i / times_sampled;
     }
 
     /** Points at a distance from the origin of a ball, in all directions of the axes. */
-    std::vector<Position>
-    directions(const Domain &domain, double radius)
+    std::vector<Position> directions(const Domain &domain, double radius)
     {
       std::vector<Position> points;
       for(int d = 0; d < domain.dimension; ++d)
@@ -34,9 +32,8 @@ namespace meltfront::cases
     }
 
     /** A grid of points between two shares (0 to 1) of every side of a slab or box. */
-    std::vector<Position>
-    grid(const Domain &domain, const std::array<double, 3> &from,
-         const std::array<double, 3> &to)
+    std::vector<Position> grid(const Domain &domain, const std::array<double, 3> &from,
+                               const std::array<double, 3> &to)
     {
       constexpr int across = 5;
       std::array<int, 3> count{1, 1, 1};
@@ -58,8 +55,7 @@ namespace meltfront::cases
       return points;
     }
 
-    std::vector<Position>
-    interior_points(const Domain &domain)
+    std::vector<Position> interior_points(const Domain &domain)
     {
       if(domain.shape != DomainShape::ball)
         return grid(domain, {0.03, 0.03, 0.03}, {0.97, 0.97, 0.97});
@@ -70,8 +66,7 @@ namespace meltfront::cases
       return points;
     }
 
-    std::vector<Position>
-    wall_points(const Domain &domain, Side side)
+    std::vector<Position> wall_points(const Domain &domain, Side side)
     {
       if(side == Side::outer)
         return directions(domain, domain.radius);
@@ -81,14 +76,12 @@ namespace meltfront::cases
       return grid(domain, from, to);
     }
 
-    std::string
-    wall_keys(Side side)
+    std::string wall_keys(Side side)
     {
       return std::string("Scene/Walls/") + to_string(side);
     }
 
-    std::string
-    point_text(const Domain &domain, const Position &p)
+    std::string point_text(const Domain &domain, const Position &p)
     {
       std::string text;
       for(int d = 0; d < domain.dimension; ++d)
@@ -97,17 +90,15 @@ namespace meltfront::cases
     }
 
     /** The key that gives a wall's value. */
-    const char *
-    value_key(const Boundary &boundary)
+    const char *value_key(const Boundary &boundary)
     {
       return boundary.kind == BoundaryKind::flux ? "flux" : "temperature";
     }
 
     /** Values at points that a symmetric scene cannot tell apart must agree. */
-    void
-    check_symmetric(const PrmFile &prm, const Scene &scene, const Field &field,
-                    double radius, double time, const std::string &here,
-                    const std::string &key)
+    void check_symmetric(const PrmFile &prm, const Scene &scene, const Field &field,
+                         double radius, double time, const std::string &here,
+                         const std::string &key)
     {
       double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
       for(const Position &p : directions(scene.domain, radius))
@@ -123,10 +114,9 @@ namespace meltfront::cases
                                     radius));
     }
 
-    void
-    check_finite(const PrmFile &prm, const Scene &scene, const Field &field,
-                 const Position &p, double time, const std::string &here,
-                 const std::string &key)
+    void check_finite(const PrmFile &prm, const Scene &scene, const Field &field,
+                      const Position &p, double time, const std::string &here,
+                      const std::string &key)
     {
       if(!std::isfinite(field(p, time)))
         throw prm.error(here, key,
@@ -135,8 +125,7 @@ namespace meltfront::cases
     }
 
     /** Largest difference between the temperatures that the scene itself names. */
-    double
-    temperature_span(const Scene &scene)
+    double temperature_span(const Scene &scene)
     {
       double lowest = scene.material.melting_temperature, highest = lowest;
       const auto include = [&](double temperature)
@@ -159,12 +148,14 @@ namespace meltfront::cases
     {
     public:
       ExactCheck(const PrmFile &prm, const Case &c)
-          : prm(prm), scene(c.scene), exact(*c.exact), span(temperature_span(c.scene))
+        : prm(prm)
+        , scene(c.scene)
+        , exact(*c.exact)
+        , span(temperature_span(c.scene))
       {
       }
 
-      void
-      initial_state() const
+      void initial_state() const
       {
         const double time = scene.start_time;
         for(const Position &p : interior_points(scene.domain))
@@ -172,8 +163,7 @@ namespace meltfront::cases
                   initial_keys, "temperature");
       }
 
-      void
-      held_wall(Side side) const
+      void held_wall(Side side) const
       {
         const Boundary &boundary = scene.boundary(side);
         for(const Position &p : wall_points(scene.domain, side))
@@ -187,8 +177,7 @@ namespace meltfront::cases
 
       /** Late in the run only: early on, layers are thinner than the difference's step.
        */
-      void
-      heated_wall(Side side) const
+      void heated_wall(Side side) const
       {
         const Boundary &boundary = scene.boundary(side);
         for(const Position &p : wall_points(scene.domain, side))
@@ -206,8 +195,7 @@ namespace meltfront::cases
       }
 
     private:
-      double
-      conductivity_at(const Position &p, double time) const
+      double conductivity_at(const Position &p, double time) const
       {
         const Material &material = scene.material;
         return (exact.temperature(p, time) < material.melting_temperature
@@ -217,8 +205,7 @@ namespace meltfront::cases
       }
 
       /** k dT/dn with the outward normal n, from a one-sided difference of order 2. */
-      double
-      flux(Side side, const Position &p, double time) const
+      double flux(Side side, const Position &p, double time) const
       {
         const double step = 1e-4 * scene.domain.side();
         const auto inward = [&](double distance)
@@ -236,17 +223,16 @@ namespace meltfront::cases
                * (3 * inward(0) - 4 * inward(step) + inward(2 * step)) / (2 * step);
       }
 
-      void
-      compare(double found, double wanted, const Position &p, double time,
-              const std::string &here, const std::string &key) const
+      void compare(double found, double wanted, const Position &p, double time,
+                   const std::string &here, const std::string &key) const
       {
         if(!(std::abs(found - wanted) <= 1e-6 * span))
           complain(found, wanted, "temperature", p, time, here, key);
       }
 
-      [[noreturn]] void
-      complain(double found, double wanted, const char *what, const Position &p,
-               double time, const std::string &here, const std::string &key) const
+      [[noreturn]] void complain(double found, double wanted, const char *what,
+                                 const Position &p, double time, const std::string &here,
+                                 const std::string &key) const
       {
         throw prm.error(
             here, key,
@@ -263,8 +249,7 @@ namespace meltfront::cases
     };
   } // namespace
 
-  void
-  check_effects(const PrmFile &prm, const Scene &scene)
+  void check_effects(const PrmFile &prm, const Scene &scene)
   {
     const auto demand = [&](Effect effect, bool fulfilled, const std::string &missing)
     {
@@ -299,8 +284,7 @@ namespace meltfront::cases
     own_property(Effect::liquid_motion, "density");
   }
 
-  void
-  check_fields(const PrmFile &prm, const Scene &scene)
+  void check_fields(const PrmFile &prm, const Scene &scene)
   {
     const bool round
         = scene.domain.shape == DomainShape::ball && scene.symmetry != Symmetry::none;
@@ -330,8 +314,7 @@ namespace meltfront::cases
     }
   }
 
-  void
-  check_exact_solution(const PrmFile &prm, const Case &c)
+  void check_exact_solution(const PrmFile &prm, const Case &c)
   {
     if(!c.exact)
     {

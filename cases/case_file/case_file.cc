@@ -19,9 +19,8 @@ namespace meltfront::cases
 
     /** Call a parser of one value; its complaint gets file, line and key. */
     template <typename Parse>
-    auto
-    at_key(const PrmFile &prm, const std::string &subsection, const std::string &key,
-           const Parse &parse)
+    auto at_key(const PrmFile &prm, const std::string &subsection, const std::string &key,
+                const Parse &parse)
     {
       try
       {
@@ -33,8 +32,7 @@ namespace meltfront::cases
       }
     }
 
-    std::vector<std::string>
-    read_tags(const PrmFile &prm)
+    std::vector<std::string> read_tags(const PrmFile &prm)
     {
       std::vector<std::string> tags;
       for(const std::string &tag : split_list(prm.get_text("", "tags"), ','))
@@ -43,8 +41,7 @@ namespace meltfront::cases
       return tags;
     }
 
-    Measurement
-    read_measurement(const PrmFile &prm)
+    Measurement read_measurement(const PrmFile &prm)
     {
       const std::string here = "Measure";
       Measurement measurement;
@@ -64,8 +61,7 @@ namespace meltfront::cases
       return measurement;
     }
 
-    void
-    read_lists(const PrmFile &prm, Case &c)
+    void read_lists(const PrmFile &prm, Case &c)
     {
       for(const int i : prm.given_numbers("Acceptance", "criterion"))
         c.criteria.push_back(
@@ -82,8 +78,7 @@ namespace meltfront::cases
         c.limits.push_back(prm.get_text("Limits", fmt::format("limit {}", i)));
     }
 
-    Case
-    assemble(const PrmFile &prm, const std::string &file)
+    Case assemble(const PrmFile &prm, const std::string &file)
     {
       Case c;
       prm.require("", "title", "every case has one");
@@ -106,24 +101,21 @@ namespace meltfront::cases
     }
   } // namespace
 
-  Case
-  read_case(const std::string &path)
+  Case read_case(const std::string &path)
   {
     PrmFile prm = case_keys();
     prm.read(path);
     return assemble(prm, path);
   }
 
-  Case
-  read_case_text(const std::string &text, const std::string &file)
+  Case read_case_text(const std::string &text, const std::string &file)
   {
     PrmFile prm = case_keys();
     prm.read_text(text, file);
     return assemble(prm, file);
   }
 
-  std::vector<std::string>
-  library_names()
+  std::vector<std::string> library_names()
   {
     std::vector<std::string> names;
     std::error_code failure;
@@ -137,14 +129,12 @@ namespace meltfront::cases
     return names;
   }
 
-  std::string
-  library_path(const std::string &name)
+  std::string library_path(const std::string &name)
   {
     return fmt::format("{}/{}.prm", library_folder, name);
   }
 
-  Case
-  load_case(const std::string &name_or_path)
+  Case load_case(const std::string &name_or_path)
   {
     if(name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".prm"))
       return read_case(name_or_path);
@@ -156,8 +146,7 @@ namespace meltfront::cases
     return read_case(library_path(name_or_path));
   }
 
-  std::string
-  case_file_reference()
+  std::string case_file_reference()
   {
     return case_keys().reference();
   }

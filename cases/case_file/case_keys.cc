@@ -10,8 +10,7 @@ namespace meltfront::cases
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    PrmEntry
-    text(const std::string &key, const std::string &description)
+    PrmEntry text(const std::string &key, const std::string &description)
     {
       return {.key = key,
               .kind = PrmKind::text,
@@ -20,9 +19,8 @@ namespace meltfront::cases
               .description = description};
     }
 
-    PrmEntry
-    word(const std::string &key, const std::string &default_value,
-         std::vector<std::string> choices, const std::string &description)
+    PrmEntry word(const std::string &key, const std::string &default_value,
+                  std::vector<std::string> choices, const std::string &description)
     {
       PrmEntry entry = text(key, description);
       entry.kind = PrmKind::word;
@@ -31,10 +29,9 @@ namespace meltfront::cases
       return entry;
     }
 
-    PrmEntry
-    number(const std::string &key, const std::string &default_value,
-           const std::string &unit, const std::string &description,
-           double lower = -infinity, double upper = infinity)
+    PrmEntry number(const std::string &key, const std::string &default_value,
+                    const std::string &unit, const std::string &description,
+                    double lower = -infinity, double upper = infinity)
     {
       PrmEntry entry = text(key, description);
       entry.kind = PrmKind::number;
@@ -45,9 +42,8 @@ namespace meltfront::cases
       return entry;
     }
 
-    PrmEntry
-    numbers(const std::string &key, const std::string &unit,
-            const std::string &description)
+    PrmEntry numbers(const std::string &key, const std::string &unit,
+                     const std::string &description)
     {
       PrmEntry entry = text(key, description);
       entry.kind = PrmKind::numbers;
@@ -55,17 +51,15 @@ namespace meltfront::cases
       return entry;
     }
 
-    PrmEntry
-    integer(const std::string &key, const std::string &default_value, double lower,
-            double upper, const std::string &description)
+    PrmEntry integer(const std::string &key, const std::string &default_value,
+                     double lower, double upper, const std::string &description)
     {
       PrmEntry entry = number(key, default_value, {}, description, lower, upper);
       entry.kind = PrmKind::integer;
       return entry;
     }
 
-    void
-    declare_head(PrmFile &prm)
+    void declare_head(PrmFile &prm)
     {
       prm.declare("", text("title", "The case in a few words."));
       prm.declare("", text("description", "What it is and what is to be seen."));
@@ -74,8 +68,7 @@ namespace meltfront::cases
                            "Whether quantities are in SI units or normalised."));
     }
 
-    void
-    declare_domain(PrmFile &prm)
+    void declare_domain(PrmFile &prm)
     {
       prm.declare("Scene",
                   word("symmetry", "", {"planar", "cylindrical", "spherical", "none"},
@@ -97,8 +90,7 @@ namespace meltfront::cases
       prm.declare(domain, number("radius", "", "m", "Radius of a ball.", above_zero));
     }
 
-    void
-    declare_material(PrmFile &prm)
+    void declare_material(PrmFile &prm)
     {
       const std::string material = "Scene/Material";
       prm.declare(material,
@@ -119,8 +111,7 @@ namespace meltfront::cases
       }
     }
 
-    void
-    declare_state_and_walls(PrmFile &prm)
+    void declare_state_and_walls(PrmFile &prm)
     {
       const std::string initial = "Scene/Initial state";
       prm.declare(initial, word("kind", "temperature", {"temperature", "exact"},
@@ -154,8 +145,7 @@ namespace meltfront::cases
       }
     }
 
-    void
-    declare_effects(PrmFile &prm)
+    void declare_effects(PrmFile &prm)
     {
       for(const Effect effect : all_effects())
         prm.declare("Effects",
@@ -164,8 +154,7 @@ namespace meltfront::cases
                              + " auto: simulated where the scene calls for it."));
     }
 
-    void
-    declare_exact_solution(PrmFile &prm)
+    void declare_exact_solution(PrmFile &prm)
     {
       const std::string exact = "Exact solution";
       prm.declare(
@@ -192,8 +181,7 @@ namespace meltfront::cases
                          "Front of the initial state, for the oracle.", above_zero));
     }
 
-    void
-    declare_measures(PrmFile &prm)
+    void declare_measures(PrmFile &prm)
     {
       const std::string measure = "Measure";
       prm.declare(measure,
@@ -229,8 +217,7 @@ namespace meltfront::cases
     }
   } // namespace
 
-  PrmFile
-  case_keys()
+  PrmFile case_keys()
   {
     PrmFile prm;
     declare_head(prm);

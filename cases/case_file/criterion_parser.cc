@@ -16,13 +16,13 @@ namespace meltfront::cases
     class Cursor
     {
     public:
-      explicit Cursor(const std::string &text) : text(text)
+      explicit Cursor(const std::string &text)
+        : text(text)
       {
       }
 
       /** Step over a piece of text if it comes next; a word must end there. */
-      bool
-      take(const std::string &piece)
+      bool take(const std::string &piece)
       {
         skip_blanks();
         if(text.compare(at, piece.size(), piece) != 0)
@@ -34,15 +34,13 @@ namespace meltfront::cases
         return true;
       }
 
-      void
-      expect(const std::string &piece)
+      void expect(const std::string &piece)
       {
         if(!take(piece))
           fail(fmt::format("'{}'", piece));
       }
 
-      std::string
-      word(const char *what)
+      std::string word(const char *what)
       {
         skip_blanks();
         const std::size_t begin = at;
@@ -54,8 +52,7 @@ namespace meltfront::cases
       }
 
       /** What stands before a character, which is stepped over. */
-      std::string
-      up_to(char mark, const char *what)
+      std::string up_to(char mark, const char *what)
       {
         const std::size_t found = text.find(mark, at);
         const std::string piece
@@ -66,8 +63,7 @@ namespace meltfront::cases
         return piece;
       }
 
-      double
-      number()
+      double number()
       {
         skip_blanks();
         double value = 0;
@@ -80,8 +76,7 @@ namespace meltfront::cases
         return value;
       }
 
-      int
-      count()
+      int count()
       {
         skip_blanks();
         int value = 0;
@@ -94,15 +89,13 @@ namespace meltfront::cases
         return value;
       }
 
-      bool
-      at_end()
+      bool at_end()
       {
         skip_blanks();
         return at == text.size();
       }
 
-      [[noreturn]] void
-      fail(const std::string &wanted) const
+      [[noreturn]] void fail(const std::string &wanted) const
       {
         throw InputError(fmt::format(
             "'{}' cannot be read: {} is wanted {}", quotable(text), wanted,
@@ -111,14 +104,12 @@ namespace meltfront::cases
       }
 
     private:
-      static bool
-      in_word(char c)
+      static bool in_word(char c)
       {
         return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
       }
 
-      void
-      skip_blanks()
+      void skip_blanks()
       {
         while(at < text.size() && (text[at] == ' ' || text[at] == '\t'))
           ++at;
@@ -128,8 +119,7 @@ namespace meltfront::cases
       std::size_t at = 0;
     };
 
-    void
-    read_bounds(Cursor &cursor, Criterion &criterion)
+    void read_bounds(Cursor &cursor, Criterion &criterion)
     {
       if(cursor.take("<="))
         criterion.upper = cursor.number();
@@ -158,8 +148,7 @@ namespace meltfront::cases
                         quotable(criterion.text)));
     }
 
-    int
-    read_n(Cursor &cursor)
+    int read_n(Cursor &cursor)
     {
       cursor.expect("at");
       cursor.expect("n");
@@ -167,8 +156,22 @@ namespace meltfront::cases
       return cursor.count();
     }
 
-    void
-    check_length(const std::string &text)
+    /** `over n=20..50`, if it comes next. */
+    void read_rows(Cursor &cursor, Criterion &criterion)
+    {
+      if(!cursor.take("over"))
+        return;
+      cursor.expect("n");
+      cursor.expect("=");
+      criterion.n_from = cursor.count();
+      cursor.expect("..");
+      criterion.n_to = cursor.count();
+      if(criterion.n_from >= criterion.n_to)
+        throw InputError(fmt::format("'{}' takes no rows: n must run upwards",
+                                     quotable(criterion.text)));
+    }
+
+    void check_length(const std::string &text)
     {
       constexpr std::size_t longest = 1000;
       if(text.size() > longest)
@@ -176,8 +179,7 @@ namespace meltfront::cases
     }
   } // namespace
 
-  Criterion
-  parse_criterion(const std::string &text)
+  Criterion parse_criterion(const std::string &text)
   {
     check_length(text);
     Criterion criterion;
@@ -191,6 +193,8 @@ namespace meltfront::cases
     criterion.quantity = cursor.word("a quantity");
     if(criterion.statistic == Statistic::value)
       criterion.n = read_n(cursor);
+    else
+      read_rows(cursor, criterion);
     read_bounds(cursor, criterion);
     if(cursor.take(";"))
     {
@@ -204,8 +208,7 @@ namespace meltfront::cases
     return criterion;
   }
 
-  PrintedValue
-  parse_printed_value(const std::string &text, const std::string &paper)
+  PrintedValue parse_printed_value(const std::string &text, const std::string &paper)
   {
     check_length(text);
     PrintedValue value;

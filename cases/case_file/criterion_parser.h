@@ -16,6 +16,7 @@ namespace meltfront::cases
    *   METHOD: order of QUANTITY >= 1.25             (or <=, in, within)
    *   METHOD: worst QUANTITY <= 1e-12               (or >=, in, within)
    *
+   * the last two with `over n=20..50` after the quantity if only some rows count, and
    * each with an optional tail `; known shortfall: SENTENCE`.
    *
    * @throws InputError with the reason alone (the caller knows file, line and key).

@@ -15,8 +15,8 @@ namespace meltfront::cases
 
     /** Construct a solution; what it complains of gets file, line and key. */
     template <typename Solution, typename... Arguments>
-    std::shared_ptr<const Solution>
-    construct(const PrmFile &prm, const Arguments &...arguments)
+    std::shared_ptr<const Solution> construct(const PrmFile &prm,
+                                              const Arguments &...arguments)
     {
       const auto located = [&prm](const std::exception &error)
       {
@@ -38,8 +38,7 @@ namespace meltfront::cases
     }
 
     /** The temperature far away: as given, else the initial one. */
-    double
-    far_temperature(const PrmFile &prm, const Scene &scene)
+    double far_temperature(const PrmFile &prm, const Scene &scene)
     {
       if(prm.given(exact_keys, "far temperature") || !scene.initial.temperature.constant)
         return prm.get_number(exact_keys, "far temperature");
@@ -48,8 +47,7 @@ namespace meltfront::cases
 
     /** The temperature of the wall: as given, else that at which the scene holds x_min.
      */
-    double
-    wall_temperature(const PrmFile &prm, const Scene &scene)
+    double wall_temperature(const PrmFile &prm, const Scene &scene)
     {
       const auto &wall = scene.boundaries[static_cast<std::size_t>(Side::x_min)];
       const bool held
@@ -59,9 +57,8 @@ namespace meltfront::cases
       return wall->value({}, scene.start_time);
     }
 
-    void
-    check_symmetry(const PrmFile &prm, const Scene &scene, const ExactSolution &solution,
-                   const std::string &key)
+    void check_symmetry(const PrmFile &prm, const Scene &scene,
+                        const ExactSolution &solution, const std::string &key)
     {
       const Symmetry symmetry = solution.symmetry();
       const int dimension = scene.domain.dimension;
@@ -79,8 +76,8 @@ namespace meltfront::cases
                                     dimension == 1 ? "" : "s"));
     }
 
-    KnownSolution
-    closed_form(const PrmFile &prm, const Scene &scene, const std::string &key)
+    KnownSolution closed_form(const PrmFile &prm, const Scene &scene,
+                              const std::string &key)
     {
       const std::string kind = prm.get_text(exact_keys, key);
       const double far = far_temperature(prm, scene);
@@ -115,8 +112,7 @@ namespace meltfront::cases
       return known;
     }
 
-    OracleWall
-    oracle_wall(const PrmFile &prm, const Scene &scene, Side side)
+    OracleWall oracle_wall(const PrmFile &prm, const Scene &scene, Side side)
     {
       const Boundary &wall = scene.boundary(side);
       const std::string here = std::string("Scene/Walls/") + to_string(side);
@@ -137,8 +133,8 @@ namespace meltfront::cases
     }
 
     /** Heat that a line sink on the axis removes; 0 without one. */
-    double
-    line_sink_strength(const PrmFile &prm, const Scene &scene, const KnownSolution &start)
+    double line_sink_strength(const PrmFile &prm, const Scene &scene,
+                              const KnownSolution &start)
     {
       if(scene.sources.empty())
         return 0;
@@ -152,9 +148,8 @@ namespace meltfront::cases
     }
 
     /** The oracle starts from the scene's initial temperature with a given front. */
-    void
-    start_from_initial_state(const PrmFile &prm, const Scene &scene,
-                             OracleProblem &problem)
+    void start_from_initial_state(const PrmFile &prm, const Scene &scene,
+                                  OracleProblem &problem)
     {
       prm.require(exact_keys, "initial front",
                   "an oracle that starts from the initial state needs it");
@@ -184,8 +179,7 @@ namespace meltfront::cases
       }
     }
 
-    KnownSolution
-    oracle(const PrmFile &prm, const Scene &scene)
+    KnownSolution oracle(const PrmFile &prm, const Scene &scene)
     {
       if(scene.symmetry == Symmetry::none)
         throw prm.error(exact_keys, "kind",
@@ -222,8 +216,7 @@ namespace meltfront::cases
     }
   } // namespace
 
-  KnownSolution
-  read_exact_solution(const PrmFile &prm, const Scene &scene)
+  KnownSolution read_exact_solution(const PrmFile &prm, const Scene &scene)
   {
     const std::string kind = prm.get_text(exact_keys, "kind");
     if(kind != "oracle")

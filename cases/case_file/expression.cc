@@ -23,21 +23,18 @@ namespace meltfront::cases
         "tanh", "exp", "ln",   "log",  "log10", "sqrt", "abs",   "min",  "max",
         "pow",  "erf", "erfc", "if",   "floor", "ceil", "sign"};
 
-    bool
-    starts_name(char c)
+    bool starts_name(char c)
     {
       return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
     }
 
-    bool
-    is_digit(char c)
+    bool is_digit(char c)
     {
       return std::isdigit(static_cast<unsigned char>(c));
     }
 
     /** Position after the number that begins at a position. */
-    std::size_t
-    skip_number(const std::string &text, std::size_t at)
+    std::size_t skip_number(const std::string &text, std::size_t at)
     {
       while(at < text.size() && (is_digit(text[at]) || text[at] == '.'))
         ++at;
@@ -55,8 +52,7 @@ namespace meltfront::cases
     }
 
     /** The names in an expression, in their order. */
-    std::vector<std::string>
-    names_in(const std::string &text)
+    std::vector<std::string> names_in(const std::string &text)
     {
       std::vector<std::string> names;
       for(std::size_t i = 0; i < text.size();)
@@ -76,8 +72,7 @@ namespace meltfront::cases
       return names;
     }
 
-    void
-    check_characters(const std::string &text)
+    void check_characters(const std::string &text)
     {
       constexpr std::size_t longest = 1000;
       if(text.empty())
@@ -98,8 +93,7 @@ namespace meltfront::cases
       }
     }
 
-    void
-    check_names(const std::vector<std::string> &names, const std::string &variables)
+    void check_names(const std::vector<std::string> &names, const std::string &variables)
     {
       std::vector<std::string> valid = functions;
       valid.push_back("pi");
@@ -125,16 +119,14 @@ namespace meltfront::cases
         initialize("x,y,z,t", text, {{"pi", std::numbers::pi}}, true);
       }
 
-      double
-      value(const Position &p, double time) const
+      double value(const Position &p, double time) const
       {
         return do_value({p[0], p[1], p[2]}, time, 0);
       }
     };
 
     /** What the parser says, on one line. */
-    std::string
-    reason(const dealii::ExceptionBase &error)
+    std::string reason(const dealii::ExceptionBase &error)
     {
       std::ostringstream stream;
       error.print_info(stream);
@@ -146,8 +138,7 @@ namespace meltfront::cases
     }
   } // namespace
 
-  Field
-  parse_field(const std::string &expression, const std::string &variables)
+  Field parse_field(const std::string &expression, const std::string &variables)
   {
     check_characters(expression);
     const std::vector<std::string> names = names_in(expression);
@@ -176,8 +167,8 @@ namespace meltfront::cases
     }
   }
 
-  std::function<double(double)>
-  integral_from(std::function<double(double)> function, double start, double end)
+  std::function<double(double)> integral_from(std::function<double(double)> function,
+                                              double start, double end)
   {
     constexpr int panels = 64;
     const auto panel_start

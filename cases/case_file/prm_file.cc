@@ -16,8 +16,7 @@ namespace meltfront::cases
 {
   namespace
   {
-    std::unique_ptr<dealii::Patterns::PatternBase>
-    pattern(const PrmEntry &entry)
+    std::unique_ptr<dealii::Patterns::PatternBase> pattern(const PrmEntry &entry)
     {
       using namespace dealii::Patterns;
       constexpr double largest = std::numeric_limits<double>::max();
@@ -43,8 +42,7 @@ namespace meltfront::cases
     }
 
     /** A range in words, with a blank in front; empty where everything is allowed. */
-    std::string
-    range(const PrmEntry &entry)
+    std::string range(const PrmEntry &entry)
     {
       if(entry.lower == above_zero)
         return std::isfinite(entry.upper)
@@ -58,8 +56,7 @@ namespace meltfront::cases
     }
 
     /** What a key needs, in words. */
-    std::string
-    expectation(const PrmEntry &entry)
+    std::string expectation(const PrmEntry &entry)
     {
       switch(entry.kind)
       {
@@ -81,8 +78,7 @@ namespace meltfront::cases
 
     /** A value that the key's pattern accepts: what stands in the handler until it is
      * set. */
-    std::string
-    placeholder(const PrmEntry &entry)
+    std::string placeholder(const PrmEntry &entry)
     {
       if(!entry.default_value.empty() || entry.kind == PrmKind::text)
         return entry.default_value;
@@ -93,8 +89,7 @@ namespace meltfront::cases
       return fmt::format("{}", std::isfinite(entry.lower) ? entry.lower : 0);
     }
 
-    std::string
-    read_all(const std::string &path)
+    std::string read_all(const std::string &path)
     {
       constexpr std::uintmax_t largest = 4 << 20;
       std::error_code failure;
@@ -115,8 +110,7 @@ namespace meltfront::cases
       return text;
     }
 
-    std::string
-    parent(const std::string &path)
+    std::string parent(const std::string &path)
     {
       const std::size_t slash = path.rfind('/');
       return slash == std::string::npos ? std::string() : path.substr(0, slash);
@@ -127,7 +121,7 @@ namespace meltfront::cases
     {
     public:
       InSubsection(dealii::ParameterHandler &handler, const std::string &path)
-          : handler(handler)
+        : handler(handler)
       {
         if(!path.empty())
           for(const std::string &name : split_list(path, '/'))
@@ -152,15 +146,15 @@ namespace meltfront::cases
     };
   } // namespace
 
-  PrmFile::PrmFile() : handler(std::make_unique<dealii::ParameterHandler>())
+  PrmFile::PrmFile()
+    : handler(std::make_unique<dealii::ParameterHandler>())
   {
   }
   PrmFile::~PrmFile() = default;
   PrmFile::PrmFile(PrmFile &&) noexcept = default;
   PrmFile &PrmFile::operator=(PrmFile &&) noexcept = default;
 
-  void
-  PrmFile::declare(const std::string &subsection, const PrmEntry &entry)
+  void PrmFile::declare(const std::string &subsection, const PrmEntry &entry)
   {
     const InSubsection here(*handler, subsection);
     handler->declare_entry(entry.key, placeholder(entry), *pattern(entry),
@@ -169,9 +163,8 @@ namespace meltfront::cases
     keys.push_back({subsection, entry});
   }
 
-  void
-  PrmFile::declare_numbered(const std::string &subsection, const PrmEntry &entry,
-                            int count)
+  void PrmFile::declare_numbered(const std::string &subsection, const PrmEntry &entry,
+                                 int count)
   {
     const InSubsection here(*handler, subsection);
     for(int i = 1; i <= count; ++i)
@@ -185,14 +178,12 @@ namespace meltfront::cases
     declared.push_back({subsection, entry, count});
   }
 
-  void
-  PrmFile::read(const std::string &path)
+  void PrmFile::read(const std::string &path)
   {
     read_text(read_all(path), path);
   }
 
-  void
-  PrmFile::read_text(const std::string &text, const std::string &name)
+  void PrmFile::read_text(const std::string &text, const std::string &name)
   {
     file = quotable(name);
     content = text;
@@ -206,14 +197,12 @@ namespace meltfront::cases
     }
   }
 
-  const std::string &
-  PrmFile::text() const
+  const std::string &PrmFile::text() const
   {
     return content;
   }
 
-  void
-  PrmFile::check_subsections() const
+  void PrmFile::check_subsections() const
   {
     std::map<std::string, std::vector<std::string>> children;
     for(const Declared &key : keys)
@@ -238,8 +227,7 @@ namespace meltfront::cases
     }
   }
 
-  void
-  PrmFile::fail_unknown_key(const PrmAssignment &assignment) const
+  void PrmFile::fail_unknown_key(const PrmAssignment &assignment) const
   {
     std::vector<std::string> here;
     std::vector<std::string> elsewhere;
@@ -264,8 +252,7 @@ namespace meltfront::cases
     throw error(assignment.subsection, assignment.key, "is unknown; " + advice);
   }
 
-  void
-  PrmFile::check_assignment(const PrmAssignment &assignment) const
+  void PrmFile::check_assignment(const PrmAssignment &assignment) const
   {
     const auto found = std::find_if(keys.begin(), keys.end(),
                                     [&assignment](const Declared &key) {
@@ -287,8 +274,8 @@ namespace meltfront::cases
                             quotable(assignment.value), advice));
   }
 
-  const PrmEntry &
-  PrmFile::declaration(const std::string &subsection, const std::string &key) const
+  const PrmEntry &PrmFile::declaration(const std::string &subsection,
+                                       const std::string &key) const
   {
     for(const Declared &candidate : keys)
       if(candidate.subsection == subsection && candidate.entry.key == key)
@@ -297,8 +284,8 @@ namespace meltfront::cases
         fmt::format("{} is not declared", name_of_key(subsection, key)));
   }
 
-  const PrmAssignment *
-  PrmFile::assignment(const std::string &subsection, const std::string &key) const
+  const PrmAssignment *PrmFile::assignment(const std::string &subsection,
+                                           const std::string &key) const
   {
     for(const PrmAssignment &candidate : scan.assignments)
       if(candidate.subsection == subsection && candidate.key == key)
@@ -306,20 +293,17 @@ namespace meltfront::cases
     return nullptr;
   }
 
-  bool
-  PrmFile::given(const std::string &subsection, const std::string &key) const
+  bool PrmFile::given(const std::string &subsection, const std::string &key) const
   {
     return assignment(subsection, key) != nullptr;
   }
 
-  bool
-  PrmFile::opened(const std::string &subsection) const
+  bool PrmFile::opened(const std::string &subsection) const
   {
     return scan.subsections.contains(subsection);
   }
 
-  std::string
-  PrmFile::value(const std::string &subsection, const std::string &key) const
+  std::string PrmFile::value(const std::string &subsection, const std::string &key) const
   {
     const PrmEntry &entry = declaration(subsection, key);
     if(entry.default_value.empty() && entry.kind != PrmKind::text)
@@ -328,38 +312,35 @@ namespace meltfront::cases
     return handler->get(key);
   }
 
-  double
-  PrmFile::get_number(const std::string &subsection, const std::string &key) const
+  double PrmFile::get_number(const std::string &subsection, const std::string &key) const
   {
     return dealii::Utilities::string_to_double(value(subsection, key));
   }
 
-  long
-  PrmFile::get_integer(const std::string &subsection, const std::string &key) const
+  long PrmFile::get_integer(const std::string &subsection, const std::string &key) const
   {
     return dealii::Utilities::string_to_int(value(subsection, key));
   }
 
-  bool
-  PrmFile::get_boolean(const std::string &subsection, const std::string &key) const
+  bool PrmFile::get_boolean(const std::string &subsection, const std::string &key) const
   {
     return value(subsection, key) == "true";
   }
 
-  std::string
-  PrmFile::get_text(const std::string &subsection, const std::string &key) const
+  std::string PrmFile::get_text(const std::string &subsection,
+                                const std::string &key) const
   {
     return value(subsection, key);
   }
 
-  std::vector<double>
-  PrmFile::get_numbers(const std::string &subsection, const std::string &key) const
+  std::vector<double> PrmFile::get_numbers(const std::string &subsection,
+                                           const std::string &key) const
   {
     return dealii::Utilities::string_to_double(split_list(value(subsection, key), ','));
   }
 
-  std::vector<int>
-  PrmFile::given_numbers(const std::string &subsection, const std::string &key) const
+  std::vector<int> PrmFile::given_numbers(const std::string &subsection,
+                                          const std::string &key) const
   {
     std::vector<int> numbers;
     for(const Declared &numbered : declared)
@@ -370,25 +351,22 @@ namespace meltfront::cases
     return numbers;
   }
 
-  void
-  PrmFile::require(const std::string &subsection, const std::string &key,
-                   const std::string &reason) const
+  void PrmFile::require(const std::string &subsection, const std::string &key,
+                        const std::string &reason) const
   {
     if(!given(subsection, key))
       throw error(subsection, key, "is missing: " + reason);
   }
 
-  void
-  PrmFile::forbid(const std::string &subsection, const std::string &key,
-                  const std::string &reason) const
+  void PrmFile::forbid(const std::string &subsection, const std::string &key,
+                       const std::string &reason) const
   {
     if(given(subsection, key))
       throw error(subsection, key, "has no meaning here: " + reason);
   }
 
-  InputError
-  PrmFile::error(const std::string &subsection, const std::string &key,
-                 const std::string &problem) const
+  InputError PrmFile::error(const std::string &subsection, const std::string &key,
+                            const std::string &problem) const
   {
     int line = 1;
     if(const PrmAssignment *found = assignment(subsection, key))
@@ -405,9 +383,8 @@ namespace meltfront::cases
         fmt::format("{}:{}: {} {}", file, line, name_of_key(subsection, key), problem));
   }
 
-  InputError
-  PrmFile::subsection_error(const std::string &subsection,
-                            const std::string &problem) const
+  InputError PrmFile::subsection_error(const std::string &subsection,
+                                       const std::string &problem) const
   {
     const auto opening = scan.subsections.find(subsection);
     return InputError(fmt::format("{}:{}: subsection '{}' {}", file,
@@ -415,8 +392,7 @@ namespace meltfront::cases
                                   quotable(subsection), problem));
   }
 
-  std::string
-  PrmFile::reference() const
+  std::string PrmFile::reference() const
   {
     std::string text;
     std::string current;

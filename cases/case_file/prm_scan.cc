@@ -13,8 +13,7 @@ namespace meltfront::cases
     constexpr const char *blanks = " \t";
 
     /** Bytes of the UTF-8 character at a position; 0 where there is none. */
-    std::size_t
-    character_size(const std::string &text, std::size_t at)
+    std::size_t character_size(const std::string &text, std::size_t at)
     {
       const auto byte = [&text](std::size_t i)
       { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
@@ -39,8 +38,7 @@ namespace meltfront::cases
       return overlong || surrogate || beyond_unicode ? 0 : size;
     }
 
-    bool
-    is_text(const std::string &line)
+    bool is_text(const std::string &line)
     {
       for(std::size_t i = 0; i < line.size();)
       {
@@ -60,8 +58,7 @@ namespace meltfront::cases
       int line = 0; ///< on which it begins
     };
 
-    std::vector<Statement>
-    statements(const std::string &text, const std::string &file)
+    std::vector<Statement> statements(const std::string &text, const std::string &file)
     {
       std::vector<Statement> result;
       int line_number = 0;
@@ -93,8 +90,8 @@ namespace meltfront::cases
     }
 
     /** What follows a word and a blank at the start of a statement. */
-    std::optional<std::string>
-    after_word(const std::string &statement, const std::string &word)
+    std::optional<std::string> after_word(const std::string &statement,
+                                          const std::string &word)
     {
       if(!statement.starts_with(word))
         return {};
@@ -109,12 +106,12 @@ namespace meltfront::cases
     class Scanner
     {
     public:
-      explicit Scanner(std::string file) : file(std::move(file))
+      explicit Scanner(std::string file)
+        : file(std::move(file))
       {
       }
 
-      void
-      take(const Statement &statement)
+      void take(const Statement &statement)
       {
         if(statement.text.empty())
           return;
@@ -131,8 +128,7 @@ namespace meltfront::cases
                            quotable(statement.text)));
       }
 
-      PrmScan
-      finish()
+      PrmScan finish()
       {
         if(!opened.empty())
           fail(opened.back().line,
@@ -147,20 +143,17 @@ namespace meltfront::cases
         int line;
       };
 
-      [[noreturn]] void
-      fail(int line, const std::string &problem) const
+      [[noreturn]] void fail(int line, const std::string &problem) const
       {
         throw InputError(fmt::format("{}:{}: {}", file, line, problem));
       }
 
-      std::string
-      path() const
+      std::string path() const
       {
         return opened.empty() ? std::string() : opened.back().path;
       }
 
-      void
-      assign(const std::string &assignment, int line)
+      void assign(const std::string &assignment, int line)
       {
         const std::size_t equals = assignment.find('=');
         if(equals == std::string::npos)
@@ -176,8 +169,7 @@ namespace meltfront::cases
             {path(), key, trimmed(assignment.substr(equals + 1)), line});
       }
 
-      void
-      open(const std::string &name, int line)
+      void open(const std::string &name, int line)
       {
         if(name.empty())
           fail(line, "'subsection' has no name");
@@ -187,8 +179,7 @@ namespace meltfront::cases
         scan.subsections.emplace(path(), line);
       }
 
-      void
-      close(int line)
+      void close(int line)
       {
         if(opened.empty())
           fail(line, "'end' closes no subsection");
@@ -203,8 +194,7 @@ namespace meltfront::cases
     };
   } // namespace
 
-  PrmScan
-  scan_prm(const std::string &text, const std::string &file)
+  PrmScan scan_prm(const std::string &text, const std::string &file)
   {
     Scanner scanner(file);
     for(const Statement &statement : statements(text, file))
@@ -212,8 +202,7 @@ namespace meltfront::cases
     return scanner.finish();
   }
 
-  std::string
-  quotable(const std::string &text)
+  std::string quotable(const std::string &text)
   {
     constexpr std::size_t longest = 60;
     std::string result;
@@ -233,16 +222,14 @@ namespace meltfront::cases
     return result;
   }
 
-  std::string
-  name_of_key(const std::string &subsection, const std::string &key)
+  std::string name_of_key(const std::string &subsection, const std::string &key)
   {
     return subsection.empty() ? fmt::format("key '{}' at the top level", quotable(key))
                               : fmt::format("key '{}' in subsection '{}'", quotable(key),
                                             quotable(subsection));
   }
 
-  std::vector<std::string>
-  split_list(const std::string &text, char separator)
+  std::vector<std::string> split_list(const std::string &text, char separator)
   {
     std::vector<std::string> parts;
     std::size_t begin = 0;
@@ -256,8 +243,7 @@ namespace meltfront::cases
     }
   }
 
-  std::string
-  trimmed(const std::string &text)
+  std::string trimmed(const std::string &text)
   {
     const std::size_t first = text.find_first_not_of(blanks);
     if(first == std::string::npos)

@@ -13,22 +13,19 @@ namespace meltfront::cases
     const std::string domain_keys = "Scene/Domain";
     const std::string initial_keys = "Scene/Initial state";
 
-    std::string
-    wall_keys(Side side)
+    std::string wall_keys(Side side)
     {
       return std::string("Scene/Walls/") + to_string(side);
     }
 
     /** The variables that a field of the domain may depend on. */
-    std::string
-    coordinates(const Domain &domain)
+    std::string coordinates(const Domain &domain)
     {
       return std::string("xyz").substr(0, domain.dimension);
     }
 
-    Field
-    read_field(const PrmFile &prm, const std::string &subsection, const std::string &key,
-               const std::string &variables)
+    Field read_field(const PrmFile &prm, const std::string &subsection,
+                     const std::string &key, const std::string &variables)
     {
       try
       {
@@ -40,8 +37,7 @@ namespace meltfront::cases
       }
     }
 
-    Symmetry
-    read_symmetry(const PrmFile &prm)
+    Symmetry read_symmetry(const PrmFile &prm)
     {
       const std::string word = prm.get_text("Scene", "symmetry");
       if(word == "planar")
@@ -52,8 +48,7 @@ namespace meltfront::cases
     }
 
     /** Keys that belong to one shape only. */
-    void
-    check_shape_keys(const PrmFile &prm, const std::string &shape)
+    void check_shape_keys(const PrmFile &prm, const std::string &shape)
     {
       const auto belongs = [&](const std::string &key, const std::string &owner)
       {
@@ -68,9 +63,8 @@ namespace meltfront::cases
       belongs("radius", "ball");
     }
 
-    Position
-    read_position(const PrmFile &prm, const std::string &subsection,
-                  const std::string &key, int dimension)
+    Position read_position(const PrmFile &prm, const std::string &subsection,
+                           const std::string &key, int dimension)
     {
       const std::vector<double> values = prm.get_numbers(subsection, key);
       if(values.size() != static_cast<std::size_t>(dimension))
@@ -82,8 +76,7 @@ namespace meltfront::cases
       return position;
     }
 
-    Domain
-    read_domain(const PrmFile &prm)
+    Domain read_domain(const PrmFile &prm)
     {
       const std::string shape = prm.get_text(domain_keys, "shape");
       check_shape_keys(prm, shape);
@@ -115,8 +108,7 @@ namespace meltfront::cases
       return domain;
     }
 
-    void
-    check_symmetry(const PrmFile &prm, const Domain &domain, Symmetry symmetry)
+    void check_symmetry(const PrmFile &prm, const Domain &domain, Symmetry symmetry)
     {
       const std::string shape = prm.get_text(domain_keys, "shape");
       const std::string word = prm.get_text("Scene", "symmetry");
@@ -138,8 +130,7 @@ namespace meltfront::cases
         complain(domain.dimension == 2 ? "cylindrical or none" : "spherical or none");
     }
 
-    Material
-    read_material(const PrmFile &prm)
+    Material read_material(const PrmFile &prm)
     {
       Material material;
       material.latent_heat = prm.get_number("Scene/Material", "latent heat");
@@ -159,8 +150,7 @@ namespace meltfront::cases
       return material;
     }
 
-    std::vector<Side>
-    sides_of(const Domain &domain)
+    std::vector<Side> sides_of(const Domain &domain)
     {
       if(domain.shape == DomainShape::ball)
         return {Side::outer};
@@ -170,8 +160,7 @@ namespace meltfront::cases
       return sides;
     }
 
-    Boundary
-    read_wall(const PrmFile &prm, Side side, const Domain &domain)
+    Boundary read_wall(const PrmFile &prm, Side side, const Domain &domain)
     {
       const std::string here = wall_keys(side);
       const std::string kind = prm.get_text(here, "kind");
@@ -198,8 +187,7 @@ namespace meltfront::cases
               Field()};
     }
 
-    void
-    read_walls(const PrmFile &prm, Scene &scene)
+    void read_walls(const PrmFile &prm, Scene &scene)
     {
       const std::vector<Side> sides = sides_of(scene.domain);
       for(std::size_t s = 0; s < n_sides; ++s)
@@ -233,8 +221,7 @@ namespace meltfront::cases
       }
     }
 
-    void
-    read_initial_state(const PrmFile &prm, Scene &scene)
+    void read_initial_state(const PrmFile &prm, Scene &scene)
     {
       scene.initial.solid_fraction_at_melting
           = prm.get_number(initial_keys, "solid fraction at melting");
@@ -249,8 +236,7 @@ namespace meltfront::cases
           = read_field(prm, initial_keys, "temperature", coordinates(scene.domain));
     }
 
-    bool
-    inside(const Domain &domain, const Position &p)
+    bool inside(const Domain &domain, const Position &p)
     {
       if(domain.shape == DomainShape::ball)
         return coordinate(Symmetry::spherical, p) <= domain.radius;
@@ -260,8 +246,8 @@ namespace meltfront::cases
       return true;
     }
 
-    PointSource
-    read_source(const PrmFile &prm, const std::string &here, const Scene &scene)
+    PointSource read_source(const PrmFile &prm, const std::string &here,
+                            const Scene &scene)
     {
       if(scene.domain.shape == DomainShape::slab)
         throw prm.subsection_error(here, "has no meaning in a slab; a line or point "
@@ -291,8 +277,7 @@ namespace meltfront::cases
     }
 
     /** The subsections of the file's sources, in the order of Scene::sources. */
-    std::vector<std::string>
-    opened_sources(const PrmFile &prm)
+    std::vector<std::string> opened_sources(const PrmFile &prm)
     {
       std::vector<std::string> subsections;
       for(int i = 1; i <= most_sources; ++i)
@@ -301,8 +286,7 @@ namespace meltfront::cases
       return subsections;
     }
 
-    void
-    read_times(const PrmFile &prm, Scene &scene)
+    void read_times(const PrmFile &prm, Scene &scene)
     {
       scene.start_time = prm.get_number("Scene", "start time");
       scene.end_time = prm.get_number("Scene", "end time");
@@ -313,8 +297,7 @@ namespace meltfront::cases
     }
   } // namespace
 
-  Scene
-  read_scene(const PrmFile &prm)
+  Scene read_scene(const PrmFile &prm)
   {
     Scene scene;
     scene.units = prm.get_text("", "units");
@@ -337,8 +320,7 @@ namespace meltfront::cases
     return scene;
   }
 
-  void
-  complete_scene(const PrmFile &prm, const KnownSolution &known, Scene &scene)
+  void complete_scene(const PrmFile &prm, const KnownSolution &known, Scene &scene)
   {
     const auto require_solution = [&](const std::string &here, const std::string &key)
     {
