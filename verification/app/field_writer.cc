@@ -18,9 +18,8 @@ namespace meltfront::verification
     using Patches = std::vector<dealii::DataOutBase::Patch<dim, 3>>;
 
     template <typename Patch>
-    void
-    fill_vertex(Patch &patch, unsigned int vertex, const cases::Snapshot &snapshot,
-                std::size_t site)
+    void fill_vertex(Patch &patch, unsigned int vertex, const cases::Snapshot &snapshot,
+                     std::size_t site)
     {
       for(int d = 0; d < snapshot.dimension; ++d)
         patch.vertices[vertex][d] = snapshot.positions[d][site];
@@ -31,8 +30,7 @@ namespace meltfront::verification
 
     /** One patch per cell of dimension dim; for dim = 0 one per site. */
     template <int dim>
-    Patches<dim>
-    make_patches(const cases::Snapshot &snapshot)
+    Patches<dim> make_patches(const cases::Snapshot &snapshot)
     {
       constexpr std::size_t vertices = std::size_t(1) << dim;
       const std::size_t n
@@ -50,8 +48,7 @@ namespace meltfront::verification
     }
 
     template <int dim>
-    void
-    write_frame(const cases::Snapshot &snapshot, std::ostream &out)
+    void write_frame(const cases::Snapshot &snapshot, std::ostream &out)
     {
       const dealii::DataOutBase::VtkFlags flags(snapshot.time, snapshot.step);
       dealii::DataOutBase::write_vtu(make_patches<dim>(snapshot), data_names, {}, flags,
@@ -61,18 +58,19 @@ namespace meltfront::verification
 
   FieldWriter::FieldWriter(const std::string &directory, double start_time,
                            double end_time, int frames)
-      : directory(directory), start_time(start_time), end_time(end_time), frames(frames)
+    : directory(directory)
+    , start_time(start_time)
+    , end_time(end_time)
+    , frames(frames)
   {
   }
 
-  bool
-  FieldWriter::wants(long, double time)
+  bool FieldWriter::wants(long, double time)
   {
     return time >= start_time + (end_time - start_time) * next_frame / frames;
   }
 
-  void
-  FieldWriter::observe(const cases::Snapshot &snapshot)
+  void FieldWriter::observe(const cases::Snapshot &snapshot)
   {
     if(!wants(snapshot.step, snapshot.time))
       return;
@@ -101,8 +99,7 @@ namespace meltfront::verification
     write_collection();
   }
 
-  void
-  FieldWriter::write_collection() const
+  void FieldWriter::write_collection() const
   {
     const std::string path = directory + "/fields.pvd";
     std::ofstream out(path);

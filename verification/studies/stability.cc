@@ -12,37 +12,32 @@ namespace meltfront::verification
     constexpr double largest_defect = 1e-12;
     constexpr double largest_backstep = 1e-9; // of the domain's side
 
-    double
-    quantity(const RunRecord &run, const std::string &name)
+    double quantity(const RunRecord &run, const std::string &name)
     {
       const auto found = run.quantities.find(name);
       return found == run.quantities.end() ? std::nan("") : found->second;
     }
 
-    double
-    side(const CaseRecord &record)
+    double side(const CaseRecord &record)
     {
       return record.shape == "ball" ? 2 * record.radius
                                     : record.upper[0] - record.lower[0];
     }
 
-    bool
-    beyond_limit(const RunRecord &run)
+    bool beyond_limit(const RunRecord &run)
     {
       const auto factor = run.options.find("step_factor");
       return factor != run.options.end() && std::stod(factor->second) > 1;
     }
 
-    bool
-    finite(const std::vector<double> &values)
+    bool finite(const std::vector<double> &values)
     {
       return std::all_of(values.begin(), values.end(),
                          [](double value) { return std::isfinite(value); });
     }
 
     /** Why a finished run does not count as held; empty if it does. */
-    std::string
-    objection(const RunRecord &run, const CaseRecord &record)
+    std::string objection(const RunRecord &run, const CaseRecord &record)
     {
       if(beyond_limit(run))
         return "a step beyond the stability limit was returned as a result";
@@ -61,8 +56,7 @@ namespace meltfront::verification
       return {};
     }
 
-    StabilityVerdict
-    judge(const RunRecord &run, const CaseRecord &record)
+    StabilityVerdict judge(const RunRecord &run, const CaseRecord &record)
     {
       StabilityVerdict verdict{run.case_name, run.label, run.n, "held", ""};
       if(run.status == RunStatus::refused)
@@ -80,8 +74,7 @@ namespace meltfront::verification
     }
   } // namespace
 
-  std::vector<StabilityVerdict>
-  judge_stability(const MatrixResult &result)
+  std::vector<StabilityVerdict> judge_stability(const MatrixResult &result)
   {
     std::vector<StabilityVerdict> verdicts;
     for(const RunRecord &run : result.runs)

@@ -1,0 +1,185 @@
+#include <cases/case_file/case_file.h>
+#include <cases/error.h>
+#include <verification/app/commands.h>
+#include <verification/app/console.h>
+#include <verification/app/field_writer.h>
+#include <verification/app/methods.h>
+#include <verification/matrix/criteria.h>
+#include <verification/matrix/matrix_files.h>
+#include <verification/matrix/matrix_reader.h>
+#include <verification/matrix/run_one.h>
+#include <verification/matrix/runner.h>
+#include <verification/report/report.h>
+#include <verification/studies/stability.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    const char *const program_version = MELTFRONT_VERSION;
+    std::string command_line;
+
+    std::string default_directory(const std::string &name)
+    {
+      return "results/" + std::filesystem::path(name).stem().string();
+    }
+
+    void make_directory(const std::string &directory)
+    {
+      std::error_code error;
+      std::filesystem::create_directories(directory, error);
+      if(error)
+        throw cases::OutputError(
+            fmt::format("cannot make the directory {}: {}", directory, error.message()));
+    }
+
+    /** Judge a finished matrix, write its summary and report, print what came of it. */
+    int conclude(MatrixResult &result, const std::string &directory)
+    {
+      if(result.hard_cases)
+      {
+        result.stability = judge_stability(result);
+        result.passed = std::all_of(result.criteria.begin(), result.criteria.end(),
+                                    [](const CriterionResult &c) { return c.passed; })
+                        && std::none_of(result.stability.begin(), result.stability.end(),
+                                        [](const StabilityVerdict &v)
+                                        { return v.verdict == "failed"; });
+      }
+      write_summary(directory, result);
+      write_report(result, directory);
+      std::fputs(console_summary(result).c_str(), stdout);
+      fmt::print("Report: {}\n", std::filesystem::absolute(directory + "/report.html")
+                                     .lexically_normal()
+                                     .string());
+      return result.passed ? all_well : criterion_failed;
+    }
+
+    int run_and_conclude(const Matrix &matrix, const std::string &directory, int jobs)
+    {
+      RunnerOptions options;
+      options.directory = directory;
+      options.jobs = jobs;
+      options.program_version = program_version;
+      options.command_line = command_line;
+      options.progress = stderr;
+      MatrixResult result = run_matrix(matrix, options, cases::load_case, method_named);
+      return conclude(result, directory);
+    }
+
+    /** Read METHOD.KEY=VALUE settings into options of a method. */
+    std::map<std::string, std::string>
+    apply_settings(const std::vector<std::string> &settings, const cases::Method &method,
+                   cases::Options &options)
+    {
+      std::map<std::string, std::string> set;
+      for(const std::string &setting : settings)
+      {
+        const auto dot = setting.find('.'), equals = setting.find('=');
+        if(dot == std::string::npos || equals == std::string::npos || dot > equals)
+          throw cases::InputError(
+              fmt::format("--set needs METHOD.KEY=VALUE, not '{}'", setting));
+        if(setting.substr(0, dot) != method.name())
+          throw cases::InputError(
+              fmt::format("--set {}: this run's method is '{}'", setting, method.name()));
+        const std::string key = setting.substr(dot + 1, equals - dot - 1);
+        set[key] = setting.substr(equals + 1);
+        options.set(key, set[key]);
+      }
+      return set;
+    }
+
+    void write_record(const RunRecord &record, const std::string &path)
+    {
+      std::ofstream out(path);
+      out << nlohmann::json(record).dump(1) << '\n';
+      if(!out.flush())
+        throw cases::OutputError(fmt::format("cannot write {}", path));
+    }
+  } // namespace
+
+  void set_command_line(int argc, char **argv)
+  {
+    command_line = "meltfront";
+    for(int i = 1; i < argc; ++i)
+      command_line += fmt::format(" {}", argv[i]);
+  }
+
+  int verify(const VerifyArguments &arguments)
+  {
+    const Matrix matrix = load_matrix(arguments.matrix);
+    return run_and_conclude(matrix,
+                            arguments.output.empty() ? default_directory(arguments.matrix)
+                                                     : arguments.output,
+                            arguments.jobs);
+  }
+
+  int run(const RunArguments &arguments)
+  {
+    const cases::Case c = cases::load_case(arguments.case_name);
+    const cases::Method &method = method_named(arguments.method);
+    cases::Resolution resolution{arguments.n,
+                                 cases::Options(method.option_declarations()),
+                                 arguments.seed, arguments.threads};
+    const auto set = apply_settings(arguments.settings, method, resolution.options);
+    const std::string directory
+        = !arguments.output.empty()
+              ? arguments.output
+              : default_directory(
+                  fmt::format("run-{}-{}-{}", c.scene.name, method.name(), arguments.n));
+    make_directory(directory);
+
+    FieldWriter fields(directory, c.scene.start_time, c.scene.end_time, arguments.frames);
+    RepeatPolicy once;
+    once.most = 1;
+    const RunRecord record
+        = run_one(c, method, resolution, run_label(method.name(), set, arguments.threads),
+                  {{"program_version", program_version}, {"command_line", command_line}},
+                  &fields, once);
+    write_record(record, directory + "/run.json");
+    write_run_page(record, make_case_record(c), directory);
+    std::fputs(run_text(record, c).c_str(), stdout);
+    fmt::print("Written to {}: run.json, front.csv, picture.svg, fields.pvd\n",
+               directory);
+    switch(record.status)
+    {
+    case RunStatus::finished:
+      return all_well;
+    case RunStatus::refused:
+      return bad_input;
+    default:
+      return run_failed;
+    }
+  }
+
+  int compare(const CompareArguments &arguments)
+  {
+    const cases::Case c = cases::load_case(arguments.case_name);
+    Matrix matrix;
+    matrix.name = "compare-" + c.scene.name;
+    matrix.title = fmt::format("Every method on {}", c.scene.name);
+    MatrixBlock block;
+    block.cases = {arguments.case_name};
+    for(const auto &method : methods())
+      block.methods.push_back(method->name());
+    block.resolutions = arguments.resolutions;
+    matrix.blocks = {block};
+    return run_and_conclude(matrix,
+                            arguments.output.empty() ? default_directory(matrix.name)
+                                                     : arguments.output,
+                            arguments.jobs);
+  }
+
+  int report(const std::string &directory)
+  {
+    MatrixResult result = load_matrix_result(directory);
+    return conclude(result, directory);
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,154 @@
+#include <verification/app/console.h>
+#include <verification/matrix/criteria.h>
+#include <verification/measure/order_fit.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    /** Labels of a case's runs, in the matrix's order. */
+    std::vector<std::string> labels_of(const MatrixResult &result,
+                                       const std::string &case_name)
+    {
+      std::vector<std::string> labels;
+      for(const RunRecord &run : result.runs)
+        if(run.case_name == case_name
+           && std::find(labels.begin(), labels.end(), run.label) == labels.end())
+          labels.push_back(run.label);
+      return labels;
+    }
+
+    std::string convergence_line(const MatrixResult &result, const std::string &case_name,
+                                 const std::string &label)
+    {
+      std::vector<double> h, errors;
+      const RunRecord *finest = nullptr;
+      std::string message;
+      for(const RunRecord &run : result.runs)
+      {
+        if(run.case_name != case_name || run.label != label)
+          continue;
+        if(run.status != RunStatus::finished)
+        {
+          message = run.message;
+          continue;
+        }
+        h.push_back(run.description.spacing);
+        errors.push_back(table_value(run, "front_rms"));
+        if(finest == nullptr || run.n > finest->n)
+          finest = &run;
+      }
+      if(finest == nullptr)
+        return fmt::format("  {:22} no result: {}\n", label, message);
+      return fmt::format("  {:22} n = {:<6} front rms {:9.2e}   {:28} {:8.2f} s CPU\n",
+                         label, finest->n, table_value(*finest, "front_rms"),
+                         fit_order(h, errors).text(),
+                         table_value(*finest, "cpu_seconds"));
+    }
+
+    std::string bound_text(const CriterionResult &criterion)
+    {
+      if(!std::isfinite(criterion.lower))
+        return fmt::format("<= {:.3g}", criterion.upper);
+      if(!std::isfinite(criterion.upper))
+        return fmt::format(">= {:.3g}", criterion.lower);
+      return fmt::format("in {:.4g} .. {:.4g}", criterion.lower, criterion.upper);
+    }
+
+    std::string criterion_line(const CriterionResult &criterion)
+    {
+      return fmt::format("  {}  {}: {}: {} = {:.3g}, {}{}\n",
+                         criterion.passed ? "PASS" : "FAIL", criterion.case_name,
+                         criterion.method, criterion.quantity, criterion.value,
+                         bound_text(criterion),
+                         criterion.known_shortfall.empty()
+                             ? ""
+                             : "; known shortfall: " + criterion.known_shortfall);
+    }
+
+    std::string stability_text(const MatrixResult &result)
+    {
+      std::map<std::string, int> count;
+      std::string text;
+      for(const StabilityVerdict &verdict : result.stability)
+      {
+        ++count[verdict.verdict];
+        if(verdict.verdict != "held")
+          text
+              += fmt::format("  {:8} {} {} n = {}: {}\n", verdict.verdict,
+                             verdict.case_name, verdict.label, verdict.n, verdict.reason);
+      }
+      return fmt::format("Hard cases: {} held, {} refused, {} failed\n", count["held"],
+                         count["refused"], count["failed"])
+             + text;
+    }
+  } // namespace
+
+  std::string console_summary(const MatrixResult &result)
+  {
+    std::string text;
+    for(const CaseRecord &c : result.cases)
+    {
+      text += fmt::format("{}\n", c.name);
+      for(const std::string &label : labels_of(result, c.name))
+        text += convergence_line(result, c.name, label);
+    }
+    if(result.hard_cases)
+      text += stability_text(result);
+    long passed = 0;
+    text += "Criteria:\n";
+    for(const CriterionResult &criterion : result.criteria)
+    {
+      passed += criterion.passed;
+      text += criterion_line(criterion);
+    }
+    for(const std::string &omission : result.omissions)
+      text += fmt::format("Left out: {}\n", omission);
+    text += fmt::format("{} of {} criteria hold: {}\n", passed, result.criteria.size(),
+                        result.passed ? "PASSED" : "FAILED");
+    return text;
+  }
+
+  std::string run_text(const RunRecord &record, const cases::Case &c)
+  {
+    std::string text = fmt::format(
+        "{} by {}, n = {}: {}\n", c.scene.name, record.label, record.n,
+        record.status == RunStatus::finished
+            ? "finished"
+            : fmt::format("{}: {}", to_string(record.status), record.message));
+    for(const cases::Parameter &parameter : record.description.parameters)
+      text += fmt::format("  {:28} {} {}\n", parameter.name, parameter.value,
+                          parameter.unit);
+    text += "Effects:\n";
+    const double total = record.cost.setup_wall + record.cost.stepping_wall;
+    for(const cases::EffectDecision &decision : record.effects)
+    {
+      std::string cost;
+      for(const cases::EffectCost &effect : record.cost.effects)
+        if(effect.effect == decision.effect)
+          cost = fmt::format("; {:.1f} % of the time, {} bytes, {} calls",
+                             total > 0 ? 100 * effect.seconds / total : 0., effect.bytes,
+                             effect.calls);
+      text += fmt::format("  {:20} {:3}  {}{}\n", to_string(decision.effect),
+                          decision.on ? "on" : "off", decision.reason, cost);
+    }
+    if(record.status != RunStatus::finished)
+      return text;
+    text += "Results:\n";
+    for(const auto &[name, value] : record.quantities)
+      if(std::isfinite(value))
+        text += fmt::format("  {:24} {:.4g}\n", name, value);
+    text += fmt::format(
+        "Cost: {:.3f} s CPU stepping, {:.3f} s set-up, {} steps, {} unknowns, "
+        "{} entries touched, {:.0f} MB\n",
+        record.cost.stepping_cpu, record.cost.setup_cpu, record.cost.steps,
+        record.cost.unknowns, record.cost.work, record.peak_memory_mb);
+    return text;
+  }
+} // namespace meltfront::verification

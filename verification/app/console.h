@@ -1,0 +1,22 @@
+#ifndef meltfront_verification_app_console_h
+#define meltfront_verification_app_console_h
+
+#include <cases/case.h>
+#include <verification/matrix/matrix_result.h>
+
+#include <string>
+
+namespace meltfront::verification
+{
+  /**
+   * What a matrix has shown, for a terminal: one line per case and method with the finest
+   * front error, the fitted order and its cost; verdicts on hard cases; every criterion
+   * with its figure.
+   */
+  std::string console_summary(const MatrixResult &result);
+
+  /** What one run did: scheme, effects on and off with their reasons, results, cost. */
+  std::string run_text(const RunRecord &record, const cases::Case &c);
+} // namespace meltfront::verification
+
+#endif

@@ -1,0 +1,87 @@
+#include <cases/case_file/case_file.h>
+#include <verification/app/list.h>
+#include <verification/app/methods.h>
+#include <verification/matrix/matrix_file.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    std::string case_list()
+    {
+      std::string text = "Cases (meltfront run CASE --method METHOD --n N):\n";
+      for(const std::string &name : cases::library_names())
+      {
+        const cases::Case c = cases::load_case(name);
+        text += fmt::format("  {:26} {}\n", name, c.title);
+      }
+      return text;
+    }
+
+    std::string option_text(const cases::OptionDeclaration &option)
+    {
+      std::string range;
+      if(!option.choices.empty())
+        range = fmt::format(", one of {}", fmt::join(option.choices, " | "));
+      else if(std::isfinite(option.lower) || std::isfinite(option.upper))
+        range = fmt::format(", {} to {}", option.lower, option.upper);
+      return fmt::format("      {} = {}{}{}{}\n          {}\n", option.key,
+                         cases::to_text(option.default_value),
+                         option.unit.empty() || option.unit == "1" ? "" : " ",
+                         option.unit == "1" ? "" : option.unit, range,
+                         option.description);
+    }
+
+    std::string method_list()
+    {
+      std::string text = "Methods and their options (--set METHOD.KEY=VALUE):\n";
+      for(const auto &method : methods())
+      {
+        text += fmt::format("  {}: {}\n", method->name(), method->summary());
+        std::vector<std::string> effects;
+        for(const cases::Effect effect : method->supported_effects())
+          effects.push_back(cases::to_string(effect));
+        text += fmt::format("      effects: {}\n", fmt::join(effects, ", "));
+        for(const cases::OptionDeclaration &option : method->option_declarations())
+          text += option_text(option);
+      }
+      return text;
+    }
+
+    std::string effect_list()
+    {
+      std::string text = "Effects (subsection Effects of a case file: auto, on, off):\n";
+      for(const cases::Effect effect : cases::all_effects())
+        text += fmt::format("  {:22} {}\n", cases::to_string(effect),
+                            cases::description(effect));
+      return text;
+    }
+
+    std::string matrix_list()
+    {
+      std::string text = "Matrices (meltfront verify MATRIX):\n";
+      for(const std::string &name : matrix_names())
+        text += fmt::format("  {:22} {}\n", name, load_matrix(name).title);
+      return text;
+    }
+  } // namespace
+
+  std::string list_text(const std::string &what)
+  {
+    std::string text;
+    if(what.empty() || what == "cases")
+      text += case_list();
+    if(what.empty() || what == "methods")
+      text += method_list();
+    if(what.empty() || what == "effects")
+      text += effect_list();
+    if(what.empty() || what == "matrices")
+      text += matrix_list();
+    return text;
+  }
+} // namespace meltfront::verification

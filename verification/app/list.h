@@ -1,0 +1,15 @@
+#ifndef meltfront_verification_app_list_h
+#define meltfront_verification_app_list_h
+
+#include <string>
+
+namespace meltfront::verification
+{
+  /**
+   * What there is, printed from the declarations themselves.
+   * @param what cases, methods, effects, matrices, or empty for all four
+   */
+  std::string list_text(const std::string &what);
+} // namespace meltfront::verification
+
+#endif

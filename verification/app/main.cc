@@ -1,0 +1,175 @@
+#include <cases/error.h>
+#include <verification/app/commands.h>
+#include <verification/app/list.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+namespace
+{
+  using namespace meltfront::verification;
+
+  /** Declare the commands; each stores what is to be done in `action`. */
+  struct CommandLine
+  {
+    CLI::App app{
+        "meltfront: the Stefan problem by particles and finite elements, measured "
+        "against exact solutions",
+        "meltfront"};
+    VerifyArguments verify_arguments;
+    RunArguments run_arguments;
+    CompareArguments compare_arguments;
+    std::string report_directory;
+    std::string list_what;
+    std::function<int()> action;
+
+    CommandLine();
+
+  private:
+    void declare_verify();
+    void declare_run();
+    void declare_compare();
+    void declare_others();
+  };
+
+  CommandLine::CommandLine()
+  {
+    app.require_subcommand(1);
+    app.footer(
+        "Exit status: 0 all well, 1 an acceptance criterion failed, 2 bad arguments or "
+        "case file, 3 a run failed numerically, 4 input or output failed.");
+    declare_verify();
+    declare_run();
+    declare_compare();
+    declare_others();
+  }
+
+  void CommandLine::declare_verify()
+  {
+    const auto add_options = [this](CLI::App *command)
+    {
+      command->add_option("--out", verify_arguments.output, "directory (results/MATRIX)");
+      command->add_option("--jobs", verify_arguments.jobs, "runs at once (one per core)")
+          ->check(CLI::NonNegativeNumber);
+    };
+    auto *verify_command
+        = app.add_subcommand("verify", "run a verification matrix and write its report");
+    verify_command->add_option("matrix", verify_arguments.matrix,
+                               "matrix of the library, or a matrix file (default)");
+    add_options(verify_command);
+    verify_command->callback([this]
+                             { action = [this] { return verify(verify_arguments); }; });
+
+    auto *stability = app.add_subcommand("stability", "the hard cases: verify stability");
+    add_options(stability);
+    stability->callback(
+        [this]
+        {
+          verify_arguments.matrix = "stability";
+          action = [this] { return verify(verify_arguments); };
+        });
+  }
+
+  void CommandLine::declare_run()
+  {
+    auto *command = app.add_subcommand("run", "one run, with fields for ParaView");
+    RunArguments &a = run_arguments;
+    command->add_option("case", a.case_name, "case of the library, or a case file")
+        ->required();
+    command->add_option("--method", a.method, "method")->required();
+    command->add_option("--n", a.n, "particles or cells along the domain's side (40)")
+        ->check(CLI::Range(2, 1000000));
+    command->add_option("--out", a.output, "directory (results/run-CASE-METHOD-N)");
+    command->add_option("--set", a.settings, "METHOD.KEY=VALUE, an option of the method")
+        ->take_all();
+    command->add_option("--seed", a.seed, "of random arrangements (1)");
+    command->add_option("--threads", a.threads, "threads (1)")
+        ->check(CLI::Range(1, 1024));
+    command->add_option("--frames", a.frames, "fields for ParaView over the run (20)")
+        ->check(CLI::Range(1, 10000));
+    command->callback([this] { action = [this] { return run(run_arguments); }; });
+  }
+
+  void CommandLine::declare_compare()
+  {
+    auto *command = app.add_subcommand("compare", "every method that can, side by side");
+    CompareArguments &a = compare_arguments;
+    command->add_option("case", a.case_name, "case of the library, or a case file")
+        ->required();
+    command->add_option("--n", a.resolutions, "resolutions (20,40,80,160)")
+        ->delimiter(',')
+        ->check(CLI::Range(2, 1000000));
+    command->add_option("--out", a.output, "directory (results/compare-CASE)");
+    command->add_option("--jobs", a.jobs, "runs at once (one per core)")
+        ->check(CLI::NonNegativeNumber);
+    command->callback([this] { action = [this] { return compare(compare_arguments); }; });
+  }
+
+  void CommandLine::declare_others()
+  {
+    auto *list_command = app.add_subcommand("list", "what there is");
+    list_command->add_option("what", list_what, "cases, methods, effects or matrices")
+        ->check(CLI::IsMember({"cases", "methods", "effects", "matrices"}));
+    list_command->callback(
+        [this]
+        {
+          action = [this]
+          {
+            std::fputs(list_text(list_what).c_str(), stdout);
+            return int(all_well);
+          };
+        });
+
+    auto *report_command
+        = app.add_subcommand("report", "tables and plots again from finished runs");
+    report_command->add_option("directory", report_directory, "of a matrix that ran")
+        ->required();
+    report_command->callback([this]
+                             { action = [this] { return report(report_directory); }; });
+    app.add_subcommand("test", "build and run all tests (done by the meltfront script)");
+  }
+
+  int say(const std::exception &error, int status)
+  {
+    std::fflush(stdout);
+    fmt::print(stderr, "meltfront: {}\n", error.what());
+    return status;
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  set_command_line(argc, argv);
+  CommandLine command_line;
+  try
+  {
+    command_line.app.parse(argc, argv);
+  }
+  catch(const CLI::ParseError &error)
+  {
+    return command_line.app.exit(error) == 0 ? all_well : bad_input;
+  }
+  try
+  {
+    return command_line.action ? command_line.action() : all_well;
+  }
+  catch(const meltfront::cases::InputError &error)
+  {
+    return say(error, bad_input);
+  }
+  catch(const meltfront::cases::Refusal &error)
+  {
+    return say(error, bad_input);
+  }
+  catch(const meltfront::cases::NumericalError &error)
+  {
+    return say(error, run_failed);
+  }
+  catch(const std::exception &error)
+  {
+    return say(error, output_failed);
+  }
+}

@@ -1,0 +1,35 @@
+#include <cases/error.h>
+#include <particles/sph/sph.h>
+#include <reference_fem/enthalpy/enthalpy.h>
+#include <verification/app/methods.h>
+
+#include <fmt/format.h>
+
+namespace meltfront::verification
+{
+  const std::vector<std::unique_ptr<cases::Method>> &methods()
+  {
+    static const auto registry = []
+    {
+      std::vector<std::unique_ptr<cases::Method>> list;
+      list.push_back(particles::make_sph());
+      list.push_back(particles::make_sph_2005());
+      list.push_back(reference_fem::make_fem_enthalpy());
+      return list;
+    }();
+    return registry;
+  }
+
+  const cases::Method &method_named(const std::string &name)
+  {
+    std::vector<std::string> names;
+    for(const auto &method : methods())
+    {
+      if(method->name() == name)
+        return *method;
+      names.push_back(method->name());
+    }
+    throw cases::InputError(fmt::format("there is no method '{}'; the nearest is '{}'",
+                                        name, cases::nearest_name(name, names)));
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace
+{
+  namespace fs = std::filesystem;
+
+  struct Outcome
+  {
+    int status = -1;
+    std::string output; ///< standard output and standard error
+  };
+
+  /** Run the program as a user would. */
+  Outcome meltfront(const std::string &arguments)
+  {
+    Outcome outcome;
+    std::FILE *pipe = popen(
+        (std::string(MELTFRONT_PROGRAM) + " " + arguments + " 2>&1").c_str(), "r");
+    if(pipe == nullptr)
+      return outcome;
+    char buffer[4096];
+    while(const std::size_t size = std::fread(buffer, 1, sizeof(buffer), pipe))
+      outcome.output.append(buffer, size);
+    const int status = pclose(pipe);
+    outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+  }
+
+  /** A directory that goes away with the test. */
+  struct TemporaryDirectory
+  {
+    fs::path path;
+
+    TemporaryDirectory()
+    {
+      std::string name = (fs::temp_directory_path() / "meltfront-app-XXXXXX").string();
+      path = mkdtemp(name.data());
+    }
+
+    ~TemporaryDirectory()
+    {
+      fs::remove_all(path);
+    }
+  };
+
+  nlohmann::json read_json(const fs::path &path)
+  {
+    std::ifstream in(path);
+    return nlohmann::json::parse(in);
+  }
+
+  void expect_text(const Outcome &outcome, const std::string &text)
+  {
+    EXPECT_NE(outcome.output.find(text), std::string::npos) << outcome.output;
+  }
+} // namespace
+
+TEST(App, ListNamesWhatThereIs)
+{
+  const Outcome outcome = meltfront("list");
+  EXPECT_EQ(outcome.status, 0);
+  for(const char *name : {"plane-freezing", "sph-2005", "fem-enthalpy",
+                          "phase_conductivity", "stability", "step_factor"})
+    expect_text(outcome, name);
+}
+
+TEST(App, BadArgumentsExitWithTwoAndNameTheNearest)
+{
+  EXPECT_EQ(meltfront("").status, 2);
+  EXPECT_EQ(meltfront("melt").status, 2);
+  const Outcome unknown_case = meltfront("run plane-freezin --method sph");
+  EXPECT_EQ(unknown_case.status, 2);
+  expect_text(unknown_case, "plane-freezing");
+  const Outcome unknown_method = meltfront("run plane-freezing --method fem-entalpy");
+  EXPECT_EQ(unknown_method.status, 2);
+  expect_text(unknown_method, "fem-enthalpy");
+  const Outcome unknown_option
+      = meltfront("run plane-freezing --method sph --set sph.step_facto=0.5");
+  EXPECT_EQ(unknown_option.status, 2);
+  expect_text(unknown_option, "step_factor");
+  EXPECT_EQ(meltfront("verify nothing-of-this-name").status, 2);
+}
+
+TEST(App, RunWritesRecordFrontPictureAndFields)
+{
+  for(const std::string method : {"sph", "fem-enthalpy"})
+  {
+    const TemporaryDirectory directory;
+    const Outcome outcome
+        = meltfront("run plane-freezing --method " + method + " --n 20 --frames 3 --out "
+                    + directory.path.string());
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    const nlohmann::json record = read_json(directory.path / "run.json");
+    EXPECT_GT(record.at("quantities").at("front_rms").get<double>(), 0);
+    EXPECT_LT(record.at("quantities").at("front_rms").get<double>(), 0.02);
+    for(const char *file :
+        {"front.csv", "picture.svg", "fields.pvd", "fields-0000.vtu", "fields-0003.vtu"})
+      EXPECT_TRUE(fs::exists(directory.path / file)) << file;
+  }
+}
+
+TEST(App, ARunThatIsRefusedSaysWhyAndExitsWithTwo)
+{
+  const TemporaryDirectory directory;
+  const Outcome outcome = meltfront(
+      "run plane-freezing --method sph --n 20 --set sph.step_factor=1.1 --out "
+      + directory.path.string());
+  EXPECT_EQ(outcome.status, 2);
+  expect_text(outcome, "refused");
+}
+
+TEST(App, AnUnwritableDirectoryExitsWithFour)
+{
+  EXPECT_EQ(
+      meltfront("run plane-freezing --method sph --n 20 --out /proc/meltfront").status,
+      4);
+}
+
+TEST(App, CompareMeasuresEveryMethodAndItsReportCanBeMadeAgain)
+{
+  const TemporaryDirectory directory;
+  const Outcome outcome = meltfront("compare plane-one-phase --n 8,16,24,32 --out "
+                                    + directory.path.string());
+  EXPECT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.output;
+  const nlohmann::json summary = read_json(directory.path / "summary.json");
+  EXPECT_TRUE(summary.contains("passed"));
+  for(const char *file :
+      {"report.html", "tables/plane-one-phase.csv", "tables/plane-one-phase.md",
+       "tables/plane-one-phase.tex", "runs/plane-one-phase/sph/n=32/run.json"})
+    EXPECT_TRUE(fs::exists(directory.path / file)) << file;
+  fs::remove(directory.path / "report.html");
+  EXPECT_EQ(meltfront("report " + directory.path.string()).status, outcome.status);
+  EXPECT_TRUE(fs::exists(directory.path / "report.html"));
+}
