@@ -7,8 +7,7 @@
 
 namespace meltfront::cases
 {
-  void
-  check_material(const Material &material, const std::string &solution)
+  void check_material(const Material &material, const std::string &solution)
   {
     const auto require_positive = [&](double value, const char *name)
     {
@@ -30,8 +29,7 @@ namespace meltfront::cases
           fmt::format("{}: the melting temperature must be finite", solution));
   }
 
-  void
-  require_equal_densities(const Material &material, const std::string &solution)
+  void require_equal_densities(const Material &material, const std::string &solution)
   {
     if(material.solid.density != material.liquid.density)
       throw InputError(fmt::format(

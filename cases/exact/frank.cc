@@ -36,18 +36,16 @@ namespace meltfront::cases
 
   FrankGrowth::FrankGrowth(const Material &material, Symmetry symmetry,
                            double far_temperature)
-      : RadialSimilarity(material, growth_profile(material, symmetry, far_temperature))
+    : RadialSimilarity(material, growth_profile(material, symmetry, far_temperature))
   {
   }
 
-  double
-  FrankGrowth::growth_constant() const
+  double FrankGrowth::growth_constant() const
   {
     return 2 * std::sqrt(profile.front_in_liquid());
   }
 
-  std::string
-  FrankGrowth::description() const
+  std::string FrankGrowth::description() const
   {
     return fmt::format(
         "growth into undercooled melt (Frank), {} dimension(s), far {:.12g}, "

@@ -18,8 +18,9 @@ namespace meltfront::cases::spectral
    *
    *   T_t = a (4 x T_xx + 2 (1 + m) T_x)/s^2 + 2 x s'/s T_x;
    *
-   * other phases linearly. With a line sink its T excludes Q/(2 pi k) ln(r/s), for which
-   * a uniform source Q/(2 pi k) s'/s stands in.
+   * other phases linearly, with the nodes of the outer one drawn towards the front where
+   * its initial profile is steep there. With a line sink its T excludes Q/(2 pi k)
+   * ln(r/s), for which a uniform source Q/(2 pi k) s'/s stands in.
    */
   class FrontFixing
   {
@@ -32,7 +33,7 @@ namespace meltfront::cases::spectral
       Eigen::VectorXd near, far; ///< excesses at all nodes, without the sink's logarithm
     };
 
-    FrontFixing(const OracleProblem &problem, int intervals);
+    FrontFixing(const OracleProblem &problem, int near_intervals, int far_intervals);
 
     Eigen::VectorXd initial_state() const;
 
@@ -47,8 +48,13 @@ namespace meltfront::cases::spectral
      * temperature (unless metastable), or a value is not finite. */
     void check(long step, double time, const Eigen::VectorXd &state) const;
 
-    /** Last Chebyshev coefficients relative to the scale of temperature. */
-    double resolution_defect(double time, const Eigen::VectorXd &state) const;
+    /** Last Chebyshev coefficients of each phase, relative to the scale of temperature.
+     */
+    struct Defect
+    {
+      double near, far;
+    };
+    Defect resolution_defect(double time, const Eigen::VectorXd &state) const;
 
     Profile profile(double time, const Eigen::VectorXd &state) const;
 
@@ -70,15 +76,16 @@ namespace meltfront::cases::spectral
       int offset; ///< of the unknowns in the state
     };
 
+    void find_temperature_scale();
     Eigen::VectorXd near_values(double time, const Eigen::VectorXd &state) const;
     Eigen::VectorXd far_values(double time, const Eigen::VectorXd &state) const;
-    void set_wall(const Side &side, int node, double time, double length,
-                  Eigen::VectorXd &values) const;
+    void set_wall(const Side &side, const ChebyshevBasis &basis, int node, double time,
+                  double length, Eigen::VectorXd &values) const;
     double logarithm(double coordinate, double front) const;
     double excess(const Profile &profile, double coordinate) const;
 
     OracleProblem problem;
-    ChebyshevBasis basis;
+    ChebyshevBasis near_basis, far_basis;
     int exponent; ///< m: 0 planar, 1 cylindrical, 2 spherical
     Side near, far;
     int size;

@@ -11,8 +11,7 @@
 namespace meltfront::cases
 {
   /** Surface at a coordinate in the measure of a symmetry: 1, 2 pi r, 4 pi r^2. */
-  inline double
-  surface(Symmetry symmetry, double r)
+  inline double surface(Symmetry symmetry, double r)
   {
     switch(symmetry)
     {
@@ -34,9 +33,8 @@ namespace meltfront::cases
    * closer than its width
    */
   template <typename Function, typename Width>
-  double
-  integrate_panels(Symmetry symmetry, double lower, double upper, const Function &f,
-                   const Width &panel_width)
+  double integrate_panels(Symmetry symmetry, double lower, double upper,
+                          const Function &f, const Width &panel_width)
   {
     double sum = 0;
     for(double left = lower; left < upper;)

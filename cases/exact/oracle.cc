@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace meltfront::cases
 {
@@ -15,14 +17,12 @@ namespace meltfront::cases
   {
     using spectral::FrontFixing;
 
-    [[noreturn]] void
-    reject(const std::string &reason)
+    [[noreturn]] void reject(const std::string &reason)
     {
       throw InputError("spectral oracle: " + reason);
     }
 
-    void
-    check_wall(const OracleWall &wall, const std::string &which)
+    void check_wall(const OracleWall &wall, const std::string &which)
     {
       if(wall.kind == BoundaryKind::periodic)
         reject("the " + which + " wall cannot be periodic");
@@ -30,8 +30,7 @@ namespace meltfront::cases
         reject("the " + which + " wall needs a value");
     }
 
-    void
-    check_start(const OracleProblem &problem)
+    void check_start(const OracleProblem &problem)
     {
       if(!problem.start && !problem.initial_temperature)
         reject("needs an exact solution or a temperature profile to start from");
@@ -47,8 +46,7 @@ namespace meltfront::cases
                            problem.inner, problem.outer, front));
     }
 
-    void
-    check_problem(const OracleProblem &problem)
+    void check_problem(const OracleProblem &problem)
     {
       check_material(problem.material, "spectral oracle");
       if(problem.symmetry == Symmetry::none)
@@ -76,11 +74,23 @@ namespace meltfront::cases
       check_start(problem);
     }
 
-    /** The run with a fixed number of Chebyshev intervals. */
+    using Defect = FrontFixing::Defect;
+
+    /** Thrown out of a run that turns out to need more nodes. */
+    struct Unresolved
+    {
+      Defect defect;
+    };
+
+    /** The run with fixed numbers of Chebyshev intervals. */
     struct Integration
     {
-      Integration(const OracleProblem &problem, int intervals)
-          : system(problem, intervals), intervals(intervals)
+      /** @throws Unresolved as soon as a defect exceeds what is allowed. */
+      Integration(const OracleProblem &problem, int near_intervals, int far_intervals,
+                  double allowed_defect)
+        : system(problem, near_intervals, far_intervals)
+        , near_intervals(near_intervals)
+        , far_intervals(far_intervals)
       {
         spectral::StiffProblem stiff;
         stiff.name = "spectral oracle";
@@ -90,10 +100,13 @@ namespace meltfront::cases
             = [this](const Eigen::VectorXd &state) { return system.scale(state); };
         stiff.admissible
             = [this](const Eigen::VectorXd &state) { return system.admissible(state); };
-        stiff.observe = [this](long step, double time, const Eigen::VectorXd &state)
+        stiff.observe = [&](long step, double time, const Eigen::VectorXd &state)
         {
+          const Defect now = system.resolution_defect(time, state);
+          defect = std::max({defect, now.near, now.far});
+          if(defect > allowed_defect)
+            throw Unresolved{now};
           system.check(step, time, state);
-          defect = std::max(defect, system.resolution_defect(time, state));
         };
         trajectory = spectral::RadauIntegrator(7).integrate(
             stiff, system.initial_state(), problem.start_time, problem.end_time,
@@ -101,32 +114,39 @@ namespace meltfront::cases
       }
 
       FrontFixing system;
-      int intervals;
-      double defect = 0;
+      int near_intervals, far_intervals;
+      double defect = 0; ///< the largest over the run
       spectral::Trajectory trajectory;
     };
 
-    std::unique_ptr<const Integration>
-    integrate(const OracleProblem &problem)
+    std::unique_ptr<const Integration> integrate(const OracleProblem &problem)
     {
       if(problem.nodes > 0)
-        return std::make_unique<Integration>(problem, problem.nodes);
-      const int most_intervals = 140;
-      const double wanted = std::max(1e-13, 0.1 * problem.tolerance);
-      double defect = 0;
-      for(int intervals = 12; intervals <= most_intervals; intervals += intervals / 2)
-      {
-        auto result = std::make_unique<Integration>(problem, intervals);
-        if(result->defect <= wanted)
-          return result;
-        defect = result->defect;
-      }
+        return std::make_unique<Integration>(problem, problem.nodes, problem.nodes,
+                                             std::numeric_limits<double>::infinity());
+      const double allowed = std::max(1e-13, 0.1 * problem.tolerance);
+      const int most_intervals = 160;
+      int near = 12, far = 12;
+      Defect defect{0, 0};
+      while(std::max(near, far) <= most_intervals)
+        try
+        {
+          return std::make_unique<Integration>(problem, near, far, allowed);
+        }
+        catch(const Unresolved &unresolved)
+        {
+          defect = unresolved.defect;
+          if(defect.near > allowed)
+            near += near / 3;
+          if(defect.far > allowed)
+            far += far / 3;
+        }
       throw NumericalError(
           "spectral oracle", 0, problem.start_time, "the profile",
           fmt::format(
               "is not resolved by {} Chebyshev intervals (last coefficients {:.1e}): "
               "initial and wall values must be smooth and agree",
-              most_intervals, defect));
+              most_intervals, std::max(defect.near, defect.far)));
     }
   } // namespace
 
@@ -134,29 +154,39 @@ namespace meltfront::cases
   {
   public:
     explicit Run(const OracleProblem &problem)
-        : problem(problem), integration(integrate(problem))
+      : problem(problem)
+      , integration(integrate(problem))
     {
     }
 
     /** The solution to start from where it answers for this time, else null. */
-    const ExactSolution *
-    before(double time) const
+    const ExactSolution *before(double time) const
     {
       return problem.start && time < problem.start_time ? problem.start.get() : nullptr;
     }
 
-    FrontFixing::Profile
-    profile(double time) const
+    /** The profile at a time; the last one asked for is kept, for the many points of a
+     * snapshot. Safe from several threads. */
+    std::shared_ptr<const FrontFixing::Profile> profile(double time) const
     {
+      std::shared_ptr<const FrontFixing::Profile> last = latest.load();
+      if(last && last->time == time)
+        return last;
       const double slack = 1e-9 * (problem.end_time - problem.start_time);
       if(!(time >= problem.start_time - slack && time <= problem.end_time + slack))
         throw InputError(fmt::format("spectral oracle: time {} is outside {} ... {}",
                                      time, problem.start_time, problem.end_time));
-      return integration->system.profile(time, integration->trajectory.state(time));
+      last = std::make_shared<const FrontFixing::Profile>(
+          integration->system.profile(time, integration->trajectory.state(time)));
+      latest.store(last);
+      return last;
     }
 
     OracleProblem problem;
     std::unique_ptr<const Integration> integration;
+
+  private:
+    mutable std::atomic<std::shared_ptr<const FrontFixing::Profile>> latest;
   };
 
   SpectralOracle::SpectralOracle(const OracleProblem &problem)
@@ -167,78 +197,72 @@ namespace meltfront::cases
 
   SpectralOracle::~SpectralOracle() = default;
 
-  std::string
-  SpectralOracle::description() const
+  std::string SpectralOracle::description() const
   {
     return fmt::format(
         "spectral front-fixing solution on {:.6g} ... {:.6g} m, {} Chebyshev "
         "intervals per phase, {} steps{}",
-        run->problem.inner, run->problem.outer, nodes(), steps(),
+        run->problem.inner, run->problem.outer, near_nodes(), far_nodes(), steps(),
         run->problem.start ? ", started from: " + run->problem.start->description() : "");
   }
 
-  Symmetry
-  SpectralOracle::symmetry() const
+  Symmetry SpectralOracle::symmetry() const
   {
     return run->problem.symmetry;
   }
 
-  double
-  SpectralOracle::start_time() const
+  double SpectralOracle::start_time() const
   {
     return run->problem.start ? run->problem.start->start_time()
                               : run->problem.start_time;
   }
 
-  double
-  SpectralOracle::end_time() const
+  double SpectralOracle::end_time() const
   {
     return run->problem.end_time;
   }
 
-  bool
-  SpectralOracle::solid_at_origin() const
+  bool SpectralOracle::solid_at_origin() const
   {
     return run->problem.solid_at_origin;
   }
 
-  double
-  SpectralOracle::front(double time) const
+  double SpectralOracle::front(double time) const
   {
     const ExactSolution *earlier = run->before(time);
-    return earlier ? earlier->front(time) : run->profile(time).front;
+    return earlier ? earlier->front(time) : run->profile(time)->front;
   }
 
-  double
-  SpectralOracle::temperature(double coordinate, double time) const
+  double SpectralOracle::temperature(double coordinate, double time) const
   {
     if(const ExactSolution *earlier = run->before(time))
       return earlier->temperature(coordinate, time);
-    return run->integration->system.temperature(run->profile(time), coordinate);
+    return run->integration->system.temperature(*run->profile(time), coordinate);
   }
 
-  double
-  SpectralOracle::heat_content(double lower, double upper, double time) const
+  double SpectralOracle::heat_content(double lower, double upper, double time) const
   {
     if(const ExactSolution *earlier = run->before(time))
       return earlier->heat_content(lower, upper, time);
-    return run->integration->system.heat_content(run->profile(time), lower, upper);
+    return run->integration->system.heat_content(*run->profile(time), lower, upper);
   }
 
-  int
-  SpectralOracle::nodes() const
+  int SpectralOracle::near_nodes() const
   {
-    return run->integration->intervals;
+    return run->integration->near_intervals;
   }
 
-  long
-  SpectralOracle::steps() const
+  int SpectralOracle::far_nodes() const
+  {
+    return run->integration->far_intervals;
+  }
+
+  long SpectralOracle::steps() const
   {
     return run->integration->trajectory.steps();
   }
 
-  double
-  SpectralOracle::resolution_defect() const
+  double SpectralOracle::resolution_defect() const
   {
     return run->integration->defect;
   }

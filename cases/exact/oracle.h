@@ -51,7 +51,7 @@ namespace meltfront::cases
     /** Undercooled liquid or superheated solid is meant, not an error. */
     bool metastable = false;
 
-    /** Chebyshev intervals per phase; 0: raised from 12 in steps of a half until the last
+    /** Chebyshev intervals per phase; 0: raised from 12 in each phase until its last
      * coefficients are at round-off throughout the run. */
     int nodes = 0;
     double tolerance = 1e-12; ///< of each time step, relative
@@ -103,8 +103,10 @@ namespace meltfront::cases
 
     double heat_content(double lower, double upper, double time) const override;
 
-    /** Chebyshev intervals per phase in use. */
-    int nodes() const;
+    /** Chebyshev intervals in use in the phase at the inner wall and in the one beyond
+     * the front. */
+    int near_nodes() const;
+    int far_nodes() const;
 
     /** Time steps taken. */
     long steps() const;

@@ -12,8 +12,7 @@ namespace meltfront::cases
 {
   namespace
   {
-    const Material &
-    checked(const Material &material, double wall, double far)
+    const Material &checked(const Material &material, double wall, double far)
     {
       check_material(material, "planar Neumann solution");
       const double melting = material.melting_temperature;
@@ -30,19 +29,17 @@ namespace meltfront::cases
 
   PlanarNeumann::PlanarNeumann(const Material &material, double wall_temperature,
                                double far_temperature)
-      : material(checked(material, wall_temperature, far_temperature)),
-        profile(material, wall_temperature, far_temperature)
+    : material(checked(material, wall_temperature, far_temperature))
+    , profile(material, wall_temperature, far_temperature)
   {
   }
 
-  double
-  PlanarNeumann::lambda() const
+  double PlanarNeumann::lambda() const
   {
     return profile.lambda;
   }
 
-  std::string
-  PlanarNeumann::description() const
+  std::string PlanarNeumann::description() const
   {
     return fmt::format("planar {}-phase Neumann solution, {}, wall {:.12g}, far {:.12g}, "
                        "lambda = {:.16g}",
@@ -51,32 +48,27 @@ namespace meltfront::cases
                        profile.distant, profile.lambda);
   }
 
-  Symmetry
-  PlanarNeumann::symmetry() const
+  Symmetry PlanarNeumann::symmetry() const
   {
     return Symmetry::planar;
   }
 
-  double
-  PlanarNeumann::front(double time) const
+  double PlanarNeumann::front(double time) const
   {
     return profile.front(time);
   }
 
-  bool
-  PlanarNeumann::solid_at_origin() const
+  bool PlanarNeumann::solid_at_origin() const
   {
     return profile.solid_is_near;
   }
 
-  double
-  PlanarNeumann::temperature(double coordinate, double time) const
+  double PlanarNeumann::temperature(double coordinate, double time) const
   {
     return profile.temperature(coordinate, time);
   }
 
-  double
-  PlanarNeumann::heat_content(double lower, double upper, double time) const
+  double PlanarNeumann::heat_content(double lower, double upper, double time) const
   {
     const PhaseProperties &near
         = profile.solid_is_near ? material.solid : material.liquid;

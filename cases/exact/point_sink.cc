@@ -9,33 +9,29 @@
 namespace meltfront::cases
 {
   PointSink::PointSink(const Material &material, double lambda, double far_temperature)
-      : RadialSimilarity(material,
-                         sink_profile(3, material, lambda, far_temperature, "point sink"))
+    : RadialSimilarity(material,
+                       sink_profile(3, material, lambda, far_temperature, "point sink"))
   {
   }
 
-  double
-  PointSink::amplitude() const
+  double PointSink::amplitude() const
   {
     // The profile is written with Gamma(-1/2, s^2/4) = 4 F3(s).
     return 4 * profile.amplitude;
   }
 
-  double
-  PointSink::strength(double time) const
+  double PointSink::strength(double time) const
   {
     return 4 * std::numbers::pi * profile.solid.conductivity * amplitude()
            * std::sqrt(profile.solid.diffusivity * time);
   }
 
-  double
-  PointSink::energy(double time) const
+  double PointSink::energy(double time) const
   {
     return 2. / 3. * time * strength(time);
   }
 
-  std::string
-  PointSink::description() const
+  std::string PointSink::description() const
   {
     return fmt::format("point sink that removes {:.16g} W/s^(1/2) sqrt(t), far {:.12g}, "
                        "lambda = {:.12g}",

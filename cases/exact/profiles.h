@@ -21,8 +21,9 @@ namespace meltfront::cases::similarity
   struct Phase
   {
     explicit Phase(const PhaseProperties &properties)
-        : conductivity(properties.conductivity), density(properties.density),
-          diffusivity(conductivity / (density * Real(properties.specific_heat_capacity)))
+      : conductivity(properties.conductivity)
+      , density(properties.density)
+      , diffusivity(conductivity / (density * Real(properties.specific_heat_capacity)))
     {
     }
 
@@ -50,11 +51,14 @@ namespace meltfront::cases::similarity
   public:
     PlanarProfile(const Material &material, double wall_temperature,
                   double far_temperature)
-        : solid_is_near(wall_temperature < material.melting_temperature),
-          near(solid_is_near ? material.solid : material.liquid),
-          far(solid_is_near ? material.liquid : material.solid), wall(wall_temperature),
-          distant(far_temperature), melting(material.melting_temperature),
-          latent_heat(material.latent_heat), density_ratio(near.density / far.density)
+      : solid_is_near(wall_temperature < material.melting_temperature)
+      , near(solid_is_near ? material.solid : material.liquid)
+      , far(solid_is_near ? material.liquid : material.solid)
+      , wall(wall_temperature)
+      , distant(far_temperature)
+      , melting(material.melting_temperature)
+      , latent_heat(material.latent_heat)
+      , density_ratio(near.density / far.density)
     {
       using std::sqrt;
       diffusivity_root = sqrt(near.diffusivity / far.diffusivity);
@@ -62,15 +66,13 @@ namespace meltfront::cases::similarity
                                      "the front constant lambda");
     }
 
-    Real
-    front(const Real &time) const
+    Real front(const Real &time) const
     {
       using std::sqrt;
       return 2 * lambda * sqrt(near.diffusivity * time);
     }
 
-    Real
-    temperature(const Real &x, const Real &time) const
+    Real temperature(const Real &x, const Real &time) const
     {
       using std::sqrt;
       if(time <= 0)
@@ -87,8 +89,7 @@ namespace meltfront::cases::similarity
     }
 
     /** The Stefan condition at the front for a trial lambda, times sqrt(t). */
-    Balance<Real>
-    balance(const Real &x) const
+    Balance<Real> balance(const Real &x) const
     {
       using std::abs, std::exp, std::max, std::sqrt;
       const Real root_pi = sqrt(boost::math::constants::pi<Real>());
@@ -129,9 +130,8 @@ namespace meltfront::cases::similarity
   public:
     /** The sink that drives the front with a given lambda: its A from the Stefan
      * condition. */
-    static RadialProfile
-    sink(int dimension, const Material &material, const Real &lambda,
-         double far_temperature)
+    static RadialProfile sink(int dimension, const Material &material, const Real &lambda,
+                              double far_temperature)
     {
       using std::exp, std::pow, std::sqrt;
       RadialProfile profile(dimension, material, far_temperature);
@@ -143,8 +143,8 @@ namespace meltfront::cases::similarity
     }
 
     /** Growth without a sink: lambda from z^(d/2) e^z G(z) = c_l (T_m - T_far)/L. */
-    static RadialProfile
-    growth(int dimension, const Material &material, double far_temperature)
+    static RadialProfile growth(int dimension, const Material &material,
+                                double far_temperature)
     {
       using std::max, std::pow, std::sqrt;
       RadialProfile profile(dimension, material, far_temperature);
@@ -163,15 +163,13 @@ namespace meltfront::cases::similarity
       return profile;
     }
 
-    Real
-    front(const Real &time) const
+    Real front(const Real &time) const
     {
       using std::sqrt;
       return 2 * lambda * sqrt(solid.diffusivity * time);
     }
 
-    Real
-    temperature(const Real &r, const Real &time) const
+    Real temperature(const Real &r, const Real &time) const
     {
       using std::exp;
       if(time <= 0)
@@ -197,23 +195,20 @@ namespace meltfront::cases::similarity
     }
 
     /** z = lambda^2 a_s/a_l. */
-    Real
-    front_in_liquid() const
+    Real front_in_liquid() const
     {
       return lambda * lambda * solid.diffusivity / liquid.diffusivity;
     }
 
     /** rho L ds/dt times sqrt(t), W s^(1/2)/m^2. */
-    Real
-    latent_flux() const
+    Real latent_flux() const
     {
       using std::sqrt;
       return solid.density * latent_heat * lambda * sqrt(solid.diffusivity);
     }
 
     /** k_l dT_l/dr at the front times sqrt(t), W s^(1/2)/m^2. */
-    Real
-    liquid_flux() const
+    Real liquid_flux() const
     {
       using std::pow, std::sqrt;
       const Real z = front_in_liquid();
@@ -231,9 +226,12 @@ namespace meltfront::cases::similarity
 
   private:
     RadialProfile(int dimension, const Material &material, double far_temperature)
-        : dimension(dimension), solid(material.solid), liquid(material.liquid),
-          distant(far_temperature), melting(material.melting_temperature),
-          latent_heat(material.latent_heat)
+      : dimension(dimension)
+      , solid(material.solid)
+      , liquid(material.liquid)
+      , distant(far_temperature)
+      , melting(material.melting_temperature)
+      , latent_heat(material.latent_heat)
     {
     }
   };

@@ -14,8 +14,7 @@ namespace meltfront::cases::spectral
   namespace
   {
     /** Zeros of P_s - P_(s-1) on [0, 1]: the Radau abscissae, the last one 1. */
-    Eigen::VectorXd
-    radau_abscissae(int stages)
+    Eigen::VectorXd radau_abscissae(int stages)
     {
       const auto polynomial = [&](double x)
       {
@@ -42,8 +41,7 @@ namespace meltfront::cases::spectral
 
     /** a_ij, the integral of the j-th Lagrange polynomial up to c_i, through the shifted
      * Legendre polynomials, whose primitives are (P_(k+1) - P_(k-1))/(2 (2 k + 1)). */
-    Eigen::MatrixXd
-    coefficient_matrix(const Eigen::VectorXd &abscissae)
+    Eigen::MatrixXd coefficient_matrix(const Eigen::VectorXd &abscissae)
     {
       const int stages = static_cast<int>(abscissae.size());
       Eigen::MatrixXd values(stages, stages), primitives(stages, stages);
@@ -61,8 +59,7 @@ namespace meltfront::cases::spectral
       return primitives * values.inverse();
     }
 
-    Eigen::VectorXd
-    barycentric_weights(const Eigen::VectorXd &points)
+    Eigen::VectorXd barycentric_weights(const Eigen::VectorXd &points)
     {
       Eigen::VectorXd weights = Eigen::VectorXd::Ones(points.size());
       for(Eigen::Index i = 0; i < points.size(); ++i)
@@ -73,9 +70,8 @@ namespace meltfront::cases::spectral
     }
 
     /** Weights of nodal values in the value at x of the polynomial through them. */
-    Eigen::VectorXd
-    interpolation_weights(const Eigen::VectorXd &points, const Eigen::VectorXd &weights,
-                          double x)
+    Eigen::VectorXd interpolation_weights(const Eigen::VectorXd &points,
+                                          const Eigen::VectorXd &weights, double x)
     {
       Eigen::VectorXd result(points.size());
       for(Eigen::Index i = 0; i < points.size(); ++i)
@@ -87,17 +83,16 @@ namespace meltfront::cases::spectral
       return result / result.sum();
     }
 
-    double
-    scaled_norm(const Eigen::MatrixXd &values, const Eigen::VectorXd &scale)
+    double scaled_norm(const Eigen::MatrixXd &values, const Eigen::VectorXd &scale)
     {
       return (scale.cwiseInverse().asDiagonal() * values).cwiseAbs().maxCoeff();
     }
 
     /** By central differences: exact up to round-off in components in which the rate is
      * quadratic. */
-    Eigen::MatrixXd
-    numerical_jacobian(const StiffProblem &problem, double time,
-                       const Eigen::VectorXd &state, const Eigen::VectorXd &scale)
+    Eigen::MatrixXd numerical_jacobian(const StiffProblem &problem, double time,
+                                       const Eigen::VectorXd &state,
+                                       const Eigen::VectorXd &scale)
     {
       const Eigen::Index size = state.size();
       Eigen::MatrixXd jacobian(size, size);
@@ -116,16 +111,14 @@ namespace meltfront::cases::spectral
     }
   } // namespace
 
-  Eigen::VectorXd
-  Trajectory::value(const Piece &piece, double time) const
+  Eigen::VectorXd Trajectory::value(const Piece &piece, double time) const
   {
     return piece.states
            * interpolation_weights(abscissae, weights,
                                    (time - piece.start) / piece.length);
   }
 
-  Eigen::VectorXd
-  Trajectory::state(double time) const
+  Eigen::VectorXd Trajectory::state(double time) const
   {
     const auto after
         = std::upper_bound(pieces.begin(), pieces.end(), time,
@@ -134,8 +127,9 @@ namespace meltfront::cases::spectral
   }
 
   RadauIntegrator::RadauIntegrator(int stages)
-      : stages(stages), abscissae(radau_abscissae(stages)),
-        inverse(coefficient_matrix(abscissae).inverse())
+    : stages(stages)
+    , abscissae(radau_abscissae(stages))
+    , inverse(coefficient_matrix(abscissae).inverse())
   {
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(inverse);
     eigenvalues = solver.eigenvalues();
@@ -144,11 +138,10 @@ namespace meltfront::cases::spectral
     predictor = interpolation_weights(abscissae, barycentric_weights(abscissae), 0);
   }
 
-  bool
-  RadauIntegrator::solve_stages(const StiffProblem &problem, double time, double length,
-                                const Eigen::MatrixXd &jacobian,
-                                const Eigen::VectorXd &scale, double tolerance,
-                                Eigen::MatrixXd &states) const
+  bool RadauIntegrator::solve_stages(const StiffProblem &problem, double time,
+                                     double length, const Eigen::MatrixXd &jacobian,
+                                     const Eigen::VectorXd &scale, double tolerance,
+                                     Eigen::MatrixXd &states) const
   {
     const Eigen::Index size = jacobian.rows();
     // Conjugate eigenvalues come in pairs with conjugate solutions: one of each will do.
@@ -206,9 +199,9 @@ namespace meltfront::cases::spectral
     return false;
   }
 
-  Trajectory
-  RadauIntegrator::integrate(const StiffProblem &problem, const Eigen::VectorXd &initial,
-                             double start, double end, double tolerance) const
+  Trajectory RadauIntegrator::integrate(const StiffProblem &problem,
+                                        const Eigen::VectorXd &initial, double start,
+                                        double end, double tolerance) const
   {
     Trajectory result;
     result.abscissae.resize(stages + 1);

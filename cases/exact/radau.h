@@ -29,8 +29,7 @@ namespace meltfront::cases::spectral
   public:
     Eigen::VectorXd state(double time) const;
 
-    long
-    steps() const
+    long steps() const
     {
       return static_cast<long>(pieces.size());
     }

@@ -9,18 +9,17 @@ namespace meltfront::cases
 {
   RadialSimilarity::RadialSimilarity(const Material &material,
                                      similarity::RadialProfile<double> profile)
-      : material(material), profile(profile)
+    : material(material)
+    , profile(profile)
   {
   }
 
-  double
-  RadialSimilarity::lambda() const
+  double RadialSimilarity::lambda() const
   {
     return profile.lambda;
   }
 
-  Symmetry
-  RadialSimilarity::symmetry() const
+  Symmetry RadialSimilarity::symmetry() const
   {
     switch(profile.dimension)
     {
@@ -33,27 +32,23 @@ namespace meltfront::cases
     }
   }
 
-  double
-  RadialSimilarity::front(double time) const
+  double RadialSimilarity::front(double time) const
   {
     return profile.front(time);
   }
 
-  double
-  RadialSimilarity::temperature(double coordinate, double time) const
+  double RadialSimilarity::temperature(double coordinate, double time) const
   {
     return profile.temperature(coordinate, time);
   }
 
-  double
-  RadialSimilarity::heat_content(double lower, double upper, double time) const
+  double RadialSimilarity::heat_content(double lower, double upper, double time) const
   {
     const double split = std::clamp(front(time), lower, upper);
     return solid_heat(lower, split, time) + liquid_heat(split, upper, time);
   }
 
-  double
-  RadialSimilarity::solid_heat(double lower, double upper, double time) const
+  double RadialSimilarity::solid_heat(double lower, double upper, double time) const
   {
     if(upper <= lower || profile.amplitude == 0)
       return 0;
@@ -82,8 +77,7 @@ namespace meltfront::cases
                [&](double) { return length; });
   }
 
-  double
-  RadialSimilarity::liquid_heat(double lower, double upper, double time) const
+  double RadialSimilarity::liquid_heat(double lower, double upper, double time) const
   {
     const double capacity = material.liquid.volumetric_heat_capacity();
     double heat = (material.liquid.density * material.latent_heat

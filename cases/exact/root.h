@@ -32,8 +32,7 @@ namespace meltfront::cases::similarity
    * where the residual at the root exceeds 1e-14 of the largest term.
    */
   template <typename Real, typename Function>
-  Real
-  decreasing_root(const Function &balance, const std::string &what)
+  Real decreasing_root(const Function &balance, const std::string &what)
   {
     using std::abs, std::sqrt;
     const auto residual = [&](const Real &x) { return balance(x).residual; };

@@ -8,9 +8,9 @@
 
 namespace meltfront::cases
 {
-  similarity::RadialProfile<double>
-  sink_profile(int dimension, const Material &material, double lambda,
-               double far_temperature, const std::string &solution)
+  similarity::RadialProfile<double> sink_profile(int dimension, const Material &material,
+                                                 double lambda, double far_temperature,
+                                                 const std::string &solution)
   {
     check_material(material, solution);
     require_equal_densities(material, solution);

@@ -23,12 +23,13 @@ namespace meltfront::cases::similarity
   public:
     using result_type = std::pair<Real, Real>;
 
-    UpperGammaFraction(Real a, Real z) : a(a), b(z + 1 - a)
+    UpperGammaFraction(Real a, Real z)
+      : a(a)
+      , b(z + 1 - a)
     {
     }
 
-    result_type
-    operator()()
+    result_type operator()()
     {
       const result_type term(k * (a - k), b);
       b += 2;
@@ -48,8 +49,7 @@ namespace meltfront::cases::similarity
    * (Abramowitz and Stegun 1964, 6.5.31) from z = 2 on.
    */
   template <typename Real>
-  Real
-  scaled_upper_gamma(int dimension, const Real &z)
+  Real scaled_upper_gamma(int dimension, const Real &z)
   {
     using std::exp, std::pow, std::sqrt;
     if(z >= 2)
@@ -70,8 +70,7 @@ namespace meltfront::cases::similarity
 
   /** Gamma(1 - d/2, z) / Gamma(1 - d/2, reference), also where both underflow. */
   template <typename Real>
-  Real
-  upper_gamma_ratio(int dimension, const Real &z, const Real &reference)
+  Real upper_gamma_ratio(int dimension, const Real &z, const Real &reference)
   {
     using std::exp;
     return exp(reference - z) * scaled_upper_gamma(dimension, z)

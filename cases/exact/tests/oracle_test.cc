@@ -7,38 +7,35 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <chrono>
 
 namespace meltfront::cases
 {
   namespace
   {
-    Material
-    water(double ice_density = 1000)
+    Material water(double ice_density = 1000)
     {
       return {{2.2, 2090, ice_density}, {0.591, 4190, 1000}, 333500, 0};
     }
 
-    Material
-    norm()
+    Material norm()
     {
       Material material;
       material.melting_temperature = 1;
       return material;
     }
 
-    OracleWall
-    exact_wall(std::shared_ptr<const ExactSolution> exact, double coordinate)
+    OracleWall exact_wall(std::shared_ptr<const ExactSolution> exact, double coordinate)
     {
       return {BoundaryKind::fixed_temperature,
               [=](double time) { return exact->temperature(coordinate, time); }};
     }
 
-    OracleProblem
-    between(std::shared_ptr<const ExactSolution> exact, const Material &material,
-            double inner, double outer, double start_time, double end_time)
+    OracleProblem between(std::shared_ptr<const ExactSolution> exact,
+                          const Material &material, double inner, double outer,
+                          double start_time, double end_time)
     {
       OracleProblem problem;
       problem.symmetry = exact->symmetry();
@@ -54,34 +51,38 @@ namespace meltfront::cases
       return problem;
     }
 
-    void
-    compare(const OracleProblem &problem, const ExactSolution &exact, const char *name)
+    void compare(const OracleProblem &problem, const ExactSolution &exact,
+                 const char *name)
     {
       auto t = std::chrono::steady_clock::now();
       const SpectralOracle oracle(problem);
-      double sec = std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
+      double sec
+          = std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
       double front = 0, temp = 0, heat = 0, range = 0;
       const int times = 101, points = 41;
       for(int i = 0; i < times; ++i)
       {
-        const double time = std::lerp(problem.start_time, problem.end_time, i / (times - 1.));
+        const double time
+            = std::lerp(problem.start_time, problem.end_time, i / (times - 1.));
         front = std::max(front, std::abs(oracle.front(time) / exact.front(time) - 1));
         for(int j = 0; j < points; ++j)
         {
           double r = std::lerp(problem.inner, problem.outer, j / (points - 1.));
           if(j == 0 && problem.line_sink != 0)
             r = 1e-3 * problem.outer;
-          temp = std::max(temp,
-                          std::abs(oracle.temperature(r, time) - exact.temperature(r, time)));
+          temp = std::max(
+              temp, std::abs(oracle.temperature(r, time) - exact.temperature(r, time)));
           range = std::max(range, std::abs(exact.temperature(r, time)));
         }
         double h = exact.heat_content(problem.inner, problem.outer, time);
-        heat = std::max(heat,
-                        std::abs(oracle.heat_content(problem.inner, problem.outer, time) / h - 1));
+        heat = std::max(
+            heat,
+            std::abs(oracle.heat_content(problem.inner, problem.outer, time) / h - 1));
       }
-      std::printf("%-28s N=%3d steps=%4ld defect %.1e front %.2e temp %.2e heat %.2e %.3f s\n",
-                  name, oracle.nodes(), oracle.steps(), oracle.resolution_defect(), front,
-                  temp / range, heat, sec);
+      std::printf("%-28s N=%3d+%3d steps=%4ld defect %.1e front %.2e temp %.2e heat %.2e "
+                  "%.3f s\n",
+                  name, oracle.near_nodes(), oracle.far_nodes(), oracle.steps(),
+                  oracle.resolution_defect(), front, temp / range, heat, sec);
     }
   } // namespace
 
@@ -90,6 +91,9 @@ namespace meltfront::cases
     auto n1 = std::make_shared<PlanarNeumann>(norm(), 0.190602422788870409, 1.2);
     compare(between(n1, norm(), 0, 1, 0.01, 0.25), *n1, "N1 .01-.25");
     compare(between(n1, norm(), 0, 1, 0.0005, 0.0568), *n1, "N1 .0005-.0568");
+    compare(between(n1, norm(), 0, 1, 0.0001, 0.0568), *n1, "N1 1e-4");
+    compare(between(n1, norm(), 0, 1, 0.00001, 0.0568), *n1, "N1 1e-5");
+    compare(between(n1, norm(), 0, 1, 0.000001, 0.0568), *n1, "N1 1e-6");
     auto n3 = std::make_shared<PlanarNeumann>(water(917), -10, 10);
     compare(between(n3, water(917), 0, 1, 864, 86400), *n3, "N3");
     auto n4 = std::make_shared<PlanarNeumann>(water(), -10, 0);
