@@ -6,7 +6,7 @@
 #include <verification/app/methods.h>
 #include <verification/matrix/criteria.h>
 #include <verification/matrix/matrix_files.h>
-#include <verification/matrix/matrix_reader.h>
+#include <verification/matrix/matrix_file.h>
 #include <verification/matrix/run_one.h>
 #include <verification/matrix/runner.h>
 #include <verification/report/report.h>

@@ -44,6 +44,7 @@ namespace meltfront::verification
     std::vector<CaseRecord> cases; ///< in the matrix's order
     std::vector<RunRecord> runs;   ///< in the matrix's order
     std::vector<CriterionResult> criteria;
+    std::vector<StabilityVerdict> stability; ///< of a matrix of hard cases, else empty
     std::vector<std::string>
         omissions; ///< runs that failed or were left out, each with its reason
     bool passed = false;
