@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 namespace meltfront::verification
@@ -90,6 +91,13 @@ namespace meltfront::verification
                                             : fmt::format(",seed={}", resolution.seed));
   }
 
+  std::string short_case_name(const std::string &name_or_path)
+  {
+    if(name_or_path.ends_with(".prm") || name_or_path.find('/') != std::string::npos)
+      return std::filesystem::path(name_or_path).stem().string();
+    return name_or_path;
+  }
+
   std::vector<std::string> case_names(const Matrix &matrix)
   {
     std::vector<std::string> names;
@@ -108,7 +116,7 @@ namespace meltfront::verification
     for(const std::string &name : case_names(matrix))
       for(const MatrixBlock &block : matrix.blocks)
         if(std::ranges::find(block.cases, name) != block.cases.end())
-          add_runs(block, name, methods, runs);
+          add_runs(block, short_case_name(name), methods, runs);
     std::set<std::string> known;
     std::erase_if(runs, [&](const PlannedRun &run)
                   { return !known.insert(run.file()).second; });

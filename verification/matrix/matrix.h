@@ -24,7 +24,7 @@ namespace meltfront::verification
    * option values that are the method's. */
   struct MatrixBlock
   {
-    std::vector<std::string> cases;
+    std::vector<std::string> cases; ///< by name, or by the path of a file
     std::vector<std::string> methods;
     std::vector<int> resolutions;
     std::vector<OptionAxis> options;
@@ -61,7 +61,12 @@ namespace meltfront::verification
   /** Finds a method by name. @throws InputError */
   using MethodLookup = std::function<const cases::Method &(const std::string &name)>;
 
-  /** The cases of a matrix, each once, in the order in which they are first named. */
+  /** The name of a case that is given by name or by the path of its file: `x` for
+   * `folder/x.prm`. */
+  std::string short_case_name(const std::string &name_or_path);
+
+  /** The cases of a matrix, each once and as written, in the order in which they are
+   * first named. */
   std::vector<std::string> case_names(const Matrix &matrix);
 
   /**

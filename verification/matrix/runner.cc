@@ -220,7 +220,10 @@ namespace meltfront::verification
     {
       std::map<std::string, cases::Case> loaded;
       for(const std::string &name : case_names(matrix))
-        loaded.emplace(name, load_case(name));
+        if(!loaded.emplace(short_case_name(name), load_case(name)).second)
+          throw cases::InputError(
+              fmt::format("matrix '{}' has two cases of the name '{}'", matrix.name,
+                          short_case_name(name)));
       return loaded;
     }
   } // namespace
@@ -236,7 +239,7 @@ namespace meltfront::verification
 
     std::vector<CaseRecord> case_records;
     for(const std::string &name : case_names(matrix))
-      case_records.push_back(make_case_record(cases_by_name.at(name)));
+      case_records.push_back(make_case_record(cases_by_name.at(short_case_name(name))));
     write_plan(options.directory, matrix, case_records, plan, options.program_version);
 
     std::deque<Job> jobs;

@@ -1,0 +1,181 @@
+#include <cases/case_file/prm_file.h>
+#include <cases/error.h>
+#include <verification/matrix/matrix_file.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using cases::PrmFile;
+    using cases::PrmKind;
+
+    constexpr const char *library_folder = MELTFRONT_MATRIX_LIBRARY;
+    constexpr int most_blocks = 32;
+
+    std::string block_name(int number)
+    {
+      return fmt::format("Block {}", number);
+    }
+
+    PrmFile matrix_keys()
+    {
+      PrmFile prm;
+      prm.declare("", {"title", PrmKind::text, "", "", "One line."});
+      prm.declare("", {"description", PrmKind::text, "", "", "What the matrix shows."});
+      prm.declare("", {"hard cases", PrmKind::boolean, "false", "",
+                       "The report judges each run: held, refused or failed."});
+      prm.declare("", {"time limit", PrmKind::number, "600", "s",
+                       "A run that takes longer has failed.", cases::above_zero});
+      for(int i = 1; i <= most_blocks; ++i)
+      {
+        const auto declare
+            = [&](const char *key, const char *value, const char *sentence) {
+                prm.declare(block_name(i), {key, PrmKind::text, value, "", sentence});
+              };
+        declare("cases", "", "Names of cases, or paths of case files, with commas.");
+        declare("methods", "", "Names of methods, with commas.");
+        declare("resolutions", "", "Particles or cells along the side, with commas.");
+        declare("options", "",
+                "Values of options, METHOD.KEY = VALUE | VALUE, with semicolons; every "
+                "combination is run.");
+        declare("seeds", "1", "Seeds of random arrangements, with commas.");
+        declare("threads", "1", "Threads of a run; several numbers with commas.");
+      }
+      return prm;
+    }
+
+    std::vector<std::string> words(const PrmFile &prm, const std::string &block,
+                                   const std::string &key)
+    {
+      prm.require(block, key, "every block names its cases, methods and resolutions");
+      return cases::split_list(prm.get_text(block, key), ',');
+    }
+
+    template <typename Integer>
+    std::vector<Integer> integers(const PrmFile &prm, const std::string &block,
+                                  const std::string &key)
+    {
+      std::vector<Integer> values;
+      for(const std::string &word : cases::split_list(prm.get_text(block, key), ','))
+      {
+        Integer value{};
+        const auto [end, failure]
+            = std::from_chars(word.data(), word.data() + word.size(), value);
+        if(failure != std::errc() || end != word.data() + word.size() || value < 1)
+          throw prm.error(block, key,
+                          fmt::format("holds '{}', which is not a whole number from 1 on",
+                                      cases::quotable(word)));
+        values.push_back(value);
+      }
+      return values;
+    }
+
+    /** `METHOD.KEY = VALUE | VALUE` */
+    OptionAxis option_axis(const PrmFile &prm, const std::string &block,
+                           const std::string &text)
+    {
+      const std::size_t equals = text.find('=');
+      const std::size_t point = text.find('.');
+      if(equals == std::string::npos || point == std::string::npos || point > equals)
+        throw prm.error(block, "options",
+                        fmt::format("holds '{}', which is not of the form METHOD.KEY = "
+                                    "VALUE | VALUE",
+                                    cases::quotable(text)));
+      OptionAxis axis{cases::trimmed(text.substr(0, point)),
+                      cases::trimmed(text.substr(point + 1, equals - point - 1)),
+                      cases::split_list(text.substr(equals + 1), '|')};
+      if(std::ranges::any_of(axis.values, &std::string::empty))
+        throw prm.error(block, "options",
+                        fmt::format("gives no value to '{}.{}'", axis.method, axis.key));
+      return axis;
+    }
+
+    MatrixBlock read_block(const PrmFile &prm, const std::string &name)
+    {
+      MatrixBlock block;
+      block.cases = words(prm, name, "cases");
+      block.methods = words(prm, name, "methods");
+      prm.require(name, "resolutions",
+                  "every block names its cases, methods and resolutions");
+      block.resolutions = integers<int>(prm, name, "resolutions");
+      if(!prm.get_text(name, "options").empty())
+        for(const std::string &text :
+            cases::split_list(prm.get_text(name, "options"), ';'))
+          block.options.push_back(option_axis(prm, name, text));
+      block.seeds = integers<std::uint64_t>(prm, name, "seeds");
+      block.threads = integers<int>(prm, name, "threads");
+      return block;
+    }
+
+    Matrix assemble(const PrmFile &prm, const std::string &file)
+    {
+      Matrix matrix;
+      matrix.name = short_case_name(file);
+      prm.require("", "title", "every matrix has one");
+      matrix.title = prm.get_text("", "title");
+      matrix.description = prm.get_text("", "description");
+      matrix.hard_cases = prm.get_boolean("", "hard cases");
+      matrix.time_limit = prm.get_number("", "time limit");
+      for(int i = 1; i <= most_blocks; ++i)
+        if(prm.opened(block_name(i)))
+          matrix.blocks.push_back(read_block(prm, block_name(i)));
+      if(matrix.blocks.empty())
+        throw cases::InputError(
+            fmt::format("{}: the matrix has no subsection 'Block 1', so "
+                        "that there is nothing to run",
+                        file));
+      return matrix;
+    }
+  } // namespace
+
+  Matrix read_matrix(const std::string &path)
+  {
+    PrmFile prm = matrix_keys();
+    prm.read(path);
+    return assemble(prm, path);
+  }
+
+  Matrix read_matrix_text(const std::string &text, const std::string &file)
+  {
+    PrmFile prm = matrix_keys();
+    prm.read_text(text, file);
+    return assemble(prm, file);
+  }
+
+  std::vector<std::string> matrix_names()
+  {
+    std::vector<std::string> names;
+    std::error_code failure;
+    for(const auto &entry : std::filesystem::directory_iterator(library_folder, failure))
+      if(entry.path().extension() == ".prm")
+        names.push_back(entry.path().stem().string());
+    if(failure)
+      throw cases::OutputError(
+          fmt::format("{}: the library of matrices cannot be read", library_folder));
+    std::ranges::sort(names);
+    return names;
+  }
+
+  Matrix load_matrix(const std::string &name_or_path)
+  {
+    if(name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".prm"))
+      return read_matrix(name_or_path);
+    const std::vector<std::string> names = matrix_names();
+    if(std::ranges::find(names, name_or_path) == names.end())
+      throw cases::InputError(fmt::format("there is no matrix '{}'; the nearest is '{}'",
+                                          cases::quotable(name_or_path),
+                                          cases::nearest_name(name_or_path, names)));
+    return read_matrix(fmt::format("{}/{}.prm", library_folder, name_or_path));
+  }
+
+  std::string matrix_file_reference()
+  {
+    return matrix_keys().reference();
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,189 @@
+#ifndef meltfront_verification_matrix_tests_fakes_h
+#define meltfront_verification_matrix_tests_fakes_h
+
+#include <cases/case.h>
+#include <cases/error.h>
+#include <cases/method.h>
+#include <verification/matrix/matrix.h>
+#include <verification/measure/tests/fixtures.h>
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+namespace meltfront::verification::tests
+{
+  /** A slab whose solution is LinearProfile: front at 0.5 sqrt(t), from 0 to 1 s. */
+  inline cases::Case slab_case(const std::string &name)
+  {
+    cases::Case c;
+    c.scene = scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+    c.scene.name = name;
+    for(const auto &[side, temperature] :
+        {std::pair(cases::Side::x_min, -1.), std::pair(cases::Side::x_max, 1.)})
+      c.scene.boundaries[static_cast<std::size_t>(side)]
+          = cases::Boundary{cases::BoundaryKind::fixed_temperature,
+                            cases::Field::uniform(temperature), false};
+    c.title = "A slab";
+    c.text = "set title = " + name;
+    c.exact = std::make_shared<LinearProfile>(cases::Symmetry::planar);
+    return c;
+  }
+
+  /** The state of n cells with a given front and the temperature x - front. */
+  inline State slab_state(int n, double front)
+  {
+    State state;
+    for(int i = 0; i < n; ++i)
+    {
+      const double x = (i + 0.5) / n;
+      state.positions[0].push_back(x);
+      state.weights.push_back(1. / n);
+      state.solid_fraction.push_back(std::clamp(front * n - i, 0., 1.));
+      state.temperature.push_back(x - front);
+    }
+    return state;
+  }
+
+  /**
+   * A method that knows the solution of slab_case() and adds a known error: its front is
+   * off by factor * h^order at every time but the start.
+   */
+  class FakeMethod : public cases::Method
+  {
+  public:
+    /** What a run does at its start, before it solves anything. */
+    using Act = std::function<void(const cases::Scene &, const cases::Resolution &)>;
+
+    explicit FakeMethod(const std::string &name, Act act = {}, double factor = 0.1,
+                        double order = 1)
+      : its_name(name)
+      , act(std::move(act))
+      , factor(factor)
+      , order(order)
+    {
+    }
+
+    std::string name() const override
+    {
+      return its_name;
+    }
+
+    std::string summary() const override
+    {
+      return "A method with a known error.";
+    }
+
+    std::vector<cases::Effect> supported_effects() const override
+    {
+      return cases::all_effects();
+    }
+
+    std::vector<cases::OptionDeclaration> option_declarations() const override
+    {
+      return {{"step_factor", "1", 0.5, "A number.", 0, 2},
+              {"scheme", "", std::string("euler"), "A word.", 0, 0, {"euler", "rkl2"}}};
+    }
+
+    cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
+    {
+      if(act)
+        act(scene, resolution);
+      const int n = resolution.n;
+      cases::RunDescription description;
+      description.spacing = 1. / n;
+      description.unknowns = n;
+      observer.begin(description);
+      constexpr int steps = 200;
+      for(int step = 0; step <= steps; ++step)
+      {
+        const double time = static_cast<double>(step) / steps;
+        if(step > 0 && step < steps && !observer.wants(step, time))
+          continue;
+        const double error = step > 0 ? factor * std::pow(1. / n, order) : 0;
+        State state = slab_state(n, 0.5 * std::sqrt(time) + error);
+        state.snapshot.step = step;
+        observer.observe(state.view(1, time));
+      }
+      cases::Cost cost;
+      cost.stepping_cpu = cost.stepping_wall = 1e-3 * n;
+      cost.steps = steps;
+      cost.unknowns = n;
+      cost.work = static_cast<long>(n) * steps;
+      for(const cases::EffectDecision &decision : effects.decisions())
+        if(decision.on)
+          cost.effects.push_back({decision.effect, steps, 8L * n, 1e-4});
+      return cost;
+    }
+
+  private:
+    std::string its_name;
+    Act act;
+    double factor, order;
+  };
+
+  /** A directory of a test's own, removed at its end. */
+  class ScratchDirectory
+  {
+  public:
+    ScratchDirectory()
+    {
+      std::string pattern
+          = (std::filesystem::temp_directory_path() / "meltfront-test-XXXXXX").string();
+      folder = mkdtemp(pattern.data());
+    }
+
+    ~ScratchDirectory()
+    {
+      std::filesystem::remove_all(folder);
+    }
+
+    ScratchDirectory(const ScratchDirectory &) = delete;
+    ScratchDirectory &operator=(const ScratchDirectory &) = delete;
+
+    std::string path(const std::string &name = "") const
+    {
+      return name.empty() ? folder : folder + "/" + name;
+    }
+
+  private:
+    std::string folder;
+  };
+
+  /** Append a line in one write, so that lines of several processes do not mix. */
+  inline void append_line(const std::string &path, const std::string &line)
+  {
+    const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    const std::string text = line + "\n";
+    if(write(file, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+      throw cases::OutputError("cannot append to " + path);
+    close(file);
+  }
+
+  inline std::vector<std::string> lines_of(const std::string &path)
+  {
+    std::vector<std::string> lines;
+    std::ifstream in(path);
+    for(std::string line; std::getline(in, line);)
+      lines.push_back(line);
+    return lines;
+  }
+
+  inline std::string text_of(const std::string &path)
+  {
+    std::ifstream in(path);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+} // namespace meltfront::verification::tests
+
+#endif

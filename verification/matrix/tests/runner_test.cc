@@ -1,0 +1,358 @@
+#include <verification/matrix/child_process.h>
+#include <verification/matrix/directory_lock.h>
+#include <verification/matrix/json_values.h>
+#include <verification/matrix/runner.h>
+#include <verification/matrix/tests/fakes.h>
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <random>
+#include <thread>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using tests::FakeMethod;
+    using tests::ScratchDirectory;
+
+    void pause_for(int milliseconds)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    }
+
+    /** Methods of a test, the log of their runs, and a matrix of them. */
+    class RunnerTest : public ::testing::Test
+    {
+    protected:
+      RunnerTest()
+      {
+        options.directory = scratch.path("out");
+        options.jobs = 2;
+        options.program_version = "1";
+        options.repeats.most = 1;
+        add("good", [](const auto &, const auto &) {});
+        add("diverging",
+            [](const auto &, const auto &) {
+              throw cases::NumericalError("diverging", 3, 0.5, "temperature", "is bad");
+            });
+        add("refusing", [](const auto &, const auto &)
+            { throw cases::Refusal("not for this scene"); });
+        add("crashing", [](const auto &, const auto &) { std::raise(SIGSEGV); });
+        add("leaving", [](const auto &, const auto &) { std::_Exit(7); });
+        add("hanging", [](const auto &, const auto &) { pause_for(1000000); });
+        add("slow", [](const auto &, const auto &) { pause_for(15); });
+        add("large",
+            [](const auto &, const cases::Resolution &resolution)
+            {
+              std::vector<char> bytes(static_cast<std::size_t>(resolution.n) << 20);
+              for(std::size_t i = 0; i < bytes.size(); i += 4096)
+                bytes[i] = 1;
+              std::fputs(bytes[12345] == 7 ? "seven\n" : "noise\n", stdout);
+            });
+      }
+
+      void add(const std::string &name, const FakeMethod::Act &act)
+      {
+        methods[name] = std::make_unique<FakeMethod>(
+            name,
+            [act, this](const cases::Scene &scene, const cases::Resolution &resolution)
+            {
+              tests::append_line(scratch.path("started"),
+                                 fmt::format("{} n={} seed={}", scene.name, resolution.n,
+                                             resolution.seed));
+              act(scene, resolution);
+            });
+      }
+
+      MatrixResult run(const Matrix &matrix)
+      {
+        return run_matrix(
+            matrix, options,
+            [this](const std::string &name)
+            {
+              if(name == "wrong")
+                throw cases::InputError("there is no case 'wrong'");
+              cases::Case c = tests::slab_case(name);
+              c.text += case_text;
+              return c;
+            },
+            [this](const std::string &name) -> const cases::Method &
+            { return *methods.at(name); });
+      }
+
+      static Matrix matrix_of(const std::vector<std::string> &methods,
+                              const std::vector<int> &resolutions,
+                              const std::vector<std::string> &cases = {"x"})
+      {
+        return {"test", "A test", "",
+                false,  600,      {{cases, methods, resolutions, {}, {1}, {1}}}};
+      }
+
+      std::size_t starts() const
+      {
+        return tests::lines_of(scratch.path("started")).size();
+      }
+
+      ScratchDirectory scratch;
+      RunnerOptions options;
+      std::string case_text;
+      std::map<std::string, std::unique_ptr<FakeMethod>> methods;
+    };
+
+    TEST_F(RunnerTest, RunsAMatrixAndStoresEverything)
+    {
+      const MatrixResult result = run(matrix_of({"good"}, {20, 40, 80, 160}, {"x", "y"}));
+      EXPECT_TRUE(result.passed);
+      EXPECT_EQ(result.title, "A test");
+      ASSERT_EQ(result.runs.size(), 8u);
+      ASSERT_EQ(result.cases.size(), 2u);
+      for(int i = 0; i < 8; ++i)
+      {
+        EXPECT_EQ(result.runs[i].case_name, i < 4 ? "x" : "y");
+        EXPECT_EQ(result.runs[i].status, RunStatus::finished);
+        EXPECT_NEAR(result.runs[i].quantities.at("front_rms"), 0.1 / result.runs[i].n,
+                    1e-12);
+      }
+      EXPECT_EQ(result.runs[3].n, 160) << "in the matrix's order, not that of execution";
+      for(const char *file :
+          {"matrix.json", "summary.json", "cases/x.json", "cases/y.json",
+           "runs/x/good/n=20/run.json", "runs/y/good/n=160/run.json"})
+        EXPECT_TRUE(std::filesystem::exists(scratch.path("out/") + file)) << file;
+      EXPECT_FALSE(std::filesystem::exists(scratch.path("out/runs/x/good/n=20/run.log")));
+      EXPECT_EQ(load_matrix_result(options.directory).runs.size(), 8u);
+    }
+
+    TEST_F(RunnerTest, OneFailedRunNeverStopsTheOthers)
+    {
+      Matrix matrix = matrix_of(
+          {"diverging", "refusing", "crashing", "leaving", "hanging", "good"}, {20, 40});
+      matrix.time_limit = 0.5;
+      const MatrixResult result = run(matrix);
+      ASSERT_EQ(result.runs.size(), 12u);
+      const auto at = [&](int i) { return result.runs[2 * i]; };
+      EXPECT_EQ(at(0).status, RunStatus::failed);
+      EXPECT_EQ(at(0).message, "diverging, step 3, t = 0.5: temperature is bad");
+      EXPECT_EQ(at(1).status, RunStatus::refused);
+      EXPECT_EQ(at(1).message, "not for this scene");
+      EXPECT_EQ(at(2).status, RunStatus::failed);
+      EXPECT_EQ(at(2).message, "crashing crashed (Segmentation fault)");
+      EXPECT_EQ(at(3).status, RunStatus::failed);
+      EXPECT_EQ(at(3).message, "leaving ended with status 7");
+      EXPECT_EQ(at(4).status, RunStatus::failed);
+      EXPECT_EQ(at(4).message, "hanging took longer than its time limit of 0.5 s");
+      EXPECT_EQ(at(5).status, RunStatus::finished);
+      EXPECT_EQ(result.omissions.size(), 10u);
+      EXPECT_FALSE(result.passed);
+      for(const RunRecord &record : result.runs)
+        EXPECT_FALSE(record.provenance.at("case_hash").empty());
+    }
+
+    TEST_F(RunnerTest, KeepsWhatWasMadeAndRepeatsOnlyWhatTheMachineMayHaveSpoilt)
+    {
+      Matrix matrix = matrix_of({"good", "diverging", "refusing", "crashing"}, {20});
+      run(matrix);
+      EXPECT_EQ(starts(), 4u);
+      run(matrix);
+      EXPECT_EQ(starts(), 5u) << "the crash alone";
+      matrix.blocks[0].resolutions = {20, 40};
+      matrix.blocks[0].methods = {"good"};
+      const MatrixResult result = run(matrix);
+      EXPECT_EQ(starts(), 6u);
+      EXPECT_EQ(result.runs.size(), 2u);
+    }
+
+    TEST_F(RunnerTest, RunsAgainWhenTheCaseOrTheProgramHasChanged)
+    {
+      const Matrix matrix = matrix_of({"good"}, {20, 40});
+      run(matrix);
+      case_text = " # changed";
+      run(matrix);
+      EXPECT_EQ(starts(), 4u);
+      options.program_version = "2";
+      run(matrix);
+      EXPECT_EQ(starts(), 6u);
+      options.program_hash = "another build";
+      run(matrix);
+      EXPECT_EQ(starts(), 8u);
+      run(matrix);
+      EXPECT_EQ(starts(), 8u);
+    }
+
+    TEST_F(RunnerTest, MakesADamagedRecordAnew)
+    {
+      const Matrix matrix = matrix_of({"good"}, {20});
+      run(matrix);
+      write_file(scratch.path("out/runs/x/good/n=20/run.json"), "{\"case\": ");
+      EXPECT_TRUE(run(matrix).passed);
+      EXPECT_EQ(starts(), 2u);
+    }
+
+    TEST_F(RunnerTest, MeasuresTheMemoryOfEachRunAndKeepsItsOutput)
+    {
+      const MatrixResult result = run(matrix_of({"large"}, {100, 300}));
+      const double difference
+          = result.runs[1].peak_memory_mb - result.runs[0].peak_memory_mb;
+      EXPECT_NEAR(difference, 200, 4);
+      EXPECT_EQ(tests::text_of(scratch.path("out/runs/x/large/n=300/run.log")),
+                "noise\n");
+    }
+
+    TEST_F(RunnerTest, RejectsABadCaseBeforeAnyRun)
+    {
+      EXPECT_THROW(run(matrix_of({"good"}, {20}, {"x", "wrong"})), cases::InputError);
+      EXPECT_THROW(run(matrix_of({"good"}, {20}, {"x", "folder/x.prm"})),
+                   cases::InputError);
+      EXPECT_EQ(starts(), 0u);
+    }
+
+    TEST_F(RunnerTest, KeepsOtherProcessesOutOfItsDirectory)
+    {
+      const pid_t other = fork();
+      if(other == 0)
+      {
+        const DirectoryLock lock(options.directory);
+        tests::append_line(scratch.path("held"), "yes");
+        pause_for(10000);
+        _exit(0);
+      }
+      while(tests::lines_of(scratch.path("held")).empty())
+        pause_for(1);
+      EXPECT_THROW(run(matrix_of({"good"}, {20})), cases::OutputError);
+      kill(other, SIGKILL);
+      waitpid(other, nullptr, 0);
+      EXPECT_TRUE(run(matrix_of({"good"}, {20})).passed);
+    }
+
+    TEST_F(RunnerTest, SaysWhichRunsAreMissingInAMatrixThatWasKilled)
+    {
+      run(matrix_of({"good"}, {20, 40}));
+      std::filesystem::remove(scratch.path("out/runs/x/good/n=40/run.json"));
+      const MatrixResult result = load_matrix_result(options.directory);
+      EXPECT_EQ(result.runs.size(), 2u);
+      EXPECT_FALSE(result.passed);
+      EXPECT_EQ(result.omissions.at(0),
+                "x, good, n = 40: failed: it has not been run yet");
+    }
+
+    /** Records in the output, by path. */
+    std::map<std::string, std::string> records_in(const std::string &directory)
+    {
+      std::map<std::string, std::string> records;
+      std::error_code none;
+      for(const auto &entry :
+          std::filesystem::recursive_directory_iterator(directory + "/runs", none))
+        if(entry.path().filename() == "run.json")
+          records[entry.path()] = tests::text_of(entry.path());
+      return records;
+    }
+
+    // Kill the runner at random moments until it comes through: every record that was
+    // there stays to the byte, and no run of which there was a record starts again.
+    TEST_F(RunnerTest, LosesAndRepeatsNothingWhenItIsKilled)
+    {
+      std::vector<int> resolutions;
+      for(int n = 1; n <= 20; ++n)
+        resolutions.push_back(n);
+      const Matrix matrix = matrix_of({"slow"}, resolutions, {"x", "y"});
+      std::mt19937 generator(4);
+      std::uniform_int_distribution<int> moment(5, 120);
+      std::map<std::string, std::string> before;
+      std::map<std::string, long> starts_before;
+      const auto starts_of = [this](const std::string &path)
+      {
+        const std::string case_name = path.find("/x/") != std::string::npos ? "x" : "y";
+        const std::size_t n_at = path.find("n=");
+        const std::string line = fmt::format(
+            "{} {} seed=1", case_name, path.substr(n_at, path.find('/', n_at) - n_at));
+        const auto lines = tests::lines_of(scratch.path("started"));
+        return std::ranges::count(lines, line);
+      };
+      int kills = 0;
+      for(bool through = false; !through && kills < 200;)
+      {
+        const pid_t runner = fork();
+        if(runner == 0)
+        {
+          run(matrix);
+          _exit(0);
+        }
+        pause_for(moment(generator));
+        kill(runner, SIGKILL);
+        int status = 0;
+        waitpid(runner, &status, 0);
+        through = WIFEXITED(status);
+        kills += !through;
+        pause_for(10); // its children die a moment after it
+        const auto now = records_in(options.directory);
+        for(const auto &[path, text] : before)
+        {
+          ASSERT_EQ(now.count(path), 1u) << path << " was lost";
+          ASSERT_EQ(now.at(path), text) << path << " was made again";
+          ASSERT_EQ(starts_of(path), starts_before[path]) << path << " was repeated";
+        }
+        for(const auto &[path, text] : now)
+          if(before.count(path) == 0)
+            starts_before[path] = starts_of(path);
+        before = now;
+      }
+      EXPECT_GT(kills, 2) << "the test must have killed something";
+      const MatrixResult result = load_matrix_result(options.directory);
+      EXPECT_EQ(result.runs.size(), 40u);
+      EXPECT_TRUE(result.passed);
+    }
+
+    TEST(ChildProcess, DiesWithItsParent)
+    {
+      const ScratchDirectory scratch;
+      const std::string pulse = scratch.path("pulse");
+      const pid_t parent = fork();
+      if(parent == 0)
+      {
+        const ChildProcess child(
+            [&]
+            {
+              for(;;)
+              {
+                tests::append_line(pulse, "alive");
+                pause_for(2);
+              }
+            },
+            scratch.path("log"));
+        pause_for(100000);
+        _exit(0);
+      }
+      while(tests::lines_of(pulse).size() < 3)
+        pause_for(1);
+      kill(parent, SIGKILL);
+      waitpid(parent, nullptr, 0);
+      pause_for(20);
+      const auto lines = tests::lines_of(pulse).size();
+      pause_for(50);
+      EXPECT_EQ(tests::lines_of(pulse).size(), lines);
+    }
+
+    TEST(ChildProcess, TellsHowItEnded)
+    {
+      const ScratchDirectory scratch;
+      const auto problem_of = [&](const std::function<void()> &function)
+      {
+        ChildProcess child(function, scratch.path("log"));
+        while(!child.ended())
+          pause_for(1);
+        return child.end().problem();
+      };
+      EXPECT_EQ(problem_of([] {}), "");
+      EXPECT_EQ(problem_of([] { throw std::runtime_error("why"); }),
+                "ended with status 1");
+      EXPECT_EQ(tests::text_of(scratch.path("log")), "why");
+      EXPECT_EQ(problem_of([] { std::abort(); }), "crashed (Aborted)");
+      EXPECT_EQ(problem_of([] { std::raise(SIGKILL); }),
+                "was killed, perhaps because memory ran out");
+    }
+  } // namespace
+} // namespace meltfront::verification
