@@ -46,10 +46,14 @@ namespace meltfront::verification
       }
       if(finest == nullptr)
         return fmt::format("  {:22} no result: {}\n", label, message);
-      return fmt::format("  {:22} n = {:<6} front rms {:9.2e}   {:28} {:8.2f} s CPU\n",
-                         label, finest->n, table_value(*finest, "front_rms"),
-                         fit_order(h, errors).text(),
-                         table_value(*finest, "cpu_seconds"));
+      const double error = table_value(*finest, "front_rms");
+      const std::string measured
+          = std::isnan(error)
+                ? "no exact solution"
+                : fmt::format("front rms {:9.2e}   {}", error,
+                              h.size() > 1 ? fit_order(h, errors).text() : "");
+      return fmt::format("  {:28} n = {:<5} {:50} {:8.2f} s CPU\n", label, finest->n,
+                         measured, table_value(*finest, "cpu_seconds"));
     }
 
     std::string bound_text(const CriterionResult &criterion)
@@ -102,16 +106,20 @@ namespace meltfront::verification
     if(result.hard_cases)
       text += stability_text(result);
     long passed = 0;
-    text += "Criteria:\n";
+    if(!result.criteria.empty())
+      text += "Criteria:\n";
     for(const CriterionResult &criterion : result.criteria)
     {
       passed += criterion.passed;
       text += criterion_line(criterion);
     }
-    for(const std::string &omission : result.omissions)
+    // The verdicts on hard cases name every refusal and failure already.
+    for(const std::string &omission :
+        result.hard_cases ? std::vector<std::string>() : result.omissions)
       text += fmt::format("Left out: {}\n", omission);
-    text += fmt::format("{} of {} criteria hold: {}\n", passed, result.criteria.size(),
-                        result.passed ? "PASSED" : "FAILED");
+    if(!result.criteria.empty())
+      text += fmt::format("{} of {} criteria hold\n", passed, result.criteria.size());
+    text += fmt::format("{}: {}\n", result.name, result.passed ? "PASSED" : "FAILED");
     return text;
   }
 
