@@ -10,7 +10,7 @@ namespace meltfront::particles
   FrontExchange::FrontExchange(const cases::Material &material, FrontRule rule,
                                const ParticleOperator &rows)
     : rule(rule)
-    , inverse_latent_heat(material.latent_heat > 0 ? 1 / material.latent_heat : 0)
+    , latent_heat(material.latent_heat)
   {
     const double solid = material.solid.conductivity;
     const double liquid = material.liquid.conductivity;

@@ -27,51 +27,72 @@ namespace meltfront::particles
    * A melting particle of solid fraction f is at T_m, but its front is not at its centre:
    * seen from the solid it is (f - 1/2) spacings beyond it. So the difference u_b to a
    * solid partner is divided by 1/2 + f, to a liquid one by 3/2 - f. Between solid and
-   * liquid the front is half way, at T_m: it takes 2 |u_s| to one side and gets 2 u_l
+   * liquid the front is half way, at T_m: it gives 2 |u_s| to one side and takes 2 u_l
    * from the other, and the particle that is about to change phase bears the difference,
    * so that the pair exchanges twice the larger of the two. Each factor is at most 2.
+   *
+   * Where the partners' sensible heat exceeds the latent heat, the front is a mere
+   * isotherm: the deviations from u_b - u_a fade with latent over sensible heat.
    */
   struct SubParticlePair
   {
     FrontState state;
-    double inverse_latent_heat;
+    double latent_heat;
 
     double operator()(std::size_t a, std::size_t b) const
     {
       const double own = state.u[a], other = state.u[b];
       if(own == 0)
-        return to_melting(a, other);
+        return to_melting(a, other, sensible_heat(b));
       if(other == 0)
-        return -to_melting(b, own);
-      return between(own, other);
+        return -to_melting(b, own, sensible_heat(a));
+      return between(own, other, sensible_heat(a) + sensible_heat(b));
     }
 
-    /** From a wall with the Kirchhoff variable `wall`, half a spacing from the particle's
-     * centre: the frozen (molten) part of the particle is all that lies between. */
+    /**
+     * From a wall with the Kirchhoff variable `wall`, half a spacing from the particle's
+     * centre: the frozen (molten) part of the particle is all that lies between. The
+     * wall's own sensible heat does not count, for it has no mass.
+     */
     double from_wall(std::size_t a, double wall) const
     {
       const double own = state.u[a];
       if(own == 0)
       {
-        const double molten = state.enthalpy[a] * inverse_latent_heat;
+        const double molten = state.enthalpy[a] / latent_heat;
         return wall / std::max(0.5, 2 * (wall < 0 ? 1 - molten : molten));
       }
-      return wall == 0 ? -own : between(own, wall);
+      return wall == 0 ? -own : between(own, wall, sensible_heat(a));
     }
 
   private:
-    double to_melting(std::size_t a, double partner) const
+    /** |c (T - T_m)| */
+    double sensible_heat(std::size_t a) const
     {
-      const double molten = state.enthalpy[a] * inverse_latent_heat;
-      return partner / (partner < 0 ? 1.5 - molten : 0.5 + molten);
+      const double h = state.enthalpy[a];
+      return h < 0 ? -h : std::max(h - latent_heat, 0.);
     }
 
-    static double between(double own, double other)
+    double latent_share(double sensible_heat) const
     {
+      return latent_heat / std::max(latent_heat, sensible_heat);
+    }
+
+    double to_melting(std::size_t a, double partner, double sensible_heat) const
+    {
+      const double molten = state.enthalpy[a] / latent_heat;
+      const double difference = partner / (partner < 0 ? 1.5 - molten : 0.5 + molten);
+      return partner + latent_share(sensible_heat) * (difference - partner);
+    }
+
+    double between(double own, double other, double sensible_heat) const
+    {
+      const double difference = other - own;
       if((own < 0) == (other < 0))
-        return other - own;
-      const double larger = 2 * std::max(std::abs(own), std::abs(other));
-      return own < 0 ? larger : -larger;
+        return difference;
+      const double excess
+          = latent_share(sensible_heat) * std::abs(std::abs(own) - std::abs(other));
+      return difference + (own < 0 ? excess : -excess);
     }
   };
 
@@ -132,7 +153,7 @@ namespace meltfront::particles
     auto with_pair(FrontState state, const Use &use) const
     {
       if(rule == FrontRule::sub_particle)
-        return use(SubParticlePair{state, inverse_latent_heat});
+        return use(SubParticlePair{state, latent_heat});
       return use(
           HarmonicPair{state, solid_scale, liquid_scale, rule == FrontRule::liquid});
     }
@@ -151,7 +172,7 @@ namespace meltfront::particles
     bool update_phases(const double *u);
 
     FrontRule rule;
-    double inverse_latent_heat;
+    double latent_heat;
     double solid_scale;
     double liquid_scale;
     std::vector<std::size_t> offsets;

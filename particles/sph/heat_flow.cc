@@ -9,12 +9,18 @@ namespace meltfront::particles
 {
   using cases::Effect;
 
+  namespace
+  {
+    /** Particles below which handing out a pass to threads costs more than it gains. */
+    constexpr std::size_t worth_sharing = 8192;
+  } // namespace
+
   HeatFlow::HeatFlow(const Discretisation &dis, const cases::EffectSet &effects,
                      const SphParameters &parameters)
     : effects(effects)
     , material(dis.scene.material)
-    , threads(parameters.threads)
     , n(dis.particles.size())
+    , thread_count(n < worth_sharing ? 1 : parameters.threads)
     , conduction(dis, parameters.moment_correction)
     , variable(material, effects)
     , front_rule(parameters.front)
@@ -59,7 +65,7 @@ namespace meltfront::particles
   {
     if(!variable.mapped())
       return;
-    extremes = variable.map(enthalpy.first(n), std::span(mapped).first(n), threads);
+    extremes = variable.map(enthalpy.first(n), std::span(mapped).first(n), thread_count);
     // Padding has the phase of its slice, so as not to look like a front.
     std::fill(mapped.begin() + static_cast<std::ptrdiff_t>(n), mapped.end(),
               mapped[n - 1]);
@@ -68,7 +74,7 @@ namespace meltfront::particles
   Extremes HeatFlow::temperatures(std::span<const double> enthalpy) const
   {
     const Extremes w
-        = variable.mapped() ? extremes : find_extremes(enthalpy.first(n), threads);
+        = variable.mapped() ? extremes : find_extremes(enthalpy.first(n), thread_count);
     return {variable.temperature(w.lowest), variable.temperature(w.highest), w.finite};
   }
 
@@ -94,7 +100,7 @@ namespace meltfront::particles
     const std::span<const double> w
         = variable.mapped() ? std::span<const double>(mapped) : enthalpy;
     const FrontState state{w.data(), enthalpy.data()};
-    conduction.rows.apply(w, flow, threads);
+    conduction.rows.apply(w, flow, thread_count);
     ++evaluations;
     if(front_exchange)
       front_exchange->apply(conduction.rows, state, flow);

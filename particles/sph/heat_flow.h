@@ -59,6 +59,12 @@ namespace meltfront::particles
     /** The largest explicit step that keeps the maximum principle (s). */
     double monotone_step(double particle_mass) const;
 
+    /** Threads that share a pass: one where there are too few particles for more. */
+    int threads() const
+    {
+      return thread_count;
+    }
+
     /** Length of arrays of enthalpy and flow. */
     std::size_t padded_size() const
     {
@@ -83,8 +89,8 @@ namespace meltfront::particles
 
     const cases::EffectSet &effects;
     const cases::Material &material;
-    int threads;
     std::size_t n; ///< particles
+    int thread_count;
     ConductionRows conduction;
     ConductionVariable variable;
     FrontRule front_rule;

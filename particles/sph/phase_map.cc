@@ -84,12 +84,10 @@ namespace meltfront::particles
   ConductionVariable::costs(const cases::EffectSet &effects, std::size_t bytes) const
   {
     std::vector<Effect> sharing;
-    for(const Effect effect : {Effect::phase_change, Effect::phase_heat_capacity})
+    for(const Effect effect : phase_effects)
       if(effects.contains(effect))
         sharing.push_back(effect);
-    if(sharing.empty())
-      return {};
-    // One pass serves both effects: neither can be timed alone.
+    // One pass serves these effects: none can be timed alone.
     std::vector<cases::EffectCost> result;
     for(const Effect effect : sharing)
     {

@@ -149,10 +149,10 @@ namespace meltfront::particles
       void add_flow(std::vector<double> &array, double factor,
                     const std::vector<double> &added) const
       {
+        const int threads = heat_flow.threads();
         double *h = array.data();
         const double *f = added.data();
-#pragma omp parallel for simd schedule(static)                                           \
-    num_threads(parameters.threads) if(parameters.threads > 1)
+#pragma omp parallel for simd schedule(static) num_threads(threads) if(threads > 1)
         for(std::size_t a = 0; a < n; ++a)
           h[a] += factor * f[a];
       }
@@ -160,11 +160,11 @@ namespace meltfront::particles
       /** Y_j, into the array of Y_(j-2). */
       void combine(const SuperStage &stage, double factor)
       {
+        const int threads = heat_flow.threads();
         const double *previous = enthalpy.data(), *first = start.data();
         const double *f = flow.data(), *first_flow = start_flow.data();
         double *next = before.data();
-#pragma omp parallel for simd schedule(static)                                           \
-    num_threads(parameters.threads) if(parameters.threads > 1)
+#pragma omp parallel for simd schedule(static) num_threads(threads) if(threads > 1)
         for(std::size_t a = 0; a < n; ++a)
           next[a] = stage.previous * previous[a] + stage.before * next[a]
                     + stage.start * first[a]

@@ -1,3 +1,7 @@
+#include <cases/exact/line_sink.h>
+#include <cases/exact/planar_neumann.h>
+#include <cases/exact/point_sink.h>
+#include <particles/sph/sph.h>
 #include <particles/sph/tests/scenes.h>
 
 #include <algorithm>
@@ -122,6 +126,43 @@ namespace meltfront::particles::testing
                       [strength](double) { return -strength; },
                       [strength](double time) { return -strength * time; }}};
     return {scene, exact};
+  }
+
+  namespace
+  {
+    Scene ball(int dimension, const std::shared_ptr<const ExactSolution> &exact,
+               const PointSource &sink)
+    {
+      Scene scene;
+      scene.symmetry = exact->symmetry();
+      scene.domain.shape = DomainShape::ball;
+      scene.domain.dimension = dimension;
+      scene.domain.radius = 0.5;
+      scene.material = water();
+      scene.initial.temperature = Field::uniform(10);
+      scene.boundaries[static_cast<std::size_t>(Side::outer)] = exact_wall(exact);
+      scene.sources = {sink};
+      scene.end_time = 475000;
+      return scene;
+    }
+  } // namespace
+
+  Problem line_sink_in_disk()
+  {
+    const auto exact = std::make_shared<LineSink>(water(), 0.15, 10);
+    const Problem in_square = line_sink();
+    return {ball(2, exact, in_square.scene.sources[0]), exact};
+  }
+
+  Problem point_sink_in_ball()
+  {
+    const auto exact = std::make_shared<PointSink>(water(), 0.15, 10);
+    return {ball(3, exact,
+                 {{},
+                  "-Q(t)",
+                  [exact](double time) { return -exact->strength(time); },
+                  [exact](double time) { return -exact->energy(time); }}),
+            exact};
   }
 
   namespace
@@ -251,5 +292,36 @@ namespace meltfront::particles::testing
     outcome.cost = method.solve(scene, effects, resolution, watcher);
     watcher.finish();
     return outcome;
+  }
+
+  Convergence converge(const Method &method, const Problem &problem,
+                       const std::vector<int> &n, const OptionTexts &options)
+  {
+    Convergence result;
+    std::vector<double> spacing;
+    for(const int level : n)
+    {
+      const Outcome outcome = run(method, problem, level, options);
+      spacing.push_back(outcome.description.spacing);
+      result.errors.push_back(outcome.front_rms);
+    }
+    result.order = fitted_order(spacing, result.errors);
+    return result;
+  }
+
+  double fitted_order(const std::vector<double> &spacing,
+                      const std::vector<double> &errors)
+  {
+    double sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for(std::size_t i = 0; i < spacing.size(); ++i)
+    {
+      const double x = std::log(spacing[i]), y = std::log(errors[i]);
+      sx += x;
+      sy += y;
+      sxx += x * x;
+      sxy += x * y;
+    }
+    const double count = spacing.size();
+    return (count * sxy - sx * sy) / (count * sxx - sx * sx);
   }
 } // namespace meltfront::particles::testing

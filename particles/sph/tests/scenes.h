@@ -1,8 +1,6 @@
 #ifndef meltfront_particles_sph_tests_scenes_h
 #define meltfront_particles_sph_tests_scenes_h
 
-#include <cases/exact/line_sink.h>
-#include <cases/exact/planar_neumann.h>
 #include <cases/method.h>
 #include <cases/scene.h>
 #include <particles/sph/sph.h>
@@ -55,6 +53,12 @@ namespace meltfront::particles::testing
   /** A line sink in the insulated unit square, front constant 0.15. */
   Problem line_sink(double end_time = 475000);
 
+  /** The same in a disk of radius 0.5 with the exact temperature on its rim. */
+  Problem line_sink_in_disk();
+
+  /** A point sink with Q ~ sqrt(t) in a ball of radius 0.5, exact temperature outside. */
+  Problem point_sink_in_ball();
+
   using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
   /** What a run showed. */
@@ -77,6 +81,20 @@ namespace meltfront::particles::testing
   /** Run a method, looking at every step. */
   Outcome run(const cases::Method &method, const Problem &problem, int n,
               const OptionTexts &options = {}, std::uint64_t seed = 1, int threads = 1);
+
+  /** Front errors over several n, and the exponent of the spacing fitted to them. */
+  struct Convergence
+  {
+    std::vector<double> errors;
+    double order;
+  };
+
+  Convergence converge(const cases::Method &method, const Problem &problem,
+                       const std::vector<int> &n, const OptionTexts &options = {});
+
+  /** Exponent of `spacing` in `errors` by least squares in the logarithms. */
+  double fitted_order(const std::vector<double> &spacing,
+                      const std::vector<double> &errors);
 } // namespace meltfront::particles::testing
 
 #endif

@@ -1,0 +1,358 @@
+#include <cases/error.h>
+#include <particles/sph/conduction_rows.h>
+#include <particles/sph/sph.h>
+#include <particles/sph/tests/scenes.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace meltfront::particles::testing
+{
+  namespace
+  {
+    const auto method = make_sph();
+
+    /** Rows on a periodic unit square, k = rho = c = 1. */
+    struct PeriodicRows
+    {
+      cases::Scene scene;
+      SphParameters parameters;
+      Discretisation dis;
+      ConductionRows rows;
+
+      PeriodicRows(KernelShape kernel, double smoothing, double jitter,
+                   bool moment_correction = false)
+        : scene(unit_box(2, unit_material(), 0, 1))
+        , parameters(make_parameters(kernel, smoothing, jitter))
+        , dis(make_periodic(scene), parameters)
+        , rows(dis, moment_correction)
+      {
+      }
+
+      static const cases::Scene &make_periodic(cases::Scene &scene)
+      {
+        for(int side = 0; side < 4; ++side)
+          scene.boundaries[side] = periodic();
+        return scene;
+      }
+
+      static SphParameters make_parameters(KernelShape kernel, double smoothing,
+                                           double jitter)
+      {
+        SphParameters p{};
+        p.dimension = 2;
+        p.kernel = kernel;
+        p.smoothing = smoothing;
+        p.layout = LatticeLayout::cell_centred;
+        p.jitter = jitter;
+        p.seed = 3;
+        p.n = 24;
+        return p;
+      }
+
+      /** In units of rho c h^2/k. */
+      double in_units(double step) const
+      {
+        const double h = dis.kernel.smoothing_length();
+        return step / (h * h);
+      }
+
+      double row_sum_limit() const
+      {
+        return in_units(dis.particle_volume / rows.largest_row_sum);
+      }
+
+      /** 2/lambda_max by power iteration on the operator. */
+      double euler_limit() const
+      {
+        std::vector<double> x(rows.rows.padded_rows(), 0), y(x.size());
+        std::mt19937_64 generator(1);
+        for(std::size_t i = 0; i < dis.particles.size(); ++i)
+          x[i] = std::normal_distribution<double>()(generator);
+        double eigenvalue = 0;
+        for(int iteration = 0; iteration < 3000; ++iteration)
+        {
+          rows.rows.apply(x, y, 1);
+          double xx = 0, xy = 0;
+          for(std::size_t i = 0; i < x.size(); ++i)
+          {
+            xx += x[i] * x[i];
+            xy -= x[i] * y[i];
+          }
+          eigenvalue = xy / xx;
+          const double scale = 1 / std::sqrt(xx);
+          for(std::size_t i = 0; i < x.size(); ++i)
+            x[i] = -scale * y[i];
+        }
+        return in_units(2 * dis.particle_volume / eigenvalue);
+      }
+    };
+
+    // Limits found by an independent eigenvalue solver, in units of rho c h^2/k.
+    TEST(Stability, LimitsOfTheSquareLattice)
+    {
+      const auto cubic = KernelShape::cubic_spline;
+      for(const auto &[smoothing, limit] :
+          {std::pair{1.0, 0.3667}, {1.2, 0.3473}, {1.3, 0.3473}, {1.5, 0.3512}})
+        EXPECT_NEAR(PeriodicRows(cubic, smoothing, 0).euler_limit(), limit, 0.02 * limit);
+      EXPECT_NEAR(PeriodicRows(KernelShape::wendland_c2, 1.3, 0).euler_limit(), 0.318,
+                  0.02 * 0.318);
+      EXPECT_NEAR(PeriodicRows(KernelShape::quintic_spline, 1.3, 0).euler_limit(), 0.517,
+                  0.02 * 0.517);
+      EXPECT_NEAR(PeriodicRows(cubic, 1.3, 0).row_sum_limit(), 0.2305, 0.001);
+    }
+
+    TEST(Stability, LimitsOfDisorderedParticles)
+    {
+      const auto cubic = KernelShape::cubic_spline;
+      for(const auto &[jitter, limit] :
+          {std::pair{0.1, 0.333}, {0.2, 0.312}, {0.3, 0.291}})
+        EXPECT_NEAR(PeriodicRows(cubic, 1.3, jitter).euler_limit(), limit, 0.05 * limit);
+      EXPECT_NEAR(PeriodicRows(cubic, 1.3, 0.3).row_sum_limit(), 0.173, 0.1 * 0.173);
+      EXPECT_GE(PeriodicRows(cubic, 1.0, 0.4).row_sum_limit(), 0.13);
+    }
+
+    TEST(Stability, RowsAreSymmetricAndDisorderKeepsTheMoment)
+    {
+      // A linear profile is exact in the mean: sum over a lattice's rows of g x_ab^2.
+      const PeriodicRows lattice(KernelShape::cubic_spline, 1.3, 0, true);
+      EXPECT_NEAR(lattice.rows.second_moment, 1.010543, 1e-6);
+      const PeriodicRows disordered(KernelShape::cubic_spline, 1.3, 0.3, true);
+      const std::size_t n = disordered.dis.particles.size();
+      std::vector<double> x(disordered.rows.rows.padded_rows(), 0), flow(x.size());
+      std::mt19937_64 generator(9);
+      for(std::size_t i = 0; i < n; ++i)
+        x[i] = std::normal_distribution<double>()(generator);
+      disordered.rows.rows.apply(x, flow, 1);
+      double sum = 0, magnitude = 0;
+      for(std::size_t i = 0; i < n; ++i)
+      {
+        sum += flow[i];
+        magnitude += std::abs(flow[i]);
+      }
+      EXPECT_LE(std::abs(sum), 1e-14 * magnitude);
+    }
+
+    // Explicit steps up to the row-sum bound never lower the entropy nor pass the
+    // extremes.
+    TEST(Stability, RowSumBoundKeepsEntropyGrowing)
+    {
+      for(const double jitter : {0., 0.3})
+        for(int trial = 0; trial < 10; ++trial)
+        {
+          const PeriodicRows p(KernelShape::cubic_spline, 1.3, jitter);
+          const std::size_t n = p.dis.particles.size();
+          std::vector<double> t(p.rows.rows.padded_rows(), 1), flow(t.size());
+          std::mt19937_64 generator(100 + trial);
+          std::uniform_real_distribution<double> uniform(1, 100);
+          for(std::size_t i = 0; i < n; ++i)
+            t[i] = uniform(generator);
+          for(int step = 0; step < 20; ++step)
+          {
+            const auto [low, high] = std::minmax_element(t.begin(), t.begin() + n);
+            const double lowest = *low, highest = *high;
+            double before = 0, after = 0;
+            p.rows.rows.apply(t, flow, 1);
+            for(std::size_t i = 0; i < n; ++i)
+            {
+              before += std::log(t[i]);
+              t[i] += flow[i] / p.rows.largest_row_sum;
+              after += std::log(t[i]);
+              ASSERT_GE(t[i], lowest * (1 - 1e-14));
+              ASSERT_LE(t[i], highest * (1 + 1e-14));
+            }
+            ASSERT_GT(after, before);
+          }
+        }
+    }
+
+    TEST(Stability, StepsBeyondTheLimitAreRefused)
+    {
+      for(const auto &m : {make_sph(), make_sph_2005()})
+        for(const char *scheme : {"euler", "rkl2"})
+        {
+          const OptionTexts below{{"step_factor", "0.9"}, {"time_scheme", scheme}};
+          const OptionTexts above{{"step_factor", "1.1"}, {"time_scheme", scheme}};
+          for(const Problem &problem : {plane_freezing(), line_sink(47500)})
+          {
+            EXPECT_NO_THROW(run(*m, problem, 40, below));
+            try
+            {
+              run(*m, problem, 40, above);
+              ADD_FAILURE() << m->name() << " ran with step_factor 1.1";
+            }
+            catch(const cases::Refusal &refusal)
+            {
+              EXPECT_NE(std::string(refusal.what()).find("1.1 times the largest"),
+                        std::string::npos)
+                  << refusal.what();
+            }
+          }
+        }
+    }
+
+    /** Runs to the end, within the bounds (the method checks), with a closed budget. */
+    Outcome expect_held(const Problem &problem, int n, const OptionTexts &options = {},
+                        std::uint64_t seed = 1)
+    {
+      Outcome outcome;
+      EXPECT_NO_THROW(outcome = run(*method, problem, n, options, seed));
+      EXPECT_LE(outcome.largest_defect, 1e-12);
+      return outcome;
+    }
+
+    void expect_monotone(const Outcome &outcome)
+    {
+      EXPECT_LE(outcome.steepest_retreat, 1e-9);
+    }
+
+    Problem with_material(double solid_conductivity, double liquid_conductivity,
+                          double latent_heat)
+    {
+      cases::Material material = unit_material(1);
+      material.solid.conductivity = solid_conductivity;
+      material.liquid.conductivity = liquid_conductivity;
+      material.latent_heat = latent_heat;
+      return freezing_slab(material, 0.2, 1.2, 1, 0.05 / solid_conductivity);
+    }
+
+    const std::vector<OptionTexts> variants{{},
+                                            {{"time_scheme", "euler"}},
+                                            {{"front", "partner"}},
+                                            {{"dimension", "2"}, {"smoothing", "1.3"}},
+                                            {{"layout", "edge"}},
+                                            {{"dimension", "2"}, {"jitter", "0.3"}}};
+
+    TEST(Stability, SmallAndLargeStefanNumbers)
+    {
+      for(const OptionTexts &options : variants)
+        for(const double latent_heat : {80., 0.008, 1e-6})
+        {
+          const Problem problem = with_material(1, 1, latent_heat);
+          const Outcome outcome = expect_held(problem, 40, options);
+          expect_monotone(outcome);
+          EXPECT_NEAR(outcome.front_end, problem.exact->front(0.05), 0.03);
+        }
+    }
+
+    TEST(Stability, ConductivityRatios)
+    {
+      for(const OptionTexts &options : variants)
+        for(const double ratio : {1e-3, 1e3, 1e9})
+        {
+          const Outcome outcome = expect_held(
+              with_material(std::min(ratio, 1.), std::min(1 / ratio, 1.), 1), 20,
+              options);
+          // With the partner's conductivity hot liquid melts fresh ice at times.
+          if(options != variants[2])
+            expect_monotone(outcome);
+          // The same with liquid at the wall.
+          cases::Material material = unit_material(1);
+          material.liquid.conductivity = std::min(ratio, 1.);
+          material.solid.conductivity = std::min(1 / ratio, 1.);
+          const Problem melting
+              = freezing_slab(material, 2, 0.8, 1, 0.05 / material.liquid.conductivity);
+          expect_held(melting, 20, options);
+        }
+    }
+
+    TEST(Stability, DiscontinuousStart)
+    {
+      for(const OptionTexts &options : variants)
+      {
+        Problem problem;
+        problem.scene = slab(unit_material(), 1, 0, 0.04, fixed(-50), insulated());
+        problem.scene.initial.temperature
+            = {"if(x < 0.3, -5, 2)",
+               [](const cases::Position &p, double) { return p[0] < 0.3 ? -5. : 2.; },
+               false};
+        expect_monotone(expect_held(problem, 40, options));
+      }
+    }
+
+    TEST(Stability, LiquidLayerOneParticleThick)
+    {
+      for(const OptionTexts &options : variants)
+      {
+        Problem problem;
+        problem.scene = slab(unit_material(), 1, 0, 0.02, fixed(-0.1), fixed(-0.1));
+        problem.scene.initial.temperature
+            = {"if(x > 0.49 && x < 0.515, 0.01, -0.1)",
+               [](const cases::Position &p, double)
+               { return p[0] > 0.49 && p[0] < 0.515 ? 0.01 : -0.1; },
+               false};
+        const Outcome outcome = expect_held(problem, 40, options);
+        expect_monotone(outcome);
+        EXPECT_EQ(outcome.heat.latent, 0);
+      }
+    }
+
+    TEST(Stability, FrontThatTurnsBack)
+    {
+      for(const OptionTexts &options : variants)
+      {
+        Problem problem;
+        cases::Boundary wall = fixed(-1);
+        wall.value = {"-1 + 0.49*(1 + tanh((t - 0.03)/0.0015))",
+                      [](const cases::Position &, double t)
+                      { return -1 + 0.49 * (1 + std::tanh((t - 0.03) / 0.0015)); },
+                      false};
+        problem.scene = slab(unit_material(), 1, 1, 0.09, wall, fixed(1));
+        const Outcome outcome = expect_held(problem, 80, options);
+        // The exact front: 0.1305 at 0.03, 0.0404 at the end.
+        const double farthest
+            = *std::max_element(outcome.fronts.begin(), outcome.fronts.end());
+        EXPECT_NEAR(farthest, 0.131, 0.012);
+        EXPECT_NEAR(outcome.front_end, 0.0404, 0.012);
+      }
+    }
+
+    TEST(Stability, DisorderedParticlesOfManySeeds)
+    {
+      for(int seed = 1; seed <= 5; ++seed)
+        for(const char *jitter : {"0.1", "0.2", "0.3"})
+          for(const char *dimension : {"1", "2"})
+            expect_monotone(expect_held(plane_freezing(), 40,
+                                        {{"jitter", jitter}, {"dimension", dimension}},
+                                        seed));
+    }
+
+    TEST(Stability, IceThatMeetsTheWalls)
+    {
+      Problem problem = line_sink(2.5e6);
+      problem.scene.symmetry = cases::Symmetry::none;
+      problem.exact = nullptr;
+      expect_monotone(expect_held(problem, 20));
+    }
+
+    // A jump in conductivity at a front at rest: the steady flux is exact for h = dp.
+    TEST(Stability, SteadyFluxAcrossAJump)
+    {
+      for(const double ratio : {10., 1e3, 1e9})
+      {
+        cases::Material material = unit_material();
+        material.liquid.conductivity = 1 / ratio;
+        material.latent_heat = 1e-6;
+        Problem problem;
+        // Start from the steady state: front in the middle between two particles.
+        problem.scene = slab(material, 1, 0, 10, fixed(-1), fixed(ratio));
+        problem.scene.initial.temperature
+            = {"steady",
+               [ratio](const cases::Position &p, double)
+               { return 2 * (p[0] - 0.5) * (p[0] < 0.5 ? 1 : ratio); },
+               false};
+        const Outcome outcome = expect_held(problem, 20);
+        EXPECT_NEAR(outcome.front_end, 0.5, 1e-9) << ratio;
+        for(std::size_t i = 0; i < outcome.temperature.size(); ++i)
+        {
+          const double x = outcome.position_x[i] - 0.5;
+          ASSERT_NEAR(outcome.temperature[i], 2 * x * (x < 0 ? 1 : ratio),
+                      1e-9 * (x < 0 ? 1 : ratio));
+        }
+      }
+    }
+  } // namespace
+} // namespace meltfront::particles::testing
