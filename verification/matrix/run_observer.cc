@@ -14,25 +14,10 @@ namespace meltfront::verification
   {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr int fewest_samples = 50;
+    constexpr int samples_of_every_step = 200;
 
     /** Relative to the duration: a time this near another is the same. */
     constexpr double time_tolerance = 1e-9;
-
-    /** Farthest that a front fell back behind where it had been on its way from the first
-     * to the last position. */
-    double largest_backstep(const std::vector<double> &front)
-    {
-      if(front.empty())
-        return nan;
-      const double direction = front.back() < front.front() ? -1 : 1;
-      double farthest = direction * front.front(), backstep = 0;
-      for(const double position : front)
-      {
-        farthest = std::max(farthest, direction * position);
-        backstep = std::max(backstep, farthest - direction * position);
-      }
-      return backstep;
-    }
 
     double partly_frozen_fraction(const cases::Snapshot &snapshot)
     {
@@ -70,6 +55,25 @@ namespace meltfront::verification
     return count > 0 ? maximum : nan;
   }
 
+  void FrontCourse::add(double position)
+  {
+    if(!any)
+      first = highest = lowest = position;
+    any = true;
+    last = position;
+    highest = std::max(highest, position);
+    lowest = std::min(lowest, position);
+    largest_fall = std::max(largest_fall, highest - position);
+    largest_rise = std::max(largest_rise, position - lowest);
+  }
+
+  double FrontCourse::largest_backstep() const
+  {
+    if(!any)
+      return nan;
+    return last < first ? largest_rise : largest_fall;
+  }
+
   RunObserver::RunObserver(const cases::Case &c, const cases::Scene &simulated,
                            const std::string &method, cases::Observer *second)
     : the_case(c)
@@ -78,14 +82,16 @@ namespace meltfront::verification
     , method(method)
     , second(second)
     , bounds(cases::temperature_bounds(simulated))
+    , samples(c.measurement.samples == 0 ? samples_of_every_step : c.measurement.samples)
+    , last_time(nan)
+    , worst_defect(nan)
   {
     if(!(scene.end_time > scene.start_time))
       throw cases::InputError(fmt::format(
           "{}: the end time {} is not after the start time {}, so that there is "
           "nothing to measure",
           scene.name, scene.end_time, scene.start_time));
-    const int samples = c.measurement.samples;
-    if(samples != 0 && samples < fewest_samples)
+    if(samples < fewest_samples)
       throw cases::InputError(fmt::format("{}: {} samples are too few for a root mean "
                                           "square over time; take {} or more, or "
                                           "0 for every step",
@@ -108,11 +114,14 @@ namespace meltfront::verification
            / (reading(scene.end_time) - reading(scene.start_time));
   }
 
+  bool RunObserver::sample_is_due(long step, double time) const
+  {
+    return step == 0 || samples * (clock(time) + time_tolerance) >= next_sample;
+  }
+
   bool RunObserver::wants_itself(long step, double time) const
   {
-    const int samples = the_case.measurement.samples;
-    return step == 0 || samples == 0
-           || clock(time) * samples >= samples_taken - samples * time_tolerance;
+    return the_case.measurement.samples == 0 || sample_is_due(step, time);
   }
 
   bool RunObserver::wants(long step, double time)
@@ -127,7 +136,7 @@ namespace meltfront::verification
       return;
     const bool at_the_end = clock(snapshot.time) >= 1 - time_tolerance;
     if(wants_itself(snapshot.step, snapshot.time) || at_the_end)
-      measure(snapshot);
+      measure(snapshot, at_the_end || sample_is_due(snapshot.step, snapshot.time));
     if(at_the_end)
       measure_end(snapshot);
     if(second
@@ -135,6 +144,7 @@ namespace meltfront::verification
            || at_the_end))
       second->observe(snapshot);
     last_step = snapshot.step;
+    last_time = snapshot.time;
   }
 
   void RunObserver::judge(const cases::Snapshot &snapshot, double lowest,
@@ -154,15 +164,24 @@ namespace meltfront::verification
                              snapshot.time);
   }
 
-  void RunObserver::measure(const cases::Snapshot &snapshot)
+  void RunObserver::measure(const cases::Snapshot &snapshot, bool keep)
   {
     const auto [lowest, highest] = std::ranges::minmax(snapshot.temperature);
     judge(snapshot, lowest, highest);
-    const int samples = the_case.measurement.samples;
-    samples_taken
-        = static_cast<int>(std::floor(samples * (clock(snapshot.time) + time_tolerance)))
-          + 1;
     const FrontReading reading = reader->read(snapshot);
+    course.add(reading.latent_heat);
+    worst_defect = std::fmax(worst_defect, snapshot.heat.defect());
+    if(exact)
+      compare_fronts(snapshot, reading);
+    if(keep)
+      add_to_series(snapshot, reading, lowest, highest);
+  }
+
+  void RunObserver::add_to_series(const cases::Snapshot &snapshot,
+                                  const FrontReading &reading, double lowest,
+                                  double highest)
+  {
+    next_sample = static_cast<int>(samples * (clock(snapshot.time) + time_tolerance)) + 1;
     run_series.time.push_back(snapshot.time);
     run_series.front.push_back(reading.latent_heat);
     run_series.front_isotherm.push_back(reading.isotherm);
@@ -170,16 +189,19 @@ namespace meltfront::verification
     run_series.temperature_min.push_back(lowest);
     run_series.temperature_max.push_back(highest);
     if(exact)
-      compare_fronts(snapshot, reading);
+      run_series.front_exact.push_back(exact_front(snapshot.time));
+  }
+
+  double RunObserver::exact_front(double time) const
+  {
+    return time >= exact->start_time() ? exact->front(time) : nan;
   }
 
   void RunObserver::compare_fronts(const cases::Snapshot &snapshot,
                                    const FrontReading &reading)
   {
-    const bool known = snapshot.time >= exact->start_time();
-    const double expected = known ? exact->front(snapshot.time) : nan;
-    run_series.front_exact.push_back(expected);
-    if(!known || (snapshot.step == 0 && expected == 0))
+    const double expected = exact_front(snapshot.time);
+    if(std::isnan(expected) || (snapshot.step == 0 && expected == 0))
       return;
     front.add(reading.latent_heat - expected);
     if(snapshot.time >= (scene.start_time + scene.end_time) / 2)
@@ -211,10 +233,9 @@ namespace meltfront::verification
 
   void RunObserver::require_end() const
   {
-    const double reached = run_series.time.empty() ? nan : run_series.time.back();
     if(at_end.empty())
       throw cases::NumericalError(
-          method, last_step, reached, "time",
+          method, last_step, last_time, "time",
           fmt::format("was not taken to the end, {:.6g}", scene.end_time));
   }
 
@@ -254,9 +275,8 @@ namespace meltfront::verification
     values["front_isotherm_rms"] = isotherm.root_mean_square();
     values["front_max_ice_rms"] = max_ice.root_mean_square();
     values["front_heat_loss_rms"] = heat_loss.root_mean_square();
-    values["front_backsteps"] = largest_backstep(run_series.front);
-    const auto &defects = run_series.budget_defect;
-    values["budget_defect"] = defects.empty() ? nan : std::ranges::max(defects);
+    values["front_backsteps"] = course.largest_backstep();
+    values["budget_defect"] = worst_defect;
     if(the_case.measurement.front_floor > 0)
       values["front_floor"] = the_case.measurement.front_floor;
     return values;

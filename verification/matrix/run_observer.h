@@ -30,6 +30,22 @@ namespace meltfront::verification
     double maximum = 0;
   };
 
+  /** How far a front fell back behind where it had been on its way from its first to its
+   * last position. */
+  class FrontCourse
+  {
+  public:
+    void add(double position);
+
+    /** NaN for no position at all. */
+    double largest_backstep() const;
+
+  private:
+    bool any = false;
+    double first = 0, last = 0, highest = 0, lowest = 0;
+    double largest_fall = 0, largest_rise = 0; ///< below the highest, above the lowest
+  };
+
   /**
    * Measures a run while it goes on: reads fronts and budgets from each snapshot, holds
    * them against the case's exact solution, keeps the profile of the end.
@@ -85,9 +101,13 @@ namespace meltfront::verification
 
   private:
     double clock(double time) const;
+    bool sample_is_due(long step, double time) const;
     bool wants_itself(long step, double time) const;
     void judge(const cases::Snapshot &snapshot, double lowest, double highest) const;
-    void measure(const cases::Snapshot &snapshot);
+    void measure(const cases::Snapshot &snapshot, bool keep);
+    void add_to_series(const cases::Snapshot &snapshot, const FrontReading &reading,
+                       double lowest, double highest);
+    double exact_front(double time) const; ///< NaN before the solution's start
     void compare_fronts(const cases::Snapshot &snapshot, const FrontReading &reading);
     void measure_end(const cases::Snapshot &snapshot);
 
@@ -100,11 +120,15 @@ namespace meltfront::verification
 
     cases::RunDescription run_description;
     std::optional<FrontReader> reader;
-    int samples_taken = 0; ///< index of the next sample, equidistant on the clock
+    int samples;         ///< times equidistant on the clock at which the series is kept
+    int next_sample = 0; ///< index of the next of them
     long last_step = -1;
+    double last_time;
     RunSeries run_series;
     RunProfile end_profile;
+    FrontCourse course;
     ErrorStatistics front, late_front, isotherm, max_ice, heat_loss;
+    double worst_defect;
     std::map<std::string, double> at_end;
   };
 } // namespace meltfront::verification

@@ -127,8 +127,13 @@ namespace meltfront::verification
       cases::Case c = tests::slab_case("slab");
       c.measurement.samples = 0;
       RunObserver every(c, c.scene, "fake");
-      drive(every, 777, exact_front);
-      EXPECT_EQ(every.series().time.size(), 778u);
+      // Off at one step only, which is none of the 200 that the series keeps.
+      drive(every, 1000,
+            [](double time) { return exact_front(time) + (time == 0.503 ? 0.01 : 0); });
+      EXPECT_NEAR(every.quantities().at("front_rms"), 0.01 / std::sqrt(1000.), 1e-12);
+      EXPECT_EQ(every.series().time.size(), 201u);
+      EXPECT_EQ(every.series().front_exact.size(), 201u);
+      EXPECT_EQ(every.series().time.back(), 1);
 
       c.measurement.samples = 50;
       c.measurement.square_root_clock = true;
