@@ -55,33 +55,30 @@ namespace meltfront::cases::spectral
   FrontFixing::FrontFixing(const OracleProblem &problem, int near_intervals,
                            int far_intervals)
     : problem(problem)
-    , near_basis(near_intervals)
-    , far_basis(far_intervals, far_stretch(problem))
     , exponent(problem.symmetry == Symmetry::planar        ? 0
                : problem.symmetry == Symmetry::cylindrical ? 1
                                                            : 2)
+    , near{.material
+           = problem.solid_at_origin ? problem.material.solid : problem.material.liquid,
+           .solid = problem.solid_at_origin,
+           .wall = problem.inner_wall,
+           .melting_temperature = problem.material.melting_temperature,
+           .wall_is_first = true,
+           .axis = exponent > 0 && problem.inner == 0,
+           .solved = true,
+           .basis = ChebyshevBasis(near_intervals)}
+    , far{.material
+          = problem.solid_at_origin ? problem.material.liquid : problem.material.solid,
+          .solid = !problem.solid_at_origin,
+          .wall = problem.outer_wall,
+          .melting_temperature = problem.material.melting_temperature,
+          .wall_is_first = false,
+          .axis = false,
+          .solved = !problem.one_phase,
+          .basis = ChebyshevBasis(far_intervals, far_stretch(problem))}
+    , size(near.unknowns() + far.unknowns() + 1)
+    , sink_factor(problem.line_sink / (2 * std::numbers::pi * near.material.conductivity))
   {
-    const Material &material = problem.material;
-    near.solid = problem.solid_at_origin;
-    near.material = near.solid ? material.solid : material.liquid;
-    near.wall = problem.inner_wall;
-    near.solved = true;
-    near.centre = exponent > 0 && problem.inner == 0;
-    near.first = near.centre ? 0 : 1;
-    near.unknowns = near_intervals - near.first;
-    near.offset = 0;
-
-    far.solid = !near.solid;
-    far.material = far.solid ? material.solid : material.liquid;
-    far.wall = problem.outer_wall;
-    far.solved = !problem.one_phase;
-    far.centre = false;
-    far.first = 1;
-    far.unknowns = far.solved ? far_intervals - 1 : 0;
-    far.offset = near.unknowns;
-    size = near.unknowns + far.unknowns + 1;
-    sink_factor = problem.line_sink / (2 * std::numbers::pi * near.material.conductivity);
-
     find_temperature_scale();
   }
 
@@ -90,8 +87,8 @@ namespace meltfront::cases::spectral
     const double melting = problem.material.melting_temperature;
     temperature_scale = initial_state().head(size - 1).lpNorm<Eigen::Infinity>();
     const int samples = 64;
-    for(const Side *side : {&near, &far})
-      if(side->solved && !side->centre
+    for(const MappedPhase *side : {&near, &far})
+      if(side->solved && !side->axis
          && side->wall.kind == BoundaryKind::fixed_temperature)
         for(int i = 0; i <= samples; ++i)
         {
@@ -115,119 +112,102 @@ namespace meltfront::cases::spectral
     Eigen::VectorXd state(size);
     const double front = initial_front(problem);
     const double melting = problem.material.melting_temperature;
-    for(int i = 0; i < near.unknowns; ++i)
+    for(int i = 0; i < near.unknowns(); ++i)
     {
-      const double x = near_basis.nodes[near.first + i];
+      const double x = near.basis.nodes[near.first_unknown() + i];
       // Just off a sink, where its logarithm has no value: smooth in r^2, the rest has
       // not changed there to round-off.
-      const double r = near.centre
+      const double r = near.axis
                            ? front * std::max(std::sqrt(x), sink_factor == 0 ? 0 : 1e-8)
                            : problem.inner + x * (front - problem.inner);
-      state[near.offset + i]
-          = initial_temperature(problem, r) - melting - logarithm(r, front);
+      state[i] = initial_temperature(problem, r) - melting - logarithm(r, front);
     }
-    for(int i = 0; i < far.unknowns; ++i)
-      state[far.offset + i]
-          = initial_temperature(
-                problem, front + far_basis.nodes[far.first + i] * (problem.outer - front))
+    for(int i = 0; i < far.unknowns(); ++i)
+      state[near.unknowns() + i]
+          = initial_temperature(problem, front
+                                             + far.basis.nodes[far.first_unknown() + i]
+                                                   * (problem.outer - front))
             - melting;
     state[size - 1] = front;
     return state;
   }
 
-  void FrontFixing::set_wall(const Side &side, const ChebyshevBasis &basis, int node,
-                             double time, double length, Eigen::VectorXd &values) const
+  MappedPhase::Nodal FrontFixing::near_nodal(double time,
+                                             const Eigen::VectorXd &state) const
   {
-    if(side.wall.kind == BoundaryKind::fixed_temperature)
-    {
-      values[node] = side.wall.value(time) - problem.material.melting_temperature;
-      return;
-    }
-    // The outward derivative in the mapped coordinate is flux times length over k.
-    const double flux = side.wall.kind == BoundaryKind::flux ? side.wall.value(time) : 0;
-    const double outward = node == 0 ? -1 : 1;
-    values[node] = 0;
-    values[node] = (outward * flux * length / side.material.conductivity
-                    - basis.first.row(node).dot(values))
-                   / basis.first(node, node);
+    return near.complete(time, state[size - 1] - problem.inner,
+                         state.head(near.unknowns()));
   }
 
-  Eigen::VectorXd FrontFixing::near_values(double time,
-                                           const Eigen::VectorXd &state) const
+  MappedPhase::Nodal FrontFixing::far_nodal(double time,
+                                            const Eigen::VectorXd &state) const
   {
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(near_basis.intervals + 1);
-    values.segment(near.first, near.unknowns) = state.segment(near.offset, near.unknowns);
-    if(!near.centre)
-      set_wall(near, near_basis, 0, time, state[size - 1] - problem.inner, values);
-    return values;
-  }
-
-  Eigen::VectorXd FrontFixing::far_values(double time, const Eigen::VectorXd &state) const
-  {
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(far_basis.intervals + 1);
-    if(far.solved)
-    {
-      values.segment(far.first, far.unknowns) = state.segment(far.offset, far.unknowns);
-      set_wall(far, far_basis, far_basis.intervals, time, problem.outer - state[size - 1],
-               values);
-    }
-    return values;
+    return far.complete(time, problem.outer - state[size - 1],
+                        state.segment(near.unknowns(), far.unknowns()));
   }
 
   void FrontFixing::rate(double time, const Eigen::VectorXd &state,
                          Eigen::VectorXd &rate) const
   {
     const double front = state[size - 1];
-    const double near_length = front - problem.inner, far_length = problem.outer - front;
-    const Eigen::VectorXd near_u = near_values(time, state),
-                          far_u = far_values(time, state);
-    const Eigen::VectorXd near_x = near_basis.first * near_u,
-                          near_xx = near_basis.second * near_u;
-    const Eigen::VectorXd far_x = far_basis.first * far_u,
-                          far_xx = far_basis.second * far_u;
-
-    const double near_gradient
-        = (near.centre ? 2 : 1) * near_x[near_basis.intervals] / near_length
-          + sink_factor / front;
-    const double far_gradient = far_x[0] / far_length;
+    const MappedPhase::Derivatives near_u = near.derivatives(near_nodal(time, state));
+    const MappedPhase::Derivatives far_u = far.derivatives(far_nodal(time, state));
+    const double near_gradient = (near.axis ? 2 : 1) * near_u.first[near.basis.intervals]
+                                     / (front - problem.inner)
+                                 + sink_factor / front;
+    const double far_gradient = far_u.first[0] / (problem.outer - front);
     const double heat_to_near = near.material.conductivity * near_gradient
                                 - far.material.conductivity * far_gradient;
     const double speed = (near.solid ? 1 : -1) * heat_to_near
                          / (near.material.density * problem.material.latent_heat);
-
     rate.resize(size);
+    near_rates(near_u, front, speed, rate);
+    far_rates(far_u, front, speed, rate);
     rate[size - 1] = speed;
-    const double near_a = near.material.diffusivity(), far_a = far.material.diffusivity();
-    for(int i = 0; i < near.unknowns; ++i)
+  }
+
+  void FrontFixing::near_rates(const MappedPhase::Derivatives &u, double front,
+                               double speed, Eigen::VectorXd &rate) const
+  {
+    const double length = front - problem.inner;
+    const double diffusivity = near.material.diffusivity();
+    for(int i = 0; i < near.unknowns(); ++i)
     {
-      const int j = near.first + i;
-      const double x = near_basis.nodes[j];
-      if(near.centre)
-        rate[near.offset + i]
-            = near_a * (4 * x * near_xx[j] + 2 * (1 + exponent) * near_x[j])
-                  / (front * front)
-              + speed / front * (2 * x * near_x[j] + sink_factor);
+      const int j = near.first_unknown() + i;
+      const double x = near.basis.nodes[j];
+      if(near.axis)
+        rate[i] = diffusivity * (4 * x * u.second[j] + 2 * (1 + exponent) * u.first[j])
+                      / (front * front)
+                  + speed / front * (2 * x * u.first[j] + sink_factor);
       else
       {
-        const double r = problem.inner + x * near_length;
-        rate[near.offset + i] = near_a
-                                    * (near_xx[j] / near_length
-                                       + (exponent > 0 ? exponent / r : 0) * near_x[j])
-                                    / near_length
-                                + speed * x * near_x[j] / near_length;
+        const double curvature
+            = exponent > 0 ? exponent / (problem.inner + x * length) : 0;
+        rate[i] = (diffusivity * (u.second[j] / length + curvature * u.first[j])
+                   + speed * x * u.first[j])
+                  / length;
       }
     }
+  }
+
+  void FrontFixing::far_rates(const MappedPhase::Derivatives &u, double front,
+                              double speed, Eigen::VectorXd &rate) const
+  {
+    const double length = problem.outer - front;
+    const double diffusivity = far.material.diffusivity();
     const double displacement = 1 - near.material.density / far.material.density;
-    for(int i = 0; i < far.unknowns; ++i)
+    for(int i = 0; i < far.unknowns(); ++i)
     {
-      const int j = far.first + i;
-      const double x = far_basis.nodes[j];
-      const double r = front + x * far_length;
+      const int j = far.first_unknown() + i;
+      const double x = far.basis.nodes[j];
+      const double r = front + x * length;
       const double node_speed = speed * (1 - x);
       const double material_speed = displacement * speed * std::pow(front / r, exponent);
-      rate[far.offset + i] = (far_a * (far_xx[j] / far_length + exponent / r * far_x[j])
-                              + (node_speed - material_speed) * far_x[j])
-                             / far_length;
+      const double curvature = exponent > 0 ? exponent / r : 0;
+      rate[near.unknowns() + i]
+          = (diffusivity * (u.second[j] / length + curvature * u.first[j])
+             + (node_speed - material_speed) * u.first[j])
+            / length;
     }
   }
 
@@ -261,13 +241,13 @@ namespace meltfront::cases::spectral
       return;
     const Profile now = profile(time, state);
     double near_excess = 0, far_excess = 0;
-    for(int j = near.centre ? 1 : 0; j < near_basis.intervals; ++j)
+    for(int j = near.axis ? 1 : 0; j < near.basis.intervals; ++j)
     {
-      const double x = near_basis.nodes[j];
+      const double x = near.basis.nodes[j];
       const double sink = sink_factor == 0 ? 0 : 0.5 * sink_factor * std::log(x);
       near_excess = std::max(near_excess, (near.solid ? 1 : -1) * (now.near[j] + sink));
     }
-    for(int j = 1; j <= far_basis.intervals; ++j)
+    for(int j = 1; j <= far.basis.intervals; ++j)
       far_excess = std::max(far_excess, (far.solid ? 1 : -1) * now.far[j]);
     if(std::max(near_excess, far_excess) > 1e-8 * temperature_scale)
       throw NumericalError(name, step, time, "the temperature",
@@ -278,25 +258,26 @@ namespace meltfront::cases::spectral
   FrontFixing::Defect FrontFixing::resolution_defect(double time,
                                                      const Eigen::VectorXd &state) const
   {
-    return {near_basis.tail(near_values(time, state)) / temperature_scale,
-            far_basis.tail(far_values(time, state)) / temperature_scale};
+    return {near.basis.tail(near_nodal(time, state).from_front) / temperature_scale,
+            far.basis.tail(far_nodal(time, state).from_front) / temperature_scale};
   }
 
   FrontFixing::Profile FrontFixing::profile(double time,
                                             const Eigen::VectorXd &state) const
   {
-    return {time, state[size - 1], near_values(time, state), far_values(time, state)};
+    return {time, state[size - 1], near_nodal(time, state).from_front,
+            far_nodal(time, state).from_front};
   }
 
   double FrontFixing::excess(const Profile &profile, double coordinate) const
   {
     const double r = std::clamp(coordinate, problem.inner, problem.outer);
     if(r > profile.front)
-      return far.solved ? far_basis.interpolate(
+      return far.solved ? far.basis.interpolate(
                  profile.far, (r - profile.front) / (problem.outer - profile.front))
                         : 0;
     const double x = (r - problem.inner) / (profile.front - problem.inner);
-    return near_basis.interpolate(profile.near, near.centre ? x * x : x);
+    return near.basis.interpolate(profile.near, near.axis ? x * x : x);
   }
 
   double FrontFixing::temperature(const Profile &profile, double coordinate) const
@@ -314,9 +295,10 @@ namespace meltfront::cases::spectral
     const double split = std::clamp(profile.front, lower, upper);
     const double near_length = profile.front - problem.inner;
     const double far_length = problem.outer - profile.front;
-    const double stretch = far_basis.stretch;
+    const double stretch = far.basis.stretch;
     const double layer = stretch > 0 ? stretch / std::sinh(stretch) : 1;
-    const auto part = [&](const Side &side, double from, double to, const auto &panel)
+    const auto part
+        = [&](const MappedPhase &side, double from, double to, const auto &panel)
     {
       const double latent = side.solid
                                 ? 0

@@ -1,7 +1,7 @@
 #ifndef meltfront_cases_exact_front_fixing_h
 #define meltfront_cases_exact_front_fixing_h
 
-#include <cases/exact/chebyshev.h>
+#include <cases/exact/mapped_phase.h>
 #include <cases/exact/oracle.h>
 
 #include <Eigen/Dense>
@@ -63,33 +63,21 @@ namespace meltfront::cases::spectral
     double heat_content(const Profile &profile, double lower, double upper) const;
 
   private:
-    /** One phase on its interval. */
-    struct Side
-    {
-      PhaseProperties material;
-      OracleWall wall;
-      bool solid;
-      bool solved; ///< false: at the melting temperature throughout
-      bool centre; ///< holds r = 0: squared map, no wall
-      int first;   ///< first node that is an unknown
-      int unknowns;
-      int offset; ///< of the unknowns in the state
-    };
-
     void find_temperature_scale();
-    Eigen::VectorXd near_values(double time, const Eigen::VectorXd &state) const;
-    Eigen::VectorXd far_values(double time, const Eigen::VectorXd &state) const;
-    void set_wall(const Side &side, const ChebyshevBasis &basis, int node, double time,
-                  double length, Eigen::VectorXd &values) const;
+    MappedPhase::Nodal near_nodal(double time, const Eigen::VectorXd &state) const;
+    MappedPhase::Nodal far_nodal(double time, const Eigen::VectorXd &state) const;
+    void near_rates(const MappedPhase::Derivatives &u, double front, double speed,
+                    Eigen::VectorXd &rate) const;
+    void far_rates(const MappedPhase::Derivatives &u, double front, double speed,
+                   Eigen::VectorXd &rate) const;
     double logarithm(double coordinate, double front) const;
     double excess(const Profile &profile, double coordinate) const;
 
     OracleProblem problem;
-    ChebyshevBasis near_basis, far_basis;
-    int exponent; ///< m: 0 planar, 1 cylindrical, 2 spherical
-    Side near, far;
-    int size;
-    double sink_factor; ///< Q/(2 pi k), K
+    int exponent;          ///< m: 0 planar, 1 cylindrical, 2 spherical
+    MappedPhase near, far; ///< at the inner wall, beyond the front
+    int size;              ///< of the state
+    double sink_factor;    ///< Q/(2 pi k), K
     double temperature_scale;
   };
 } // namespace meltfront::cases::spectral

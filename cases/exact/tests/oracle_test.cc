@@ -4,38 +4,30 @@
 #include <cases/exact/oracle.h>
 #include <cases/exact/planar_neumann.h>
 #include <cases/exact/point_sink.h>
+#include <cases/exact/tests/materials.h>
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <memory>
 
 namespace meltfront::cases
 {
   namespace
   {
-    Material water(double ice_density = 1000)
-    {
-      return {{2.2, 2090, ice_density}, {0.591, 4190, 1000}, 333500, 0};
-    }
+    using Exact = std::shared_ptr<const ExactSolution>;
 
-    Material norm()
-    {
-      Material material;
-      material.melting_temperature = 1;
-      return material;
-    }
-
-    OracleWall exact_wall(std::shared_ptr<const ExactSolution> exact, double coordinate)
+    OracleWall exact_wall(const Exact &exact, double coordinate)
     {
       return {BoundaryKind::fixed_temperature,
               [=](double time) { return exact->temperature(coordinate, time); }};
     }
 
-    OracleProblem between(std::shared_ptr<const ExactSolution> exact,
-                          const Material &material, double inner, double outer,
-                          double start_time, double end_time)
+    /** Start from an exact solution, with its temperatures at the ends. */
+    OracleProblem exact_problem(const Exact &exact, const Material &material,
+                                double inner, double outer, double start_time,
+                                double end_time)
     {
       OracleProblem problem;
       problem.symmetry = exact->symmetry();
@@ -51,70 +43,161 @@ namespace meltfront::cases
       return problem;
     }
 
-    void compare(const OracleProblem &problem, const ExactSolution &exact,
-                 const char *name)
+    /** Front to 1e-11, temperature and heat to 1e-10, at times that are no steps. */
+    void expect_exact(const OracleProblem &problem)
     {
-      auto t = std::chrono::steady_clock::now();
+      const ExactSolution &exact = *problem.start;
       const SpectralOracle oracle(problem);
-      double sec
-          = std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
-      double front = 0, temp = 0, heat = 0, range = 0;
-      const int times = 101, points = 41;
-      for(int i = 0; i < times; ++i)
+      SCOPED_TRACE(oracle.description());
+      double front = 0, temperature = 0, heat = 0, range = 0, most_heat = 0;
+      const int times = 100, points = 60;
+      for(int i = 0; i <= times; ++i)
       {
-        const double time
-            = std::lerp(problem.start_time, problem.end_time, i / (times - 1.));
+        const double time = std::lerp(problem.start_time, problem.end_time,
+                                      static_cast<double>(i) / times);
         front = std::max(front, std::abs(oracle.front(time) / exact.front(time) - 1));
-        for(int j = 0; j < points; ++j)
+        for(int j = 0; j <= points; ++j)
         {
-          double r = std::lerp(problem.inner, problem.outer, j / (points - 1.));
-          if(j == 0 && problem.line_sink != 0)
-            r = 1e-3 * problem.outer;
-          temp = std::max(
-              temp, std::abs(oracle.temperature(r, time) - exact.temperature(r, time)));
-          range = std::max(range, std::abs(exact.temperature(r, time)));
+          const double r
+              = std::lerp(problem.inner, problem.outer, (j + 0.5) / (points + 1));
+          const double expected = exact.temperature(r, time);
+          range = std::max(range,
+                           std::abs(expected - problem.material.melting_temperature));
+          temperature
+              = std::max(temperature, std::abs(oracle.temperature(r, time) - expected));
         }
-        double h = exact.heat_content(problem.inner, problem.outer, time);
+        const double content = exact.heat_content(problem.inner, problem.outer, time);
+        most_heat = std::max(most_heat, std::abs(content));
         heat = std::max(
             heat,
-            std::abs(oracle.heat_content(problem.inner, problem.outer, time) / h - 1));
+            std::abs(oracle.heat_content(problem.inner, problem.outer, time) - content));
       }
-      std::printf("%-28s N=%3d+%3d steps=%4ld defect %.1e front %.2e temp %.2e heat %.2e "
-                  "%.3f s\n",
-                  name, oracle.near_nodes(), oracle.far_nodes(), oracle.steps(),
-                  oracle.resolution_defect(), front, temp / range, heat, sec);
+      EXPECT_LE(front, 1e-11);
+      EXPECT_LE(temperature, 1e-10 * range);
+      EXPECT_LE(heat, 1e-10 * most_heat);
+      EXPECT_LE(oracle.resolution_defect(), 1e-13);
     }
   } // namespace
 
-  TEST(Oracle, Trial)
+  TEST(Oracle, AgreesWithPlanarNeumann)
   {
-    auto n1 = std::make_shared<PlanarNeumann>(norm(), 0.190602422788870409, 1.2);
-    compare(between(n1, norm(), 0, 1, 0.01, 0.25), *n1, "N1 .01-.25");
-    compare(between(n1, norm(), 0, 1, 0.0005, 0.0568), *n1, "N1 .0005-.0568");
-    compare(between(n1, norm(), 0, 1, 0.0001, 0.0568), *n1, "N1 1e-4");
-    compare(between(n1, norm(), 0, 1, 0.00001, 0.0568), *n1, "N1 1e-5");
-    compare(between(n1, norm(), 0, 1, 0.000001, 0.0568), *n1, "N1 1e-6");
-    auto n3 = std::make_shared<PlanarNeumann>(water(917), -10, 10);
-    compare(between(n3, water(917), 0, 1, 864, 86400), *n3, "N3");
-    auto n4 = std::make_shared<PlanarNeumann>(water(), -10, 0);
-    auto p = between(n4, water(), 0, 1, 864, 86400);
-    p.one_phase = true;
-    compare(p, *n4, "N4");
-    auto melt = std::make_shared<PlanarNeumann>(water(917), 10, -10);
-    compare(between(melt, water(917), 0, 1, 864, 86400), *melt, "melt");
-    auto line = std::make_shared<LineSink>(water(), 0.15, 10);
-    p = between(line, water(), 0, 0.5, 47500, 475000);
-    p.line_sink = line->strength();
-    compare(p, *line, "line, split");
-    compare(between(line, water(), 0.05, 0.5, 47500, 475000), *line, "line, annulus");
-    auto point = std::make_shared<PointSink>(water(), 0.15, 10);
-    compare(between(point, water(), 0.05, 0.5, 47500, 475000), *point, "point, shell");
-    for(Symmetry s : {Symmetry::planar, Symmetry::cylindrical, Symmetry::spherical})
+    const Exact normalised
+        = std::make_shared<PlanarNeumann>(unit_material(), unit_wall, 1.2);
+    expect_exact(exact_problem(normalised, unit_material(), 0, 1, 0.01, 0.25));
+    expect_exact(exact_problem(normalised, unit_material(), 0, 1, 1e-4, 0.0568));
+    const Exact two_phase = std::make_shared<PlanarNeumann>(water(), -10, 10);
+    expect_exact(exact_problem(two_phase, water(), 0, 1, 864, 86400));
+    expect_exact(exact_problem(two_phase, water(), 0.01, 0.2, 3600, 86400));
+    const Material contrast{{1, 1, 1}, {1e-3, 1, 1}, 1, 0};
+    expect_exact(exact_problem(std::make_shared<PlanarNeumann>(contrast, -1, 0.5),
+                               contrast, 0, 1.5, 0.01, 0.25));
+  }
+
+  TEST(Oracle, AgreesWhereTheDensitiesDiffer)
+  {
+    expect_exact(exact_problem(std::make_shared<PlanarNeumann>(water(917), -10, 10),
+                               water(917), 0, 1, 864, 86400));
+    expect_exact(exact_problem(std::make_shared<PlanarNeumann>(water(917), 10, -10),
+                               water(917), 0, 1, 864, 86400));
+  }
+
+  TEST(Oracle, AgreesWithOnePhaseSolutions)
+  {
+    for(const double wall : {-10., 10.})
     {
-      auto frank = std::make_shared<FrankGrowth>(Material{}, s, -0.5);
-      p = between(frank, Material{}, 0, 4, 0.1, 1);
-      p.metastable = true;
-      compare(p, *frank, "frank");
+      OracleProblem problem = exact_problem(
+          std::make_shared<PlanarNeumann>(water(), wall, 0), water(), 0, 1, 864, 86400);
+      problem.one_phase = true;
+      expect_exact(problem);
     }
+  }
+
+  TEST(Oracle, AgreesWithTheSinks)
+  {
+    const auto line = std::make_shared<LineSink>(water(), 0.15, 10);
+    expect_exact(exact_problem(line, water(), 0.05, 0.5, 47500, 475000));
+    OracleProblem problem = exact_problem(line, water(), 0, 0.5, 47500, 475000);
+    problem.line_sink = line->strength();
+    expect_exact(problem);
+    const auto point = std::make_shared<PointSink>(water(), 0.15, 10);
+    expect_exact(exact_problem(point, water(), 0.05, 0.5, 47500, 475000));
+  }
+
+  TEST(Oracle, AgreesWithFrankThroughTheCentre)
+  {
+    for(const Symmetry symmetry :
+        {Symmetry::planar, Symmetry::cylindrical, Symmetry::spherical})
+    {
+      OracleProblem problem
+          = exact_problem(std::make_shared<FrankGrowth>(Material{}, symmetry, -0.5),
+                          Material{}, 0, 4, 0.1, 1);
+      problem.metastable = true;
+      expect_exact(problem);
+    }
+  }
+
+  /** A prescribed flux that is the exact one gives the exact solution. */
+  TEST(Oracle, AgreesUnderAPrescribedFlux)
+  {
+    const auto exact = std::make_shared<PlanarNeumann>(water(), -10, 10);
+    OracleProblem problem = exact_problem(exact, water(), 0, 1, 864, 86400);
+    const double factor = -water().solid.conductivity * 10
+                          / std::sqrt(std::numbers::pi * water().solid.diffusivity())
+                          / std::erf(exact->lambda());
+    problem.inner_wall
+        = {BoundaryKind::flux, [=](double time) { return factor / std::sqrt(time); }};
+    expect_exact(problem);
+  }
+
+  TEST(Oracle, AnswersEarlierTimesFromItsStart)
+  {
+    const auto exact = std::make_shared<PlanarNeumann>(unit_material(), unit_wall, 1.2);
+    const SpectralOracle oracle(exact_problem(exact, unit_material(), 0, 1, 1e-3, 0.05));
+    EXPECT_EQ(oracle.start_time(), 0);
+    EXPECT_EQ(oracle.end_time(), 0.05);
+    EXPECT_EQ(oracle.front(0), 0);
+    EXPECT_EQ(oracle.temperature(0.3, 0), 1.2);
+    EXPECT_EQ(oracle.temperature(0.01, 5e-4), exact->temperature(0.01, 5e-4));
+    EXPECT_EQ(oracle.heat_content(0, 1, 5e-4), exact->heat_content(0, 1, 5e-4));
+    EXPECT_THROW(oracle.front(0.051), InputError);
+  }
+
+  TEST(Oracle, StartsFromAProfileAsFromASolution)
+  {
+    const auto exact = std::make_shared<PlanarNeumann>(unit_material(), unit_wall, 1.2);
+    OracleProblem problem = exact_problem(exact, unit_material(), 0, 1, 0.01, 0.25);
+    const SpectralOracle from_solution(problem);
+    problem.start = nullptr;
+    problem.initial_front = exact->front(0.01);
+    problem.initial_temperature = [=](double x) { return exact->temperature(x, 0.01); };
+    const SpectralOracle from_profile(problem);
+    EXPECT_EQ(from_profile.start_time(), 0.01);
+    EXPECT_EQ(from_profile.front(0.2), from_solution.front(0.2));
+    EXPECT_THROW(from_profile.front(0.009), InputError);
+  }
+
+  TEST(Oracle, RejectsIncompleteProblems)
+  {
+    const auto exact = std::make_shared<PlanarNeumann>(unit_material(), unit_wall, 1.2);
+    const OracleProblem good = exact_problem(exact, unit_material(), 0, 1, 0.01, 0.25);
+    const auto expect_rejected = [&](const auto &spoil)
+    {
+      OracleProblem problem = good;
+      spoil(problem);
+      EXPECT_THROW(SpectralOracle{problem}, InputError);
+    };
+    expect_rejected([](OracleProblem &p) { p.start = nullptr; });
+    expect_rejected([](OracleProblem &p) { p.symmetry = Symmetry::none; });
+    expect_rejected([](OracleProblem &p) { p.symmetry = Symmetry::spherical; });
+    expect_rejected([](OracleProblem &p) { p.solid_at_origin = false; });
+    expect_rejected([](OracleProblem &p) { p.end_time = 0.01; });
+    expect_rejected([](OracleProblem &p) { p.outer = 0.05; });
+    expect_rejected([](OracleProblem &p) { p.outer = -1; });
+    expect_rejected([](OracleProblem &p) { p.inner_wall.value = nullptr; });
+    expect_rejected([](OracleProblem &p) { p.outer_wall.kind = BoundaryKind::periodic; });
+    expect_rejected([](OracleProblem &p) { p.line_sink = 1; });
+    expect_rejected([](OracleProblem &p) { p.nodes = 2; });
+    expect_rejected([](OracleProblem &p) { p.tolerance = 0; });
+    expect_rejected([](OracleProblem &p) { p.material.latent_heat = 0; });
   }
 } // namespace meltfront::cases
