@@ -1,0 +1,216 @@
+#include <cases/case_file/case_file.h>
+#include <cases/effects.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+using namespace meltfront::cases;
+
+namespace
+{
+  /** Each case is read once. */
+  const Case &library_case(const std::string &name)
+  {
+    static std::map<std::string, Case> cases;
+    const auto found = cases.find(name);
+    return found != cases.end() ? found->second
+                                : cases.emplace(name, load_case(name)).first->second;
+  }
+
+  bool has_tag(const Case &c, const std::string &tag)
+  {
+    return std::find(c.tags.begin(), c.tags.end(), tag) != c.tags.end();
+  }
+
+  std::set<Effect> effects_of(const std::string &name)
+  {
+    std::set<Effect> on;
+    const EffectSet effects = effects_called_for(library_case(name).scene);
+    for(const EffectDecision &decision : effects.decisions())
+      if(decision.on)
+        on.insert(decision.effect);
+    return on;
+  }
+
+  double front_at_end(const std::string &name)
+  {
+    const Case &c = library_case(name);
+    return c.exact->front(c.scene.end_time);
+  }
+} // namespace
+
+TEST(Library, HoldsTheCasesThatOthersRelyOn)
+{
+  const std::vector<std::string> names = library_names();
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
+  for(const char *name : {"plane-freezing",
+                          "plane-freezing-started",
+                          "plane-freezing-2005",
+                          "plane-freezing-water",
+                          "plane-one-phase",
+                          "plane-contrast",
+                          "line-sink",
+                          "line-sink-disk",
+                          "line-sink-strong",
+                          "point-sink-3d",
+                          "hard-stefan-0.01",
+                          "hard-stefan-100",
+                          "hard-conductivity-1e-3",
+                          "hard-conductivity-1e3",
+                          "hard-conductivity-1e9",
+                          "hard-discontinuous-start",
+                          "hard-thin-liquid",
+                          "hard-reversal",
+                          "hard-jitter",
+                          "hard-line-sink-walls"})
+    EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
+}
+
+TEST(Library, EveryCaseLoadsAndDescribesItself)
+{
+  for(const std::string &name : library_names())
+  {
+    const Case &c = library_case(name);
+    EXPECT_EQ(c.scene.name, name);
+    EXPECT_FALSE(c.title.empty()) << name;
+    EXPECT_FALSE(c.description.empty()) << name;
+    EXPECT_TRUE(c.text.starts_with("# ")) << name;
+    EXPECT_EQ(name.starts_with("hard-"), has_tag(c, "hard")) << name;
+    EXPECT_TRUE(c.exact || !c.limits.empty()) << name;
+    if(!has_tag(c, "hard"))
+    {
+      EXPECT_FALSE(c.criteria.empty()) << name;
+    }
+  }
+}
+
+TEST(Library, ExactFrontsEndWhereTheyAreKnownTo)
+{
+  const std::map<std::string, double> fronts{
+      {"plane-freezing", 0.2383275057562597},
+      {"plane-freezing-started", 0.5},
+      {"plane-freezing-water", 0.09460644723343456},
+      {"plane-one-phase", 0.1056774146832831},
+      {"plane-contrast", 0.2876678251770185},
+      {"line-sink", 0.2121320343559643},
+      {"line-sink-disk", 0.2121320343559643},
+      {"line-sink-strong", 0.2309401076758503},
+      {"point-sink-3d", 0.2121320343559643}};
+  for(const auto &[name, front] : fronts)
+    EXPECT_NEAR(front_at_end(name), front, 1e-12 * front) << name;
+  EXPECT_NEAR(front_at_end("plane-freezing-2005"), 0.2383275, 1e-7);
+}
+
+TEST(Library, SinksDrawWhatTheirSolutionsNeed)
+{
+  const PointSource &line = library_case("line-sink").scene.sources.at(0);
+  EXPECT_NEAR(line.power(1000), -148.4508990290751, 1e-9);
+  EXPECT_NEAR(line.energy(475000), -148.4508990290751 * 475000, 1e-3);
+  EXPECT_NEAR(library_case("line-sink-strong").scene.sources.at(0).power(0),
+              -246.7249772523774, 1e-9);
+  EXPECT_NEAR(library_case("hard-line-sink-walls").scene.sources.at(0).power(0),
+              -246.7249772523774, 1e-9);
+  const PointSource &point = library_case("point-sink-3d").scene.sources.at(0);
+  EXPECT_NEAR(point.power(10000), -0.107715116113955 * 100, 1e-9);
+  EXPECT_NEAR(point.energy(10000), -0.107715116113955 * 2. / 3. * 1e6, 1e-6);
+}
+
+TEST(Library, ExactSolutionsSatisfyTheirHeldWallsAndInitialStates)
+{
+  for(const std::string &name : library_names())
+  {
+    const Case &c = library_case(name);
+    const Scene &scene = c.scene;
+    if(!c.exact || scene.domain.shape == DomainShape::box)
+      continue;
+    const TemperatureBounds bounds = temperature_bounds(scene);
+    const double span
+        = bounds.upper
+          - (std::isfinite(bounds.lower) ? bounds.lower
+                                         : scene.material.melting_temperature);
+    const double side = scene.domain.shape == DomainShape::ball ? scene.domain.radius
+                                                                : scene.domain.side();
+    for(const double share : {0.11, 0.37, 0.73, 0.99})
+      EXPECT_NEAR(c.exact->temperature(share * side, scene.start_time),
+                  scene.initial.temperature({share * side, 0, 0}, scene.start_time),
+                  1e-9 * span)
+          << name;
+    for(const Side wall : scene.sides())
+      for(const double share : {0.1, 0.4, 0.7, 1.})
+      {
+        const double time
+            = scene.start_time + share * (scene.end_time - scene.start_time);
+        const Position p{wall == Side::x_min ? 0 : side, 0, 0};
+        const Boundary &boundary = scene.boundary(wall);
+        ASSERT_EQ(boundary.kind, BoundaryKind::fixed_temperature) << name;
+        EXPECT_NEAR(boundary.value(p, time), c.exact->temperature(p, time), 1e-9 * span)
+            << name << " " << to_string(wall) << " " << time;
+      }
+  }
+}
+
+TEST(Library, ScenesCallForTheEffectsThatTheyShow)
+{
+  using enum Effect;
+  const std::set<Effect> plain{phase_change, wall_temperature};
+  const std::set<Effect> contrast{phase_change, phase_conductivity, phase_heat_capacity,
+                                  wall_temperature};
+  const std::set<Effect> sink{phase_change, phase_conductivity, phase_heat_capacity,
+                              heat_sources};
+  std::set<Effect> sink_and_rim = sink;
+  sink_and_rim.insert(wall_temperature);
+  EXPECT_EQ(effects_of("plane-freezing"), plain);
+  EXPECT_EQ(effects_of("plane-freezing-started"), plain);
+  EXPECT_EQ(effects_of("plane-freezing-2005"), plain);
+  EXPECT_EQ(effects_of("hard-reversal"), plain);
+  EXPECT_EQ(effects_of("plane-freezing-water"), contrast);
+  EXPECT_EQ(effects_of("plane-contrast"), contrast);
+  EXPECT_EQ(effects_of("line-sink"), sink);
+  EXPECT_EQ(effects_of("line-sink-strong"), sink);
+  EXPECT_EQ(effects_of("hard-line-sink-walls"), sink);
+  EXPECT_EQ(effects_of("line-sink-disk"), sink_and_rim);
+  EXPECT_EQ(effects_of("point-sink-3d"), sink_and_rim);
+}
+
+TEST(Library, TheFrontTurnsBackWhereItIsSaidTo)
+{
+  for(const std::string &name : library_names())
+  {
+    const Case &c = library_case(name);
+    if(!c.exact)
+      continue;
+    bool monotone = true;
+    double before = c.exact->front(c.scene.start_time);
+    for(int i = 1; i <= 50; ++i)
+    {
+      const double front = c.exact->front(
+          c.scene.start_time + (c.scene.end_time - c.scene.start_time) * i / 50);
+      monotone = monotone && front >= before;
+      before = front;
+    }
+    EXPECT_EQ(monotone, c.measurement.monotone_front) << name;
+  }
+}
+
+TEST(Library, TheTableOfThePaperIsRestatedInFull)
+{
+  const Case &c = library_case("line-sink");
+  ASSERT_EQ(c.printed.size(), 8u);
+  for(const PrintedValue &printed : c.printed)
+  {
+    const auto bound = std::find_if(c.criteria.begin(), c.criteria.end(),
+                                    [&printed](const Criterion &criterion)
+                                    {
+                                      return criterion.method == printed.method
+                                             && criterion.quantity == printed.quantity
+                                             && criterion.n == printed.n;
+                                    });
+    ASSERT_NE(bound, c.criteria.end()) << printed.quantity << printed.n;
+    EXPECT_NEAR(bound->lower, 0.85 * printed.value, 1e-15);
+    EXPECT_NEAR(bound->upper, 1.15 * printed.value, 1e-15);
+  }
+}
