@@ -39,14 +39,26 @@ namespace meltfront::particles
     FrontState state;
     double latent_heat;
 
+    /** Written without branches, so that eight rows advance together. */
     double operator()(std::size_t a, std::size_t b) const
     {
       const double own = state.u[a], other = state.u[b];
-      if(own == 0)
-        return to_melting(a, other, sensible_heat(b));
-      if(other == 0)
-        return -to_melting(b, own, sensible_heat(a));
-      return between(own, other, sensible_heat(a) + sensible_heat(b));
+      const double own_enthalpy = state.enthalpy[a], other_enthalpy = state.enthalpy[b];
+      const double difference = other - own;
+      const bool melting = own == 0;
+      const double molten = melting ? own_enthalpy : other_enthalpy; // J/kg
+      const double partner = melting ? other : own;
+      const double distance
+          = partner < 0 ? 1.5 * latent_heat - molten : 0.5 * latent_heat + molten;
+      const double at_melting = difference * (latent_heat / distance - 1);
+      const double between
+          = std::copysign(std::abs(std::abs(own) - std::abs(other)), difference);
+      const double deviation = own * other > 0   ? 0.
+                               : own * other < 0 ? between
+                                                 : at_melting;
+      return difference
+             + latent_share(sensible_heat(own_enthalpy) + sensible_heat(other_enthalpy))
+                   * deviation;
     }
 
     /**
@@ -56,43 +68,30 @@ namespace meltfront::particles
      */
     double from_wall(std::size_t a, double wall) const
     {
-      const double own = state.u[a];
+      const double own = state.u[a], enthalpy = state.enthalpy[a];
       if(own == 0)
       {
-        const double molten = state.enthalpy[a] / latent_heat;
+        const double molten = enthalpy / latent_heat;
         return wall / std::max(0.5, 2 * (wall < 0 ? 1 - molten : molten));
       }
-      return wall == 0 ? -own : between(own, wall, sensible_heat(a));
+      const double difference = wall - own;
+      if(own < 0 ? wall <= 0 : wall >= 0)
+        return difference;
+      return difference
+             + latent_share(sensible_heat(enthalpy))
+                   * std::copysign(std::abs(std::abs(own) - std::abs(wall)), difference);
     }
 
   private:
     /** |c (T - T_m)| */
-    double sensible_heat(std::size_t a) const
+    double sensible_heat(double enthalpy) const
     {
-      const double h = state.enthalpy[a];
-      return h < 0 ? -h : std::max(h - latent_heat, 0.);
+      return std::max(-enthalpy, 0.) + std::max(enthalpy - latent_heat, 0.);
     }
 
     double latent_share(double sensible_heat) const
     {
       return latent_heat / std::max(latent_heat, sensible_heat);
-    }
-
-    double to_melting(std::size_t a, double partner, double sensible_heat) const
-    {
-      const double molten = state.enthalpy[a] / latent_heat;
-      const double difference = partner / (partner < 0 ? 1.5 - molten : 0.5 + molten);
-      return partner + latent_share(sensible_heat) * (difference - partner);
-    }
-
-    double between(double own, double other, double sensible_heat) const
-    {
-      const double difference = other - own;
-      if((own < 0) == (other < 0))
-        return difference;
-      const double excess
-          = latent_share(sensible_heat) * std::abs(std::abs(own) - std::abs(other));
-      return difference + (own < 0 ? excess : -excess);
     }
   };
 
