@@ -1,0 +1,240 @@
+#include <verification/report/case_plots.h>
+#include <verification/report/chapters.h>
+#include <verification/report/convergence_table.h>
+#include <verification/report/equations.h>
+#include <verification/report/scene_picture.h>
+#include <verification/report/table.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    Markup pair(const Markup &left, const Markup &right)
+    {
+      return element("div", {{"class", "pair"}}, left + right);
+    }
+
+    Markup folded(const std::string &summary, const Markup &content)
+    {
+      return content.empty() ? Markup()
+                             : element("details", element("summary", summary) + content);
+    }
+
+    Markup picture(const ReportContext &context, const CaseRuns &runs)
+    {
+      const CaseRecord &record = *runs.record;
+      const RunRecord *run = run_to_picture(runs);
+      const double front = front_at_end(runs);
+      const bool exact = !record.exact.empty() && std::isfinite(record.front_exact_end);
+      std::string caption
+          = fmt::format("The scene at t = {}{}.", plain_number(record.end_time, 6),
+                        unit_of(record, " s"));
+      if(std::isfinite(front))
+        caption
+            += fmt::format(" Black: the {} front, at {}{}.", exact ? "exact" : "computed",
+                           plain_number(front, 4), unit_of(record, " m"));
+      if(run)
+        caption
+            += fmt::format(" Sites of {} at n = {}: filled where at least half is solid, "
+                           "open where liquid.",
+                           run->label, run->n);
+      else
+        caption += " Blue: solid; orange: liquid.";
+      if(!record.source_positions.empty())
+        caption += " Star: source.";
+      return element("div", {{"class", "wide"}},
+                     context.plots.figure(
+                         record.name + "-scene",
+                         scene_picture_script(record, run ? run : runs.finest(), front),
+                         "The scene of " + record.name, text(caption)));
+    }
+
+    Markup exact_solution(const CaseRecord &record)
+    {
+      if(record.exact.empty())
+        return element("p",
+                       "There is no exact solution: errors against one cannot be given.");
+      Markup content = element("p", record.exact);
+      const double floor = record.measurement.front_floor;
+      if(std::isfinite(record.front_exact_end))
+        content += element("p", text("Its front at the end: ")
+                                    + number_markup(record.front_exact_end, 8)
+                                    + text(unit_of(record, " m") + "."));
+      if(floor > 0)
+        content
+            += element("p", text("In this domain it holds only approximately: no front "
+                                 "error below the floor of ")
+                                + number_markup(floor, 2)
+                                + text(unit_of(record, " m") + " means anything."));
+      else
+        content += element("p", "It is exact in this domain: the table has no floor.");
+      return content;
+    }
+
+    Markup convergence(const ReportContext &context, const CaseRuns &runs)
+    {
+      const CaseRecord &record = *runs.record;
+      const Table table = convergence_table(runs);
+      const auto key
+          = [&context](const std::string &label) { return context.styles.key(label); };
+      if(table.empty())
+        return element("p", "No run of this case is in the matrix.");
+      const Table rates = pairwise_table(runs);
+      return element(
+                 "p", {{"class", "nothing"}},
+                 text(
+                     "Orders are fitted by least squares over at least four levels, with "
+                     "their standard error. Errors of the front are root mean squares "
+                     "over the run; bold is the least of a column."))
+             + table_markup(table, key)
+             + linked_csv(context, record.name, convergence_csv(runs))
+             + (rates.empty() ? Markup()
+                              : folded("Rates between neighbouring resolutions",
+                                       table_markup(rates, key)));
+    }
+
+    Markup error_plots(const ReportContext &context, const CaseRuns &runs)
+    {
+      const std::string failed = " A cross marks a run that failed or was refused.";
+      const Plot against_spacing = error_against_spacing(runs, context.styles);
+      const std::string note = against_spacing.failed.empty() ? "" : failed;
+      return pair(context.plots.figure(
+                      runs.record->name + "-error-spacing", against_spacing,
+                      text("Front error against spacing, with fitted orders; grey: "
+                           "reference slopes."
+                           + note)),
+                  context.plots.figure(
+                      runs.record->name + "-error-cost",
+                      error_against_cost(runs, context.styles),
+                      text("Front error against CPU time: left and low is better; "
+                           "grey: reference slopes."
+                           + note)));
+    }
+
+    Markup front_plots(const ReportContext &context, const CaseRuns &runs)
+    {
+      return pair(
+          context.plots.figure(runs.record->name + "-front",
+                               front_against_time(runs, context.styles),
+                               text("Front against time, each method's finest run.")),
+          context.plots.figure(runs.record->name + "-front-error",
+                               front_error_against_time(runs, context.styles),
+                               text("Its error against time.")));
+    }
+
+    Markup profile_and_budget(const ReportContext &context, const CaseRuns &runs)
+    {
+      return pair(
+          context.plots.figure(runs.record->name + "-temperature",
+                               temperature_profile(runs, context.styles),
+                               text("Temperature at the end, each method's finest run.")),
+          context.plots.figure(
+              runs.record->name + "-budget", budget_against_time(runs, context.styles),
+              text("Defect of the heat budget, relative to its largest term; "
+                   "drawn at 1e-17 where it is less.")));
+    }
+
+    Markup parameters(const CaseRuns &runs)
+    {
+      Table table;
+      table.columns
+          = {{"parameter", "", false}, {"value", "", false}, {"unit", "", false}};
+      for(const LabelRuns &label : runs.labels)
+        if(const RunRecord *run = label.finest())
+        {
+          RowGroup &group = table.groups.emplace_back();
+          group.label = fmt::format("{}, n = {}", label.label, run->n);
+          const auto add = [&group](const std::string &name, const std::string &value,
+                                    const std::string &unit) {
+            group.rows.push_back({{name}, {value}, {unit}});
+          };
+          add("dimension", std::to_string(run->description.dimension), "");
+          if(run->description.time_step > 0)
+            add("time step", plain_number(run->description.time_step, 4), "s");
+          if(run->description.smoothing_length > 0)
+            add("smoothing length", plain_number(run->description.smoothing_length, 4),
+                "m");
+          for(const cases::Parameter &parameter : run->description.parameters)
+            add(parameter.name, parameter.value, parameter.unit);
+          for(const auto &[key, value] : run->options)
+            add("option " + key, value, "");
+        }
+      return table.empty() ? Markup() : table_markup(table);
+    }
+
+    Markup printed(const ReportContext &context, const CaseRuns &runs)
+    {
+      const Table table = printed_table(runs);
+      if(table.empty())
+        return {};
+      return element("h3", "Printed in papers, beside ours")
+             + element(
+                 "p", {{"class", "nothing"}},
+                 text("Orders are in n, the number along a side, fitted to the printed "
+                      "and to the measured numbers in the same way."))
+             + table_markup(table)
+             + linked_csv(context, runs.record->name + "-printed", printed_csv(runs));
+    }
+
+    Markup criteria(const ReportContext &context, const CaseRecord &record)
+    {
+      std::vector<CriterionResult> own;
+      for(const CriterionResult &criterion : context.result.criteria)
+        if(criterion.case_name == record.name)
+          own.push_back(criterion);
+      return own.empty()
+                 ? Markup()
+                 : element("h3", "Acceptance criteria") + criteria_table(own, false);
+    }
+
+    Markup limits(const CaseRuns &runs)
+    {
+      std::vector<Markup> items;
+      for(const std::string &limit : runs.record->limits)
+        items.push_back(text(limit));
+      for(const LabelRuns &label : runs.labels)
+        for(const Level &level : label.levels)
+          for(const RunRecord *run : level.runs)
+            if(run->status != RunStatus::finished)
+              items.push_back(text(fmt::format("{}, n = {}: ", run->label, run->n))
+                              + (run->status == RunStatus::refused
+                                     ? badge("fair", "refused")
+                                     : badge("bad", "failed"))
+                              + text(" "
+                                     + (run->message.empty() ? "no reason was given"
+                                                             : run->message)));
+      return element("h3", "Limits and omissions")
+             + (items.empty() ? element("p", "None are known; every run finished.")
+                              : list("ul", items));
+    }
+  } // namespace
+
+  Markup case_chapter(const ReportContext &context, const CaseRuns &runs)
+  {
+    const CaseRecord &record = *runs.record;
+    std::string tags = record.name;
+    for(const std::string &tag : record.tags)
+      tags += " · " + tag;
+    Markup content = element("p", {{"class", "tags"}}, text(tags))
+                     + element("h2", record.title.empty() ? record.name : record.title);
+    if(!record.description.empty())
+      content += element("p", record.description);
+    content += picture(context, runs) + element("h3", "Equations") + equations(record)
+               + folded("Material", material_table(record));
+    if(const Markup effects = effects_of_case(context, runs); !effects.empty())
+      content += folded("Effects: on or off, because, share of time, memory", effects);
+    content += folded("Schemes and their parameters", parameters(runs))
+               + element("h3", "Exact solution") + exact_solution(record)
+               + element("h3", "Convergence") + convergence(context, runs)
+               + error_plots(context, runs) + element("h3", "Front")
+               + front_plots(context, runs) + element("h3", "Temperature and heat budget")
+               + profile_and_budget(context, runs) + printed(context, runs)
+               + criteria(context, record) + limits(runs);
+    return element("section", {{"id", case_anchor(record.name)}}, content) + Markup("\n");
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,280 @@
+#include <verification/report/case_plots.h>
+
+#include <verification/report/convergence_table.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    std::string with_unit(const std::string &quantity, const std::string &unit)
+    {
+      return unit.empty() ? quantity : fmt::format("{} ({})", quantity, unit);
+    }
+
+    std::string coordinate_name(const CaseRecord &record)
+    {
+      return record.symmetry == "cylindrical" || record.symmetry == "spherical" ? "r"
+                                                                                : "x";
+    }
+
+    /** Indices of at most `most` entries, evenly spread, first and last among them. */
+    std::vector<std::size_t> thinned(std::size_t size, std::size_t most)
+    {
+      std::vector<std::size_t> indices;
+      if(size <= most)
+        for(std::size_t i = 0; i < size; ++i)
+          indices.push_back(i);
+      else
+        for(std::size_t i = 0; i < most; ++i)
+          indices.push_back(i * (size - 1) / (most - 1));
+      return indices;
+    }
+
+    constexpr std::size_t most_points = 240;
+
+    double entry(const std::vector<double> &values, std::size_t i)
+    {
+      return i < values.size() ? values[i] : std::nan("");
+    }
+
+    /** A curve over the finest run of every label. */
+    template <typename Value>
+    void add_finest(Plot &plot, const CaseRuns &runs, const MethodStyles &styles,
+                    const Value &value)
+    {
+      for(const LabelRuns &label : runs.labels)
+        if(const RunRecord *run = label.finest())
+        {
+          Curve &curve = plot.curves.emplace_back();
+          curve.label = label.label;
+          curve.style = styles.style(label.label);
+          for(const std::size_t i : thinned(run->series.time.size(), most_points))
+          {
+            curve.x.push_back(run->series.time[i]);
+            curve.y.push_back(value(run->series, i));
+          }
+        }
+    }
+
+    /** The exact front of the run that sampled it most often. */
+    void add_exact_front(Plot &plot, const CaseRuns &runs)
+    {
+      const RunSeries *longest = nullptr;
+      for(const LabelRuns &label : runs.labels)
+        if(const RunRecord *run = label.finest();
+           run && !run->series.front_exact.empty()
+           && (!longest || run->series.front_exact.size() > longest->front_exact.size()))
+          longest = &run->series;
+      if(!longest)
+        return;
+      Curve &curve = plot.curves.emplace_back();
+      curve.label = "exact";
+      curve.markers = false;
+      for(const std::size_t i : thinned(longest->time.size(), most_points))
+      {
+        curve.x.push_back(longest->time[i]);
+        curve.y.push_back(entry(longest->front_exact, i));
+      }
+    }
+
+    /** The h that a run without a description would have had. */
+    double spacing_of(const Level &level, const CaseRecord &record)
+    {
+      const double h = level.runs.front()->description.spacing;
+      return h > 0 ? h : domain_side(record) / level.n;
+    }
+
+    Plot error_plot(const CaseRuns &runs, const MethodStyles &styles,
+                    const std::string &abscissa, double scale)
+    {
+      const bool against_spacing = abscissa == "h";
+      Plot plot;
+      plot.x.logarithmic = plot.y.logarithmic = true;
+      for(const LabelRuns &label : runs.labels)
+      {
+        Curve curve;
+        curve.label = label.label;
+        curve.style = styles.style(label.label);
+        bool several_seeds = false;
+        for(const Level &level : label.levels)
+        {
+          if(!level.finished)
+          {
+            plot.failed.push_back(
+                {against_spacing ? spacing_of(level, *runs.record) : std::nan(""),
+                 curve.style});
+            continue;
+          }
+          curve.x.push_back(level.value(abscissa));
+          curve.y.push_back(level.value("front_rms") * scale);
+          curve.spread.push_back(level.spread("front_rms") * scale);
+          several_seeds = several_seeds || level.finished_count > 1;
+        }
+        if(!several_seeds)
+          curve.spread.clear();
+        const OrderFit fit = order_of(label, "front_rms");
+        if(against_spacing && std::isfinite(fit.order)
+           && fit.verdict != OrderVerdict::too_few_levels)
+          curve.exponent = fmt::format("h^{:.2f}", fit.order);
+        plot.curves.push_back(std::move(curve));
+      }
+      return plot;
+    }
+  } // namespace
+
+  Plot error_against_spacing(const CaseRuns &runs, const MethodStyles &styles)
+  {
+    Plot plot = error_plot(runs, styles, "h", 1);
+    plot.description = "Front error against spacing, " + runs.record->name;
+    const std::string unit = unit_of(*runs.record, "m");
+    plot.x.label = with_unit("spacing h", unit);
+    plot.y.label = with_unit("front error, RMS", unit);
+    plot.guides = {{1, "h"}, {2, "h"}};
+    return plot;
+  }
+
+  Plot error_against_cost(const CaseRuns &runs, const MethodStyles &styles)
+  {
+    Plot plot = error_plot(runs, styles, "cpu_seconds", 1);
+    plot.description = "Front error against CPU time, " + runs.record->name;
+    plot.x.label = "CPU time t (s)";
+    plot.y.label = with_unit("front error, RMS", unit_of(*runs.record, "m"));
+    plot.guides = {{-0.5, "t"}, {-1, "t"}};
+    return plot;
+  }
+
+  Plot small_work_precision(const CaseRuns &runs, const MethodStyles &styles)
+  {
+    const double front = std::abs(runs.record->front_exact_end);
+    Plot plot = error_plot(runs, styles, "cpu_seconds", 1 / front);
+    plot.description = "Relative front error against CPU time, " + runs.record->name;
+    plot.heading = runs.record->name;
+    plot.small = true;
+    plot.x.label = "CPU time (s)";
+    plot.y.label = "relative front error";
+    return plot;
+  }
+
+  Plot front_against_time(const CaseRuns &runs, const MethodStyles &styles)
+  {
+    Plot plot;
+    plot.description = "Front against time, " + runs.record->name;
+    plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
+    plot.y.label = with_unit("front", unit_of(*runs.record, "m"));
+    add_finest(plot, runs, styles,
+               [](const RunSeries &series, std::size_t i)
+               { return entry(series.front, i); });
+    add_exact_front(plot, runs);
+    return plot;
+  }
+
+  Plot front_error_against_time(const CaseRuns &runs, const MethodStyles &styles)
+  {
+    Plot plot;
+    plot.description = "Front error against time, " + runs.record->name;
+    plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
+    plot.y.label = with_unit("|front − exact front|", unit_of(*runs.record, "m"));
+    plot.y.logarithmic = true;
+    add_finest(plot, runs, styles,
+               [](const RunSeries &series, std::size_t i) {
+                 return std::abs(entry(series.front, i) - entry(series.front_exact, i));
+               });
+    return plot;
+  }
+
+  Plot budget_against_time(const CaseRuns &runs, const MethodStyles &styles)
+  {
+    Plot plot;
+    plot.description = "Defect of the heat budget against time, " + runs.record->name;
+    plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
+    plot.y.label = "relative heat budget defect";
+    plot.y.logarithmic = true;
+    static constexpr double round_off = 1e-17;
+    add_finest(plot, runs, styles,
+               [](const RunSeries &series, std::size_t i)
+               {
+                 const double defect = entry(series.budget_defect, i);
+                 return std::isnan(defect) ? defect
+                                           : std::max(std::abs(defect), round_off);
+               });
+    return plot;
+  }
+
+  namespace
+  {
+    void add_profile(Plot &plot, const std::vector<double> &coordinate,
+                     const std::vector<double> &temperature, Curve curve)
+    {
+      for(const std::size_t i : thinned(coordinate.size(), most_points))
+      {
+        curve.x.push_back(coordinate[i]);
+        curve.y.push_back(entry(temperature, i));
+      }
+      plot.curves.push_back(std::move(curve));
+    }
+
+    Curve exact_curve()
+    {
+      Curve curve;
+      curve.label = "exact";
+      curve.markers = false;
+      return curve;
+    }
+  } // namespace
+
+  Plot temperature_profile(const CaseRuns &runs, const MethodStyles &styles)
+  {
+    Plot plot;
+    plot.description = "Temperature at the end, " + runs.record->name;
+    plot.x.label = with_unit(coordinate_name(*runs.record), unit_of(*runs.record, "m"));
+    plot.y.label = with_unit("temperature", unit_of(*runs.record, "K or °C"));
+    const RunProfile *exact = nullptr;
+    for(const LabelRuns &label : runs.labels)
+      if(const RunRecord *run = label.finest())
+      {
+        Curve curve;
+        curve.label = label.label;
+        curve.style = styles.style(label.label);
+        add_profile(plot, run->profile.coordinate, run->profile.temperature, curve);
+        const RunProfile &profile = run->profile;
+        if(!profile.temperature_exact.empty()
+           && (!exact || profile.coordinate.size() > exact->coordinate.size()))
+          exact = &profile;
+      }
+    if(exact)
+      add_profile(plot, exact->coordinate, exact->temperature_exact, exact_curve());
+    return plot;
+  }
+
+  Plot run_profile(const RunRecord &run, const CaseRecord &record)
+  {
+    const MethodStyles styles({run.label});
+    const RunProfile &profile = run.profile;
+    Plot plot;
+    plot.description = "Temperature at the end, " + record.name;
+    plot.x.label = with_unit(coordinate_name(record), unit_of(record, "m"));
+    plot.y.label = with_unit("temperature", unit_of(record, "K or °C"));
+    if(!profile.temperature_exact.empty())
+      add_profile(plot, profile.coordinate, profile.temperature_exact, exact_curve());
+    // Solid filled, liquid open, as in pictures of particles.
+    for(const bool solid : {true, false})
+    {
+      Curve curve;
+      curve.label = run.label + (solid ? ", solid" : ", liquid");
+      curve.style = styles.style(run.label);
+      curve.style.open = !solid;
+      curve.line = false;
+      std::vector<double> temperature = profile.temperature;
+      for(std::size_t i = 0; i < temperature.size(); ++i)
+        if((entry(profile.solid_fraction, i) >= 0.5) != solid)
+          temperature[i] = std::nan("");
+      add_profile(plot, profile.coordinate, temperature, curve);
+    }
+    return plot;
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,35 @@
+#ifndef meltfront_verification_report_case_plots_h
+#define meltfront_verification_report_case_plots_h
+
+#include <verification/report/case_runs.h>
+#include <verification/report/plot.h>
+
+namespace meltfront::verification
+{
+  /** Front error (RMS) against the spacing, one line per label, with slopes 1 and 2. */
+  Plot error_against_spacing(const CaseRuns &runs, const MethodStyles &styles);
+
+  /** Front error (RMS) against CPU seconds: the work-precision diagram. */
+  Plot error_against_cost(const CaseRuns &runs, const MethodStyles &styles);
+
+  /** The same relative to the exact front at the end, small, for comparing cases. */
+  Plot small_work_precision(const CaseRuns &runs, const MethodStyles &styles);
+
+  /** Front against time: the finest run of every label and the exact front. */
+  Plot front_against_time(const CaseRuns &runs, const MethodStyles &styles);
+
+  /** |front - exact front| against time, finest runs. */
+  Plot front_error_against_time(const CaseRuns &runs, const MethodStyles &styles);
+
+  /** Temperature at the end, finest runs, and the exact one. */
+  Plot temperature_profile(const CaseRuns &runs, const MethodStyles &styles);
+
+  /** Relative defect of the heat budget against time, finest runs. Defects below 1e-17
+   * are drawn there. */
+  Plot budget_against_time(const CaseRuns &runs, const MethodStyles &styles);
+
+  /** Temperature of one run at the end over its coordinate, with the exact one. */
+  Plot run_profile(const RunRecord &run, const CaseRecord &record);
+} // namespace meltfront::verification
+
+#endif

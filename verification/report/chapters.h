@@ -1,0 +1,64 @@
+#ifndef meltfront_verification_report_chapters_h
+#define meltfront_verification_report_chapters_h
+
+#include <verification/report/case_runs.h>
+#include <verification/report/markup.h>
+#include <verification/report/method_styles.h>
+#include <verification/report/plot_folder.h>
+
+#include <string>
+#include <vector>
+
+namespace meltfront::verification
+{
+  /** What every chapter of the report is made from. */
+  struct ReportContext
+  {
+    const MatrixResult &result;
+    std::vector<CaseRuns> runs; ///< one per case, in the matrix's order
+    std::vector<StabilityVerdict> verdicts;
+    MethodStyles styles;
+    PlotFolder plots;
+    std::string directory;
+
+    /** All labels in the matrix's order. */
+    std::vector<std::string> labels() const;
+  };
+
+  Markup verdict_chapter(const ReportContext &context);
+
+  /** The cheapest method for wanted errors, and all work-precision diagrams. */
+  Markup cost_chapter(const ReportContext &context);
+
+  /** Case by label: held, refused or failed; empty without verdicts. */
+  Markup stability_chapter(const ReportContext &context);
+
+  /** Case by effect: on or off, and its share of the time. */
+  Markup effects_chapter(const ReportContext &context);
+
+  Markup case_chapter(const ReportContext &context, const CaseRuns &runs);
+
+  Markup provenance_chapter(const ReportContext &context);
+
+  /** Reasons and costs of the effects in one case's runs. */
+  Markup effects_of_case(const ReportContext &context, const CaseRuns &runs);
+
+  /** The acceptance criteria that were held against runs: of one case, or of all if the
+   * name is empty. */
+  Markup criteria_table(const std::vector<CriterionResult> &criteria, bool with_case);
+
+  /** Where a case's section is in the page: `case-NAME`. */
+  std::string case_anchor(const std::string &name);
+
+  /** The case's name, linked to its section. */
+  Markup case_link(const std::string &name);
+
+  Markup badge(const std::string &kind, const std::string &words);
+
+  /** Write DIR/tables/NAME.csv, and link to it: to the data itself, so that the page
+   * suffices, and to the file beside the page. */
+  Markup linked_csv(const ReportContext &context, const std::string &name,
+                    const std::string &csv);
+} // namespace meltfront::verification
+
+#endif

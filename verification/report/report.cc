@@ -1,0 +1,96 @@
+#include <verification/report/report.h>
+
+#include <verification/report/chapters.h>
+#include <verification/report/convergence_table.h>
+#include <verification/report/gnuplot.h>
+#include <verification/report/page_style.h>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    std::vector<std::string> labels_of(const MatrixResult &result)
+    {
+      std::vector<std::string> labels;
+      for(const RunRecord &run : result.runs)
+        labels.push_back(run.label);
+      return labels;
+    }
+
+    Markup navigation(const ReportContext &context)
+    {
+      const auto link = [](const std::string &anchor, const std::string &words) {
+        return element("a", {{"href", "#" + anchor}}, text(words));
+      };
+      Markup links
+          = element("a", {{"href", "#verdict"}, {"class", "mark"}}, text("meltfront"))
+            + link("cost", "Cost");
+      if(!context.verdicts.empty())
+        links += link("stability", "Stability");
+      links += link("effects", "Effects") + link("provenance", "Provenance");
+      if(!context.runs.empty())
+        links += element("span", {{"class", "bar"}}, Markup());
+      for(const CaseRuns &runs : context.runs)
+        links += link(case_anchor(runs.record->name), runs.record->name);
+      return element("nav", element("div", links));
+    }
+
+    /** Markdown and TeX; the CSV is written where the page links to it. */
+    void write_text_tables(const ReportContext &context)
+    {
+      for(const CaseRuns &runs : context.runs)
+      {
+        const std::string file
+            = context.directory + "/tables/" + plain_name(runs.record->name);
+        const Table table = convergence_table(runs), printed = printed_table(runs);
+        std::string markdown = table_markdown(table), tex = table_tex(table);
+        if(!printed.empty())
+        {
+          markdown += '\n';
+          markdown += table_markdown(printed);
+          tex += '\n';
+          tex += table_tex(printed);
+        }
+        write_file(file + ".csv", convergence_csv(runs));
+        write_file(file + ".md", markdown);
+        write_file(file + ".tex", tex);
+      }
+    }
+
+    Markup page(const ReportContext &context)
+    {
+      const std::string title = "meltfront: " + context.result.name;
+      const Markup head
+          = void_element("meta", {{"charset", "utf-8"}})
+            + void_element("meta", {{"name", "viewport"},
+                                    {"content", "width=device-width, initial-scale=1"}})
+            + void_element("meta", {{"name", "color-scheme"}, {"content", "light dark"}})
+            + element("title", title) + element("style", Markup(page_style()));
+      Markup body = marker_definitions() + navigation(context);
+      Markup chapters = verdict_chapter(context) + cost_chapter(context)
+                        + stability_chapter(context) + effects_chapter(context);
+      for(const CaseRuns &runs : context.runs)
+        chapters += case_chapter(context, runs);
+      chapters += provenance_chapter(context);
+      body += element("main", chapters);
+      return Markup("<!DOCTYPE html>\n")
+             + element("html", {{"lang", "en"}},
+                       element("head", head) + Markup("\n") + element("body", body));
+    }
+  } // namespace
+
+  void write_report(const MatrixResult &result, const std::string &directory,
+                    const std::vector<StabilityVerdict> &verdicts)
+  {
+    make_directory(directory + "/tables");
+    make_directory(directory + "/plots");
+    const ReportContext context{result,
+                                collect_runs(result),
+                                verdicts,
+                                MethodStyles(labels_of(result)),
+                                PlotFolder(directory + "/plots"),
+                                directory};
+    write_text_tables(context);
+    write_file(directory + "/report.html", page(context).html() + "\n");
+  }
+} // namespace meltfront::verification

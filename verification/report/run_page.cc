@@ -1,0 +1,55 @@
+#include <verification/report/case_plots.h>
+#include <verification/report/gnuplot.h>
+#include <verification/report/plot_folder.h>
+#include <verification/report/report.h>
+#include <verification/report/scene_picture.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    std::string front_csv(const RunSeries &series)
+    {
+      std::string csv = "time,front,front_isotherm,front_exact,budget_defect\n";
+      for(std::size_t i = 0; i < series.time.size(); ++i)
+      {
+        csv += fmt::format("{:.16g}", series.time[i]);
+        for(const std::vector<double> *column :
+            {&series.front, &series.front_isotherm, &series.front_exact,
+             &series.budget_defect})
+        {
+          const double value = i < column->size() ? (*column)[i] : std::nan("");
+          csv += std::isnan(value) ? ",nan" : fmt::format(",{:.16g}", value);
+        }
+        csv += "\n";
+      }
+      return csv;
+    }
+
+    /** Sites that fill an area, not only a line. */
+    bool fills_a_plane(const RunRecord &run, const CaseRecord &record)
+    {
+      return run.description.dimension > 1 && record.shape != "slab"
+             && !run.profile.picture_x.empty();
+    }
+  } // namespace
+
+  void write_run_page(const RunRecord &run, const CaseRecord &record,
+                      const std::string &directory)
+  {
+    make_directory(directory);
+    write_file(directory + "/front.csv", front_csv(run.series));
+    std::string script;
+    if(fills_a_plane(run, record))
+      script = scene_picture_script(record, &run,
+                                    run.series.front.empty() ? std::nan("")
+                                                             : run.series.front.back());
+    else
+      script = plot_script(run_profile(run, record));
+    write_file(directory + "/picture.svg", run_gnuplot(script));
+  }
+} // namespace meltfront::verification

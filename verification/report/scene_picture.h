@@ -1,0 +1,30 @@
+#ifndef meltfront_verification_report_scene_picture_h
+#define meltfront_verification_report_scene_picture_h
+
+#include <verification/report/case_runs.h>
+
+#include <string>
+
+namespace meltfront::verification
+{
+  /**
+   * A script that draws the scene in equal axes: the domain with its walls and what is
+   * prescribed on them, its sources, the front at the end, a scale, and the particles of
+   * a run, solid ones filled and liquid ones open.
+   *
+   * @param run the run whose sites are drawn; null or without sites: the phases are drawn
+   * as areas.
+   * @param front the front at the end; NaN: none is drawn
+   */
+  std::string scene_picture_script(const CaseRecord &record, const RunRecord *run,
+                                   double front);
+
+  /** The run whose sites suit a picture: the finest one with few enough of them; null if
+   * no run has any. */
+  const RunRecord *run_to_picture(const CaseRuns &runs);
+
+  /** The front at the end: the exact one, else that of the finest run; NaN for none. */
+  double front_at_end(const CaseRuns &runs);
+} // namespace meltfront::verification
+
+#endif

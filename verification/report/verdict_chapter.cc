@@ -1,0 +1,173 @@
+#include <verification/report/chapters.h>
+#include <verification/report/table.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::verification
+{
+  std::vector<std::string> ReportContext::labels() const
+  {
+    std::vector<std::string> list;
+    for(const RunRecord &run : result.runs)
+      if(std::find(list.begin(), list.end(), run.label) == list.end())
+        list.push_back(run.label);
+    return list;
+  }
+
+  std::string case_anchor(const std::string &name)
+  {
+    return "case-" + plain_name(name);
+  }
+
+  Markup case_link(const std::string &name)
+  {
+    return element("a", {{"href", fmt::format("#{}", case_anchor(name))}}, text(name));
+  }
+
+  Markup badge(const std::string &kind, const std::string &words)
+  {
+    return element("span", {{"class", "badge " + kind}}, text(words));
+  }
+
+  Markup linked_csv(const ReportContext &context, const std::string &name,
+                    const std::string &csv)
+  {
+    const std::string file = "tables/" + plain_name(name) + ".csv";
+    write_file(context.directory + "/" + file, csv);
+    return element("p", {{"class", "links"}},
+                   element("a",
+                           {{"href", data_address("text/csv", csv)},
+                            {"download", plain_name(name) + ".csv"}},
+                           text("CSV"))
+                       + text(" (in this page; also ")
+                       + element("a", {{"href", file}}, text(file)) + text(")"));
+  }
+
+  namespace
+  {
+    Markup bound(const CriterionResult &criterion)
+    {
+      const bool below = std::isfinite(criterion.upper);
+      const bool above = std::isfinite(criterion.lower);
+      if(below && above)
+        return number_markup(criterion.lower) + text(" to ")
+               + number_markup(criterion.upper);
+      if(below)
+        return text("≤ ") + number_markup(criterion.upper);
+      return above ? text("≥ ") + number_markup(criterion.lower) : text("none");
+    }
+
+    Markup verdict_line(const MatrixResult &result)
+    {
+      const auto held = std::count_if(result.criteria.begin(), result.criteria.end(),
+                                      [](const CriterionResult &c) { return c.passed; });
+      const auto all = static_cast<long>(result.criteria.size());
+      const std::string words
+          = all == 0 ? "No acceptance criterion was set"
+            : held == all
+                ? (all == 1 ? std::string("The acceptance criterion holds")
+                            : fmt::format("All {} acceptance criteria hold", all))
+                : fmt::format("{} of {} acceptance criteria hold", held, all);
+      const std::string kind = all == 0 ? "fair" : (held == all ? "good" : "bad");
+      return element("p", {{"class", "verdict " + kind}}, text(words));
+    }
+
+    Markup facts(const ReportContext &context)
+    {
+      const MatrixResult &result = context.result;
+      int finished = 0, refused = 0, failed = 0;
+      double cpu = 0;
+      for(const RunRecord &run : result.runs)
+      {
+        finished += run.status == RunStatus::finished;
+        refused += run.status == RunStatus::refused;
+        failed += run.status == RunStatus::failed;
+        if(std::isfinite(cpu_seconds(run)))
+          cpu += cpu_seconds(run);
+      }
+      Markup list;
+      const auto add = [&list](const std::string &what, const std::string &value)
+      { list += element("div", element("dt", what) + element("dd", value)); };
+      add("cases", std::to_string(result.cases.size()));
+      add("methods", std::to_string(context.labels().size()));
+      add("runs finished", std::to_string(finished));
+      add("refused", std::to_string(refused));
+      add("failed", std::to_string(failed));
+      add("CPU time of the runs", duration_text(cpu));
+      return element("dl", {{"class", "facts"}}, list);
+    }
+
+    Markup omissions(const std::vector<std::string> &sentences)
+    {
+      if(sentences.empty())
+        return {};
+      std::vector<Markup> items;
+      for(const std::string &sentence : sentences)
+        items.push_back(text(sentence));
+      constexpr std::size_t most_shown = 6;
+      if(items.size() <= most_shown)
+        return element("h3", "Left out, and why") + list("ul", items);
+      return element(
+          "details",
+          element("summary", fmt::format("{} runs left out, and why", items.size()))
+              + list("ul", items));
+    }
+  } // namespace
+
+  Markup criteria_table(const std::vector<CriterionResult> &criteria, bool with_case)
+  {
+    if(criteria.empty())
+      return {};
+    Markup head = element("th", std::string());
+    for(const char *heading : {"case", "method", "quantity", "value", "bound", ""})
+      if(with_case || std::string(heading) != "case")
+        head += element("th", std::string(heading));
+    Markup rows;
+    for(const CriterionResult &criterion : criteria)
+    {
+      Markup row = element("td", criterion.passed ? badge("good", "PASS")
+                                                  : badge("bad", "FAIL"));
+      if(with_case)
+        row += element("td", case_link(criterion.case_name));
+      row += element("td", criterion.method) + element("td", criterion.quantity)
+             + element("td", {{"class", "number"}}, number_markup(criterion.value))
+             + element("td", {{"class", "number"}}, bound(criterion))
+             + element("td", criterion.known_shortfall.empty()
+                                 ? ""
+                                 : "known shortfall: " + criterion.known_shortfall);
+      rows += element("tr", row) + Markup("\n");
+    }
+    return element(
+        "div", {{"class", "scroll plain"}},
+        element("table", element("thead", element("tr", head)) + element("tbody", rows)));
+  }
+
+  Markup verdict_chapter(const ReportContext &context)
+  {
+    const MatrixResult &result = context.result;
+    std::string kicker = "meltfront";
+    for(const std::string &part :
+        {result.program_version, "matrix " + result.name, result.date})
+      if(!part.empty())
+        kicker += " · " + part;
+    Markup content
+        = element("p", {{"class", "kicker"}}, text(kicker))
+          + element("h1", result.title.empty() ? "Matrix " + result.name : result.title)
+          + verdict_line(result);
+    if(!result.description.empty())
+      content += element("p", {{"class", "lead"}}, text(result.description));
+    content += facts(context);
+    std::vector<CriterionResult> failed;
+    std::copy_if(result.criteria.begin(), result.criteria.end(),
+                 std::back_inserter(failed),
+                 [](const CriterionResult &criterion) { return !criterion.passed; });
+    if(!failed.empty())
+      content
+          += element("h3", "Criteria that do not hold") + criteria_table(failed, true);
+    content += omissions(result.omissions);
+    return element("header", {{"id", "verdict"}}, content);
+  }
+} // namespace meltfront::verification
