@@ -119,15 +119,19 @@ namespace meltfront::cases
       spectral::Trajectory trajectory;
     };
 
-    std::unique_ptr<const Integration> integrate(const OracleProblem &problem)
+    using Result = std::unique_ptr<Integration>;
+
+    const double any_defect = std::numeric_limits<double>::infinity();
+
+    /**
+     * More nodes in each phase until the last coefficients are at round-off; null where
+     * they fall too slowly for that, because the data are not smooth or do not agree.
+     */
+    Result integrate_resolved(const OracleProblem &problem, double allowed)
     {
-      if(problem.nodes > 0)
-        return std::make_unique<Integration>(problem, problem.nodes, problem.nodes,
-                                             std::numeric_limits<double>::infinity());
-      const double allowed = std::max(1e-13, 0.1 * problem.tolerance);
-      const int most_intervals = 160;
+      const int most_intervals = 160, enough_to_judge = 30;
       int near = 12, far = 12;
-      Defect defect{0, 0};
+      double last_defect = any_defect;
       while(std::max(near, far) <= most_intervals)
         try
         {
@@ -135,18 +139,70 @@ namespace meltfront::cases
         }
         catch(const Unresolved &unresolved)
         {
-          defect = unresolved.defect;
-          if(defect.near > allowed)
+          const double defect = std::max(unresolved.defect.near, unresolved.defect.far);
+          if(std::max(near, far) > enough_to_judge && defect > 0.1 * last_defect)
+            return nullptr;
+          last_defect = defect;
+          if(unresolved.defect.near > allowed)
             near += near / 3;
-          if(defect.far > allowed)
+          if(unresolved.defect.far > allowed)
             far += far / 3;
         }
+      return nullptr;
+    }
+
+    /** Largest difference of two runs' fronts, relative to the domain. */
+    double front_difference(const OracleProblem &problem, const Integration &a,
+                            const Integration &b)
+    {
+      const int samples = 64;
+      double difference = 0;
+      for(int i = 1; i <= samples; ++i)
+      {
+        const double time = std::lerp(problem.start_time, problem.end_time,
+                                      static_cast<double>(i) / samples);
+        const auto front = [&](const Integration &run)
+        { return run.system.profile(time, run.trajectory.state(time)).front; };
+        difference = std::max(difference, std::abs(front(a) - front(b)));
+      }
+      return difference / (problem.outer - problem.inner);
+    }
+
+    /**
+     * More nodes until the front no longer moves: for data that do not quite agree at the
+     * start, which leave a layer that no polynomial resolves for a moment.
+     */
+    Result integrate_by_comparison(const OracleProblem &problem)
+    {
+      const int most_intervals = 125;
+      Result last;
+      double difference = any_defect;
+      for(int intervals = 24; intervals <= most_intervals; intervals += intervals / 2)
+      {
+        auto next
+            = std::make_unique<Integration>(problem, intervals, intervals, any_defect);
+        if(last)
+          difference = front_difference(problem, *last, *next);
+        last = std::move(next);
+        last->defect = difference;
+        if(difference <= 10 * problem.tolerance)
+          return last;
+      }
       throw NumericalError(
-          "spectral oracle", 0, problem.start_time, "the profile",
-          fmt::format(
-              "is not resolved by {} Chebyshev intervals (last coefficients {:.1e}): "
-              "initial and wall values must be smooth and agree",
-              most_intervals, std::max(defect.near, defect.far)));
+          "spectral oracle", last->trajectory.steps(), problem.end_time, "the front",
+          fmt::format("still moves by {:.1e} of the domain from one set of Chebyshev "
+                      "nodes to the next: the data are not smooth enough",
+                      difference));
+    }
+
+    Result integrate(const OracleProblem &problem)
+    {
+      if(problem.nodes > 0)
+        return std::make_unique<Integration>(problem, problem.nodes, problem.nodes,
+                                             any_defect);
+      Result result
+          = integrate_resolved(problem, std::max(1e-13, 0.1 * problem.tolerance));
+      return result ? std::move(result) : integrate_by_comparison(problem);
     }
   } // namespace
 

@@ -51,8 +51,11 @@ namespace meltfront::cases
     /** Undercooled liquid or superheated solid is meant, not an error. */
     bool metastable = false;
 
-    /** Chebyshev intervals per phase; 0: raised from 12 in each phase until its last
-     * coefficients are at round-off throughout the run. */
+    /**
+     * Chebyshev intervals per phase. 0: raised in each phase until its last coefficients
+     * are at round-off throughout the run; where initial and wall values do not quite
+     * agree, until the front no longer changes by more than 10 tolerances of the domain.
+     */
     int nodes = 0;
     double tolerance = 1e-12; ///< of each time step, relative
   };
@@ -111,8 +114,10 @@ namespace meltfront::cases
     /** Time steps taken. */
     long steps() const;
 
-    /** Largest share of the two highest Chebyshev coefficients over the run: an estimate
-     * of the error in space, relative to the range of temperature. */
+    /** An estimate of the error in space: the largest share of the two highest Chebyshev
+     * coefficients over the run, relative to the range of temperature; or, where the
+     * nodes were chosen by comparison, the change of the front at the last comparison,
+     * relative to the domain. */
     double resolution_defect() const;
 
   private:

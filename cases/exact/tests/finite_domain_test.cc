@@ -44,7 +44,7 @@ namespace meltfront::cases
                   tolerance * length)
             << other.description();
       };
-      problem.tolerance = 3e-14;
+      problem.tolerance = 1e-13;
       problem.nodes = std::max(oracle.near_nodes(), oracle.far_nodes());
       expect_same();
       problem.nodes += 12;
@@ -52,8 +52,9 @@ namespace meltfront::cases
     }
 
     /**
-     * A slab that is frozen and melted by turns: solid 0 ... 0.3 of unit length at T_m =
-     * 0 under liquid, heat drawn and given at the left wall, insulated at the right one.
+     * A slab that freezes, then melts back: solid 0 ... 0.3 of unit length at T_m
+     * = 0 under liquid; heat is drawn at a steady rate on the left and given on the
+     * right, more at half time than is drawn.
      */
     OracleProblem oscillating_slab()
     {
@@ -61,24 +62,21 @@ namespace meltfront::cases
       problem.material = {{1, 1, 1}, {0.6, 1.5, 1}, 1, 0};
       problem.end_time = 1;
       problem.initial_front = 0.3;
-      // Parabolas that meet the walls' conditions at the start: flux -1 and 0.
+      // Meets the walls' conditions at the start, but not those of the moving front.
       problem.initial_temperature = [](double x)
       { return x < 0.3 ? (x - 0.3) : 0.4 * (1 - std::pow((1 - x) / 0.7, 2)); };
-      problem.inner_wall = {BoundaryKind::flux, [](double time)
-                            {
-                              return -std::pow(std::cos(2 * std::numbers::pi * time), 2)
-                                     + 0.8 * std::sin(2 * std::numbers::pi * time) * time;
+      problem.inner_wall = {BoundaryKind::flux, [](double) { return -1.; }};
+      problem.outer_wall = {BoundaryKind::flux, [](double time) {
+                              return 3 * std::pow(std::sin(std::numbers::pi * time), 2);
                             }};
       return problem;
     }
 
-    /** Heat through the left wall from 0 to t in oscillating_slab(), by parts. */
+    /** Heat through both walls from 0 to t in oscillating_slab(). */
     double oscillating_inflow(double time)
     {
       const double omega = 2 * std::numbers::pi;
-      const double cosine = std::cos(omega * time), sine = std::sin(omega * time);
-      return -(time / 2 + std::sin(2 * omega * time) / (4 * omega))
-             + 0.8 * (sine / (omega * omega) - time * cosine / omega);
+      return -time + 1.5 * (time - std::sin(omega * time) / omega);
     }
   } // namespace
 
@@ -87,7 +85,7 @@ namespace meltfront::cases
     const OracleProblem problem = oscillating_slab();
     const SpectralOracle oracle(problem);
     const double start = oracle.heat_content(0, 1, 0);
-    double highest = 0, end = oracle.front(1);
+    double highest = 0;
     for(int i = 0; i <= 100; ++i)
     {
       const double time = i / 100.;
@@ -96,7 +94,8 @@ namespace meltfront::cases
                   1e-11)
           << time;
     }
-    EXPECT_GT(highest, 0.01 + std::max(end, oracle.front(0)));
+    EXPECT_GT(highest, oracle.front(0) + 0.02);
+    EXPECT_LT(oracle.front(1), highest - 0.05);
     expect_converged(problem, 1e-11);
   }
 
@@ -110,7 +109,7 @@ namespace meltfront::cases
     for(const int cells : {50, 100, 200})
     {
       const double h = 1. / cells, dt = 0.3 * h * h;
-      const long steps = std::lround(0.8 / dt);
+      const long steps = std::lround(1 / dt);
       std::vector<double> enthalpy(cells), temperature(cells), flux(cells + 1, 0.);
       for(int i = 0; i < cells; ++i)
         enthalpy[i] = oracle.heat_content(i * h, (i + 1) * h, 0) / h;
@@ -125,6 +124,7 @@ namespace meltfront::cases
                                                         : material.liquid.conductivity;
         };
         flux[0] = problem.inner_wall.value(step * dt);
+        flux[cells] = -problem.outer_wall.value(step * dt);
         for(int i = 1; i < cells; ++i)
           flux[i] = 2 * (temperature[i - 1] - temperature[i])
                     / (h / conductivity(i - 1) + h / conductivity(i));
@@ -134,7 +134,8 @@ namespace meltfront::cases
           enthalpy[i] += dt / h * (flux[i] - flux[i + 1]);
           solid += h * material.solid_fraction(enthalpy[i]);
         }
-        worst = std::max(worst, std::abs(solid - oracle.front((step + 1) * dt)));
+        worst = std::max(worst,
+                         std::abs(solid - oracle.front(std::min(1., (step + 1) * dt))));
       }
       errors.push_back(worst);
     }
@@ -180,7 +181,7 @@ namespace meltfront::cases
     EXPECT_NEAR(oracle.heat_content(0, 0.5, 475000) - oracle.heat_content(0, 0.5, 2000),
                 -drawn, 1e-11 * drawn);
     EXPECT_GT(oracle.front(475000) - sink->front(475000), 1e-7);
-    EXPECT_LT(oracle.front(475000) - sink->front(475000), 1e-3);
+    EXPECT_LT(oracle.front(475000) - sink->front(475000), 2e-3);
     expect_converged(problem, 1e-11);
   }
 
@@ -191,8 +192,6 @@ namespace meltfront::cases
     problem.material = {{2, 1, 1}, {1, 2, 1}, 3, 0};
     problem.end_time = 0.1;
     problem.initial_front = 0.5;
-    problem.initial_temperature = [](double r)
-    { return r < 0.5 ? 2 * (r * r - 0.25) : 0.6 * (r - 0.5) * (r - 0.5) * (2 - r); };
     problem.initial_temperature = [](double r)
     {
       const double liquid = std::sin(std::numbers::pi * (r - 0.5));
@@ -280,13 +279,14 @@ namespace meltfront::cases
     }
   }
 
-  TEST(FiniteDomain, SaysWhereAProfileIsNotResolved)
+  TEST(FiniteDomain, SaysWhereTheDataAreNotSmoothEnough)
   {
     OracleProblem problem = oscillating_slab();
+    problem.end_time = 0.1;
     problem.initial_temperature
         = [](double x) { return x < 0.3 ? x - 0.3 : std::min(0.4, 2 * (x - 0.3)); };
     EXPECT_THROW(SpectralOracle{problem}, NumericalError);
     problem.nodes = 24;
-    EXPECT_NO_THROW(SpectralOracle{problem});
+    EXPECT_GT(SpectralOracle(problem).resolution_defect(), 1e-4);
   }
 } // namespace meltfront::cases
