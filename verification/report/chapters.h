@@ -16,7 +16,6 @@ namespace meltfront::verification
   {
     const MatrixResult &result;
     std::vector<CaseRuns> runs; ///< one per case, in the matrix's order
-    std::vector<StabilityVerdict> verdicts;
     MethodStyles styles;
     PlotFolder plots;
     std::string directory;

@@ -25,7 +25,7 @@ namespace meltfront::verification
       Markup links
           = element("a", {{"href", "#verdict"}, {"class", "mark"}}, text("meltfront"))
             + link("cost", "Cost");
-      if(!context.verdicts.empty())
+      if(!context.result.stability.empty())
         links += link("stability", "Stability");
       links += link("effects", "Effects") + link("provenance", "Provenance");
       if(!context.runs.empty())
@@ -79,17 +79,13 @@ namespace meltfront::verification
     }
   } // namespace
 
-  void write_report(const MatrixResult &result, const std::string &directory,
-                    const std::vector<StabilityVerdict> &verdicts)
+  void write_report(const MatrixResult &result, const std::string &directory)
   {
     make_directory(directory + "/tables");
     make_directory(directory + "/plots");
-    const ReportContext context{result,
-                                collect_runs(result),
-                                verdicts,
+    const ReportContext context{result, collect_runs(result),
                                 MethodStyles(labels_of(result)),
-                                PlotFolder(directory + "/plots"),
-                                directory};
+                                PlotFolder(directory + "/plots"), directory};
     write_text_tables(context);
     write_file(directory + "/report.html", page(context).html() + "\n");
   }

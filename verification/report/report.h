@@ -4,20 +4,18 @@
 #include <verification/matrix/matrix_result.h>
 
 #include <string>
-#include <vector>
 
 namespace meltfront::verification
 {
   /**
    * Write the report of a matrix: DIR/report.html (one file that needs no other and no
    * network), DIR/tables/CASE.{csv,md,tex} and DIR/plots/NAME.svg. Runs nothing; works
-   * with whatever runs there are, none included.
+   * with whatever runs there are, none included. The chapter on hard cases stands where
+   * MatrixResult::stability has verdicts.
    *
-   * @param verdicts of the hard cases (judge_stability()); none: that chapter is left out
    * @throws cases::OutputError if gnuplot is missing or a file cannot be written.
    */
-  void write_report(const MatrixResult &result, const std::string &directory,
-                    const std::vector<StabilityVerdict> &verdicts = {});
+  void write_report(const MatrixResult &result, const std::string &directory);
 
   /**
    * Write what a single run leaves behind beside its record: DIR/front.csv (`time, front,

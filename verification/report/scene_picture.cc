@@ -209,6 +209,23 @@ namespace meltfront::verification
       fmt::format_to(out, "end_of_data\n");
     }
 
+    enum class FrontShape
+    {
+      plane,  ///< across x
+      circle, ///< about the origin
+      unknown
+    };
+
+    /** A scene without symmetry has that of its exact solution, whose front is given. */
+    FrontShape front_shape(const CaseRecord &record)
+    {
+      if(record.symmetry == "planar" || record.exact.starts_with("planar"))
+        return FrontShape::plane;
+      const bool radial
+          = record.symmetry == "cylindrical" || record.symmetry == "spherical";
+      return radial || !record.exact.empty() ? FrontShape::circle : FrontShape::unknown;
+    }
+
     /** The phases as areas on either side of the front. */
     void write_areas(Script out, const CaseRecord &record, const RunRecord *run,
                      double front)
@@ -220,8 +237,6 @@ namespace meltfront::verification
           = solid_first ? plot_colours::solid_area : plot_colours::liquid_area;
       const char *outer
           = solid_first ? plot_colours::liquid_area : plot_colours::solid_area;
-      const bool round
-          = record.symmetry == "cylindrical" || record.symmetry == "spherical";
       if(record.shape == "ball")
         fmt::format_to(out,
                        "set object circle at 0,0 size {:.8g} fs solid noborder fc rgb "
@@ -232,14 +247,15 @@ namespace meltfront::verification
                        "set object rectangle from graph 0,0 to graph 1,1 fs solid "
                        "noborder fc rgb '{}' behind\n",
                        outer);
+      const FrontShape shape = front_shape(record);
       if(!std::isfinite(front))
         return;
-      if(round)
+      if(shape == FrontShape::circle)
         fmt::format_to(out,
                        "set object circle at 0,0 size {:.8g} fs solid noborder fc rgb "
                        "'{}' behind\n",
                        front, inner);
-      else if(record.symmetry == "planar")
+      else if(shape == FrontShape::plane)
         fmt::format_to(out,
                        "set object rectangle from graph 0,0 to {:.8g},graph 1 fs solid "
                        "noborder fc rgb '{}' behind\n",
@@ -280,7 +296,10 @@ namespace meltfront::verification
                             double front)
     {
       const std::string look = " with lines lw 2.4 lc rgb 'black'";
-      if(record.symmetry == "planar")
+      const FrontShape shape = front_shape(record);
+      if(shape == FrontShape::unknown)
+        return {};
+      if(shape == FrontShape::plane)
       {
         fmt::format_to(out,
                        "$front << end_of_data\n{0:.8g} {1:.8g}\n{0:.8g} "
@@ -288,8 +307,6 @@ namespace meltfront::verification
                        front, frame.y0, frame.y1);
         return "$front" + look;
       }
-      if(record.symmetry == "none")
-        return {};
       write_circle(out, "front", front, frame, 0, 2 * std::numbers::pi);
       return "$front" + look;
     }

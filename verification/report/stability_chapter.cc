@@ -119,7 +119,7 @@ namespace meltfront::verification
 
   Markup stability_chapter(const ReportContext &context)
   {
-    const auto &verdicts = context.verdicts;
+    const auto &verdicts = context.result.stability;
     if(verdicts.empty())
       return {};
     const auto labels = distinct(verdicts, &StabilityVerdict::label);

@@ -75,6 +75,23 @@ namespace meltfront::verification
       return element("p", {{"class", "verdict " + kind}}, text(words));
     }
 
+    /** The second half of the verdict where the matrix has hard cases. */
+    Markup stability_line(const std::vector<StabilityVerdict> &verdicts)
+    {
+      if(verdicts.empty())
+        return {};
+      const auto failed = std::count_if(verdicts.begin(), verdicts.end(),
+                                        [](const StabilityVerdict &v)
+                                        { return v.verdict == "failed"; });
+      const std::string words
+          = failed == 0
+                ? fmt::format("All {} hard runs held or were refused with a reason",
+                              verdicts.size())
+                : fmt::format("{} of {} hard runs failed", failed, verdicts.size());
+      return element("p", {{"class", failed == 0 ? "verdict good" : "verdict bad"}},
+                     text(words));
+    }
+
     Markup facts(const ReportContext &context)
     {
       const MatrixResult &result = context.result;
@@ -156,7 +173,7 @@ namespace meltfront::verification
     Markup content
         = element("p", {{"class", "kicker"}}, text(kicker))
           + element("h1", result.title.empty() ? "Matrix " + result.name : result.title)
-          + verdict_line(result);
+          + verdict_line(result) + text(" ") + stability_line(result.stability);
     if(!result.description.empty())
       content += element("p", {{"class", "lead"}}, text(result.description));
     content += facts(context);
