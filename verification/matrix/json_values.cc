@@ -87,7 +87,7 @@ namespace meltfront::verification
     }
   }
 
-  void write_file(const std::string &path, const std::string &text)
+  void write_atomically(const std::string &path, const std::string &text)
   {
     const std::string temporary = path + ".part";
     std::error_code failure;
@@ -108,7 +108,7 @@ namespace meltfront::verification
   void write_json(const std::string &path, const nlohmann::json &json)
   {
     // A message may hold bytes that are not UTF-8; they must not cost the whole record.
-    write_file(path,
-               json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+    write_atomically(
+        path, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
   }
 } // namespace meltfront::verification

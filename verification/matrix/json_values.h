@@ -29,7 +29,7 @@ namespace meltfront::verification
 
   /** Write a file under a temporary name and rename it, so that it is whole or absent.
    * @throws cases::OutputError */
-  void write_file(const std::string &path, const std::string &text);
+  void write_atomically(const std::string &path, const std::string &text);
   void write_json(const std::string &path, const nlohmann::json &json);
 } // namespace meltfront::verification
 

@@ -15,7 +15,7 @@ namespace meltfront::verification
     constexpr const char *clear_line = "\r\033[K";
   } // namespace
 
-  std::string duration_text(double seconds)
+  std::string time_left_text(double seconds)
   {
     const long s = std::lround(seconds);
     if(s < 60)
@@ -55,7 +55,7 @@ namespace meltfront::verification
       return "";
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     return fmt::format(", about {} left",
-                       duration_text(spent.count() * (work - work_done) / work_done));
+                       time_left_text(spent.count() * (work - work_done) / work_done));
   }
 
   void Progress::run_ended(const std::string &what, const std::string &how, bool well,

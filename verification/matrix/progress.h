@@ -50,7 +50,7 @@ namespace meltfront::verification
   };
 
   /** `8 s`, `3 min 20 s`, `2 h 5 min`. */
-  std::string duration_text(double seconds);
+  std::string time_left_text(double seconds);
 } // namespace meltfront::verification
 
 #endif

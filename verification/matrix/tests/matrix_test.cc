@@ -94,11 +94,11 @@ namespace meltfront::verification
       EXPECT_EQ(short_case_name("x.prm"), "x");
     }
 
-    TEST(DurationText, ReadsLikeAWatch)
+    TEST(TimeLeftText, ReadsLikeAWatch)
     {
-      EXPECT_EQ(duration_text(7.6), "8 s");
-      EXPECT_EQ(duration_text(200), "3 min 20 s");
-      EXPECT_EQ(duration_text(7500), "2 h 5 min");
+      EXPECT_EQ(time_left_text(7.6), "8 s");
+      EXPECT_EQ(time_left_text(200), "3 min 20 s");
+      EXPECT_EQ(time_left_text(7500), "2 h 5 min");
     }
 
     TEST(Progress, PrintsALineForEachRunWhereThereIsNoTerminal)

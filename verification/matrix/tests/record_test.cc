@@ -176,7 +176,7 @@ namespace meltfront::verification
       EXPECT_EQ(sha256("abc"),
                 "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
       const tests::ScratchDirectory directory;
-      write_file(directory.path("text"), "abc");
+      write_atomically(directory.path("text"), "abc");
       EXPECT_EQ(sha256_of_file(directory.path("text")), sha256("abc"));
       EXPECT_THROW(sha256_of_file(directory.path("nothing")), cases::OutputError);
     }
@@ -185,10 +185,10 @@ namespace meltfront::verification
     {
       const tests::ScratchDirectory directory;
       EXPECT_THROW(read_json(directory.path("nothing.json")), cases::OutputError);
-      write_file(directory.path("half.json"), "{\"a\": ");
+      write_atomically(directory.path("half.json"), "{\"a\": ");
       EXPECT_THROW(read_json(directory.path("half.json")), cases::OutputError);
       EXPECT_THROW(load_matrix_result(directory.path()), cases::OutputError);
-      write_file(directory.path("matrix.json"), "{}");
+      write_atomically(directory.path("matrix.json"), "{}");
       EXPECT_THROW(load_matrix_result(directory.path()), cases::OutputError);
     }
   } // namespace

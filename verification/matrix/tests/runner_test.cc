@@ -187,7 +187,7 @@ namespace meltfront::verification
     {
       const Matrix matrix = matrix_of({"good"}, {20});
       run(matrix);
-      write_file(scratch.path("out/runs/x/good/n=20/run.json"), "{\"case\": ");
+      write_atomically(scratch.path("out/runs/x/good/n=20/run.json"), "{\"case\": ");
       EXPECT_TRUE(run(matrix).passed);
       EXPECT_EQ(starts(), 2u);
     }
