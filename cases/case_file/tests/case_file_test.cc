@@ -191,6 +191,18 @@ TEST(CaseFile, AnOracleFromTheInitialStateContinuesTheSimilaritySolution)
   EXPECT_NEAR(c.exact->temperature(0.01, 150), neumann.temperature(0.01, 150), 1e-7);
 }
 
+TEST(CaseFile, SolidGrowsIntoUndercooledLiquid)
+{
+  std::string text = replaced(slab, "set temperature = 10", "set temperature = -50");
+  text = replaced(text, "set kind = fixed temperature\n      set temperature = -10",
+                  "set kind = exact");
+  text = replaced(text, "set kind = insulated", "set kind = exact");
+  const Case c = read(with(text, "subsection Exact solution\n  set kind = frank\nend\n"));
+  EXPECT_NEAR(c.exact->temperature(0.05, 1e-3), -50, 1e-9);
+  EXPECT_EQ(c.exact->temperature(0, 50), 0);
+  EXPECT_GT(c.exact->front(50), 0);
+}
+
 TEST(CaseFile, EveryKeyIsInTheReference)
 {
   const std::string reference = case_file_reference();
