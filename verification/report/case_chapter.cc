@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace meltfront::verification
@@ -47,11 +48,10 @@ namespace meltfront::verification
         caption += " Blue: solid; orange: liquid.";
       if(!record.source_positions.empty())
         caption += " Star: source.";
-      return element("div", {{"class", "wide"}},
-                     context.plots.figure(
-                         record.name + "-scene",
-                         scene_picture_script(record, run ? run : runs.finest(), front),
-                         "The scene of " + record.name, text(caption)));
+      return context.plots.figure(
+          record.name + "-scene",
+          scene_picture_script(record, run ? run : runs.finest(), front),
+          "The scene of " + record.name, text(caption));
     }
 
     Markup exact_solution(const CaseRecord &record)
@@ -59,7 +59,10 @@ namespace meltfront::verification
       if(record.exact.empty())
         return element("p",
                        "There is no exact solution: errors against one cannot be given.");
-      Markup content = element("p", record.exact);
+      std::string sentence = record.exact + ".";
+      sentence[0]
+          = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+      Markup content = element("p", sentence);
       const double floor = record.measurement.front_floor;
       if(std::isfinite(record.front_exact_end))
         content += element("p", text("Its front at the end: ")
@@ -224,8 +227,9 @@ namespace meltfront::verification
                      + element("h2", record.title.empty() ? record.name : record.title);
     if(!record.description.empty())
       content += element("p", record.description);
-    content += picture(context, runs) + element("h3", "Equations") + equations(record)
-               + folded("Material", material_table(record));
+    content += pair(picture(context, runs),
+                    element("div", element("h3", "Equations") + equations(record)));
+    content += folded("Material", material_table(record));
     if(const Markup effects = effects_of_case(context, runs); !effects.empty())
       content += folded("Effects: on or off, because, share of time, memory", effects);
     content += folded("Schemes and their parameters", parameters(runs))

@@ -18,8 +18,7 @@ namespace meltfront::verification
 
     std::string coordinate_name(const CaseRecord &record)
     {
-      return record.symmetry == "cylindrical" || record.symmetry == "spherical" ? "r"
-                                                                                : "x";
+      return radial_front(record) ? "r" : "x";
     }
 
     /** Indices of at most `most` entries, evenly spread, first and last among them. */
@@ -125,6 +124,12 @@ namespace meltfront::verification
       }
       return plot;
     }
+
+    bool has_several_levels(const CaseRuns &runs)
+    {
+      return std::any_of(runs.labels.begin(), runs.labels.end(),
+                         [](const LabelRuns &label) { return label.levels.size() > 1; });
+    }
   } // namespace
 
   Plot error_against_spacing(const CaseRuns &runs, const MethodStyles &styles)
@@ -134,7 +139,8 @@ namespace meltfront::verification
     const std::string unit = unit_of(*runs.record, "m");
     plot.x.label = with_unit("spacing h", unit);
     plot.y.label = with_unit("front error, RMS", unit);
-    plot.guides = {{1, "h"}, {2, "h"}};
+    if(has_several_levels(runs))
+      plot.guides = {{1, "h"}, {2, "h"}};
     return plot;
   }
 
@@ -144,7 +150,8 @@ namespace meltfront::verification
     plot.description = "Front error against CPU time, " + runs.record->name;
     plot.x.label = "CPU time t (s)";
     plot.y.label = with_unit("front error, RMS", unit_of(*runs.record, "m"));
-    plot.guides = {{-0.5, "t"}, {-1, "t"}};
+    if(has_several_levels(runs))
+      plot.guides = {{-0.5, "t"}, {-1, "t"}};
     return plot;
   }
 
@@ -240,6 +247,7 @@ namespace meltfront::verification
         Curve curve;
         curve.label = label.label;
         curve.style = styles.style(label.label);
+        curve.line = run->description.dimension == 1; // else sites scatter
         add_profile(plot, run->profile.coordinate, run->profile.temperature, curve);
         const RunProfile &profile = run->profile;
         if(!profile.temperature_exact.empty()

@@ -182,6 +182,13 @@ namespace meltfront::verification
     return label.substr(0, label.find('['));
   }
 
+  bool radial_front(const CaseRecord &record)
+  {
+    if(record.symmetry == "none")
+      return !record.exact.empty() && !record.exact.starts_with("planar");
+    return record.symmetry != "planar";
+  }
+
   std::string unit_of(const CaseRecord &record, const std::string &unit)
   {
     return record.units == "SI" ? unit : "";

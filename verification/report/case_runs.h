@@ -80,6 +80,12 @@ namespace meltfront::verification
   /** The method of a label: what stands before the first `[`. */
   std::string method_of(const std::string &label);
 
+  /**
+   * True if the front is a circle or a sphere about the origin: in a cylindrical or
+   * spherical scene, and in one without symmetry whose exact solution is not planar.
+   */
+  bool radial_front(const CaseRecord &record);
+
   /** A unit, or nothing for a case in normalised quantities. */
   std::string unit_of(const CaseRecord &record, const std::string &unit);
 } // namespace meltfront::verification

@@ -86,11 +86,21 @@ namespace meltfront::verification
       double best; ///< NaN: nothing is marked
     };
 
+    /** True if a criterion or a printed value of the case names the quantity. */
+    bool asked_for(const CaseRuns &runs, const Quantity &quantity)
+    {
+      const auto names_it
+          = [&quantity](const auto &entry) { return entry.quantity == quantity.name; };
+      const CaseRecord &record = *runs.record;
+      return std::any_of(record.criteria.begin(), record.criteria.end(), names_it)
+             || std::any_of(record.printed.begin(), record.printed.end(), names_it);
+    }
+
     std::vector<FilledColumn> filled_columns(const CaseRuns &runs)
     {
       std::vector<FilledColumn> columns;
       for(const Quantity &quantity : table_quantities())
-        if(runs.has(quantity.name))
+        if(runs.has(quantity.name) && (!quantity.special || asked_for(runs, quantity)))
         {
           const auto values = column_values(runs, quantity.name);
           columns.push_back({quantity, column_notation(values),
@@ -161,8 +171,11 @@ namespace meltfront::verification
              + (level.runs.size() > 1 ? fmt::format(" (mean of {})", level.finished_count)
                                       : "")});
       }
-      if(label.finest())
-        group.summary.push_back(order_row(label, columns));
+      const auto orders = order_row(label, columns);
+      if(std::any_of(orders.begin(), orders.end(),
+                     [](const Cell &cell)
+                     { return std::holds_alternative<Power>(cell.content); }))
+        group.summary.push_back(orders);
     }
     return table;
   }
@@ -171,7 +184,8 @@ namespace meltfront::verification
   {
     std::vector<Quantity> quantities;
     for(const Quantity &quantity : table_quantities())
-      if(quantity.error && runs.has(quantity.name))
+      if(quantity.error && runs.has(quantity.name)
+         && (!quantity.special || asked_for(runs, quantity)))
         quantities.push_back(quantity);
     Table table;
     table.group_heading = "method";

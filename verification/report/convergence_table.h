@@ -18,7 +18,7 @@ namespace meltfront::verification
     std::string unit;
     bool error = false;   ///< it has an order, and its least value is the best
     bool whole = false;   ///< a count
-    bool special = false; ///< not of every case; stands last in the CSV
+    bool special = false; ///< in the table only if the case asks for it; last in the CSV
   };
 
   /** The columns of convergence tables in their order, with units of SI. */

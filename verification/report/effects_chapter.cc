@@ -63,6 +63,15 @@ namespace meltfront::verification
       return name;
     }
 
+    /** True for a method as it is; for variants only where there is nothing else. */
+    bool plain_label(const CaseRuns &runs, const LabelRuns &label)
+    {
+      const auto is_plain = [](const LabelRuns &candidate)
+      { return candidate.label.find('[') == std::string::npos; };
+      return is_plain(label)
+             || std::none_of(runs.labels.begin(), runs.labels.end(), is_plain);
+    }
+
     Markup effect_cell(const CaseRuns &runs, const cases::EffectDecision *decision)
     {
       if(!decision)
@@ -72,9 +81,9 @@ namespace meltfront::verification
                        text("off"));
       Markup content = badge("good", "on");
       for(const LabelRuns &label : runs.labels)
-        if(const RunRecord *run = label.finest())
+        if(const RunRecord *run = label.finest(); run && plain_label(runs, label))
           if(const cases::EffectCost *cost = cost_of(*run, decision->effect))
-            content += element("div", {{"class", "off"}},
+            content += element("div", {{"class", "share"}},
                                text(percent(share_of_time(*run, *cost)) + " ")
                                    + text(label.label));
       return element("td", {{"title", decision->reason}}, content);

@@ -167,9 +167,9 @@ namespace meltfront::verification
     {
       group.rows.push_back({{name},
                             {unit_of(record, unit)},
-                            {number_text(of_solid, 4)},
-                            {number_text(of_liquid, 4)},
-                            {number_text(of_solid / of_liquid, 3)}});
+                            {prose_number(of_solid, 4)},
+                            {prose_number(of_liquid, 4)},
+                            {prose_number(of_solid / of_liquid)}});
     };
     add("conductivity k", "W/(m K)", solid.conductivity, liquid.conductivity);
     add("heat capacity c", "J/(kg K)", solid.specific_heat_capacity,
@@ -178,7 +178,7 @@ namespace meltfront::verification
     add("diffusivity k/(ρc)", "m²/s", solid.diffusivity(), liquid.diffusivity());
     group.rows.push_back({{std::string("latent heat L")},
                           {unit_of(record, "J/kg")},
-                          {number_text(record.material.latent_heat, 4)},
+                          {prose_number(record.material.latent_heat, 6)},
                           {std::string()},
                           {std::string()}});
     return table_markup(table);

@@ -35,6 +35,7 @@ namespace meltfront::verification
           = {{plot_colours::axis, "var(--axis)"},
              {plot_colours::grid, "var(--grid)"},
              {plot_colours::guide, "var(--guide)"},
+             {"#000000", "currentColor"},
              {plot_colours::solid, "var(--solid)"},
              {plot_colours::liquid, "var(--liquid)"},
              {plot_colours::solid_area, "var(--solid-area)"},

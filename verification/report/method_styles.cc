@@ -46,6 +46,20 @@ namespace meltfront::verification
     }
   } // namespace
 
+  namespace
+  {
+    /** The method, and the options of a variant as an element of their own. */
+    Markup label_text(const std::string &label)
+    {
+      const std::size_t bracket = label.find('[');
+      if(bracket == std::string::npos)
+        return text(label);
+      return element("span", text(label.substr(0, bracket))
+                                 + element("span", {{"class", "options"}},
+                                           text(label.substr(bracket))));
+    }
+  } // namespace
+
   const std::array<Colour, 7> &palette()
   {
     static const std::array<Colour, 7> colours{{{"#0072b2", "#58b4ec"},
@@ -119,7 +133,7 @@ namespace meltfront::verification
                             {"height", "12"},
                             {"aria-hidden", "true"}},
                            stroke + marker_shape(line, colour))
-                       + text(label));
+                       + label_text(label));
   }
 
   Markup MethodStyles::legend(const std::vector<std::string> &labels) const

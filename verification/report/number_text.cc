@@ -9,11 +9,6 @@ namespace meltfront::verification
 {
   namespace
   {
-    std::string with_minus_sign(const std::string &digits)
-    {
-      return !digits.empty() && digits[0] == '-' ? "\u2212" + digits.substr(1) : digits;
-    }
-
     NumberText scientific(double value, int significant_digits)
     {
       const std::string written = fmt::format("{:.{}e}", value, significant_digits - 1);
@@ -31,6 +26,11 @@ namespace meltfront::verification
     }
   } // namespace
 
+  std::string with_minus_sign(const std::string &digits)
+  {
+    return !digits.empty() && digits[0] == '-' ? "\u2212" + digits.substr(1) : digits;
+  }
+
   std::string NumberText::plain() const
   {
     if(digits.empty())
@@ -42,11 +42,10 @@ namespace meltfront::verification
   {
     if(digits.empty())
       return text("\u2013");
-    Markup result = text(with_minus_sign(digits));
-    if(!exponent.empty())
-      result += element("i", {{"class", "times"}}, text("\u00b710"))
-                + element("sup", with_minus_sign(exponent));
-    return result;
+    if(exponent.empty())
+      return text(with_minus_sign(digits));
+    const Markup power = text("10") + element("sup", with_minus_sign(exponent));
+    return digits == "1" ? power : text(with_minus_sign(digits) + "\u00b7") + power;
   }
 
   std::string NumberText::tex() const
@@ -93,14 +92,29 @@ namespace meltfront::verification
     return plain ? Notation::plain : Notation::scientific;
   }
 
+  NumberText prose_number(double value, int significant_digits)
+  {
+    const double size = std::abs(value);
+    const bool plain = size >= 1e-3 && size < 1e7;
+    NumberText number = number_text(value, significant_digits,
+                                    plain ? Notation::plain : Notation::scientific);
+    if(number.digits.find('.') != std::string::npos)
+    {
+      number.digits.erase(number.digits.find_last_not_of('0') + 1);
+      if(number.digits.ends_with('.'))
+        number.digits.pop_back();
+    }
+    return number;
+  }
+
   std::string plain_number(double value, int significant_digits)
   {
-    return number_text(value, significant_digits).plain();
+    return prose_number(value, significant_digits).plain();
   }
 
   Markup number_markup(double value, int significant_digits)
   {
-    return number_text(value, significant_digits).markup();
+    return prose_number(value, significant_digits).markup();
   }
 
   std::string duration_text(double seconds)
@@ -108,9 +122,9 @@ namespace meltfront::verification
     if(!std::isfinite(seconds))
       return "n/a";
     if(seconds < 0.0995)
-      return fmt::format("{} ms", plain_number(1e3 * seconds, 2));
+      return number_text(1e3 * seconds, 2, Notation::plain).plain() + " ms";
     if(seconds < 59.5)
-      return fmt::format("{} s", plain_number(seconds, 2));
+      return number_text(seconds, 2, Notation::plain).plain() + " s";
     const long whole = std::lround(seconds);
     if(whole < 3600)
       return fmt::format("{} min {} s", whole / 60, whole % 60);

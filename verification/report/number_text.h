@@ -37,13 +37,20 @@ namespace meltfront::verification
   NumberText number_text(double value, int significant_digits = 3,
                          Notation notation = Notation::automatic);
 
+  /** Digits with a minus sign instead of a hyphen. */
+  std::string with_minus_sign(const std::string &digits);
+
   /** A whole number, in groups of three digits from 10 000 on (thin spaces). */
   std::string grouped(long value);
 
   /** The notation that suits all finite values of a column. */
   Notation column_notation(const std::vector<double> &values);
 
-  /** number_text(...).plain() and .markup() of a value in automatic notation. */
+  /** A number of running text: plain between 0.001 and ten million, without zeros at the
+   * end. */
+  NumberText prose_number(double value, int significant_digits = 3);
+
+  /** The same as plain text and as markup. */
   std::string plain_number(double value, int significant_digits = 3);
   Markup number_markup(double value, int significant_digits = 3);
 

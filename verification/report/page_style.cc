@@ -82,14 +82,16 @@ table{border-collapse:collapse;font-size:.86rem;line-height:1.4;font-variant-num
 caption{text-align:left;color:var(--muted);padding:0 0 .4rem;font-size:.86rem}
 th,td{padding:.27rem .72rem;text-align:left;vertical-align:baseline}
 th:first-child,td:first-child{padding-left:.1rem}
-thead th{font-weight:600;vertical-align:bottom;border-bottom:1.5px solid var(--ink);line-height:1.25;
- max-width:9.5em}
+thead th{font-weight:600;vertical-align:bottom;border-bottom:1.5px solid var(--ink);line-height:1.25}
+th.number{max-width:9.5em;white-space:normal}
+a.case{white-space:nowrap}
+thead .options{display:block;font-weight:400;color:var(--muted)}
+.share{color:var(--muted);white-space:nowrap}
 .unit{display:block;font-weight:400;color:var(--muted);font-size:.93em}
 tbody+tbody tr:first-child>*{border-top:1px solid var(--line)}
 table:last-child tbody:last-child tr:last-child>*{border-bottom:1px solid var(--line)}
 .number{text-align:right;white-space:nowrap}
 td sup,td sub,.equation sup,.equation sub{line-height:0;font-size:.76em}
-.times{font-style:normal}
 .group th{font-weight:620;padding-top:.7rem;text-align:left}
 .group th>span{position:sticky;left:.1rem}
 .summary td{border-top:1px dotted var(--line);color:var(--muted);white-space:nowrap}
@@ -105,15 +107,17 @@ figcaption{color:var(--muted);font-size:.84rem;line-height:1.45;max-width:70ch;m
 .plot{overflow-x:auto}
 .plot svg{display:block;width:100%;height:auto;max-width:720px;color:var(--ink);
  font-family:system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
+.plot text{stroke:var(--page);stroke-width:3px;stroke-linejoin:round;paint-order:stroke}
+.pair h3:first-child{margin-top:.6rem}
 .pair{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:1.2rem 2rem;align-items:start}
 .multiples{display:grid;grid-template-columns:repeat(auto-fill,minmax(250px,1fr));gap:.6rem 1rem}
 .multiples figure{margin:0}
 .nothing{color:var(--muted);font-size:.88rem}
 .equations{overflow-x:auto;padding:.4rem 0}
-.equation{display:flex;align-items:center;gap:1rem;min-height:3.1rem;white-space:nowrap;
+.equation{display:flex;align-items:baseline;gap:1rem;margin:.55rem 0 .9rem;white-space:nowrap;
  font-family:"STIX Two Text","Cambria Math",Cambria,Georgia,"Times New Roman",serif;font-size:1.1rem}
 .equation .where{font:600 .84rem system-ui,-apple-system,"Segoe UI",sans-serif;color:var(--muted);flex:0 0 3.6rem}
-.filled{margin-left:1.3rem;padding-left:1.3rem;border-left:1px solid var(--line)}
+.filled{display:block;margin-top:.3rem;color:var(--muted)}
 .fraction{display:inline-flex;flex-direction:column;vertical-align:middle;text-align:center;line-height:1.2;
  font-size:.92em;margin:0 .1em}
 .fraction>span:first-child{border-bottom:1px solid currentColor;padding:0 .18em .04em}
@@ -133,8 +137,7 @@ ul,ol{padding-left:1.25rem;max-width:82ch} li{margin:.22rem 0}
  main,nav div{padding-left:16px;padding-right:16px}
  h1{font-size:1.62rem} h2{font-size:1.28rem}
  .pair{grid-template-columns:minmax(0,1fr)}
- .pair .plot svg,.wide .plot svg{min-width:460px}
- .filled{margin-left:.9rem;padding-left:.9rem}
+ .pair .plot svg{min-width:460px}
 }
 @media print{
  nav{display:none} body{font-size:10.5pt} main{max-width:none;padding:0}

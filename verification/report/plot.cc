@@ -58,23 +58,28 @@ namespace meltfront::verification
         fmt::format_to(out, "set logscale {}\nset {}tics ({})\n", name, name,
                        logarithmic_tics(axis.lower, axis.upper, small));
       else
-        fmt::format_to(out, "set format {} '%g'\n", name);
+        fmt::format_to(out, "set format {0} '%g'\nset {0}tics {1:.6g}\n", name,
+                       linear_step(axis.lower, axis.upper, name == 'x' ? 5 : 6));
     }
 
-    void write_guides(Script out, const Plot &plot)
+    void write_guides(Script out, const Plot &plot, const Canvas &canvas)
     {
-      for(const Guide &guide : plot.guides)
+      const std::vector<GuideLine> lines = guide_lines(plot, canvas);
+      for(std::size_t g = 0; g < lines.size(); ++g)
       {
-        const GuideLine line = guide_line(plot, guide);
+        const GuideLine &line = lines[g];
         fmt::format_to(
             out,
             "set arrow from {:.8g},{:.8g} to {:.8g},{:.8g} nohead back lw 1 lc "
-            "rgb '{}'\n"
-            "set label '{}^{{{:g}}}' at {:.8g},{:.8g} {} offset {:.1f},{:.1f} tc "
             "rgb '{}'\n",
-            line.x0, line.y0, line.x1, line.y1, plot_colours::guide, guide.base,
-            guide.exponent, line.x1, line.y1, line.left ? "left" : "right", line.offset_x,
-            line.offset_y, plot_colours::axis);
+            line.x0, line.y0, line.x1, line.y1, plot_colours::guide);
+        if(line.label_x > 0)
+          fmt::format_to(out,
+                         "set label '{}^{{{:g}}}' at screen {:.5f},{:.5f} center tc rgb "
+                         "'{}'\n",
+                         plot.guides[g].base, plot.guides[g].exponent,
+                         line.label_x / canvas.width, 1 - line.label_y / canvas.height,
+                         plot_colours::axis);
       }
     }
 
@@ -162,8 +167,8 @@ namespace meltfront::verification
       command += fmt::format(" lc rgb '{}' notitle", colour);
       if(!curve.spread.empty())
         command
-            += fmt::format(", $data{} using 1:2:3:4 with yerrorbars pt 0 lw 1.4 lc rgb "
-                           "'{}' notitle",
+            += fmt::format(", $data{} using 1:3:(0):($4-$3) with vectors nohead lw 1.4 "
+                           "lc rgb '{}' notitle",
                            c, colour);
       return command;
     }
@@ -188,7 +193,7 @@ namespace meltfront::verification
     write_frame(out, plot, canvas);
     write_axis(out, 'x', plot.x, plot.small);
     write_axis(out, 'y', plot.y, plot.small);
-    write_guides(out, plot);
+    write_guides(out, plot, canvas);
     if(!plot.small)
       write_end_labels(out, plot, canvas);
     write_failed(out, plot);

@@ -80,36 +80,6 @@ namespace meltfront::verification
     choose_range(plot.y, y, plot.failed.empty() ? 0.08 : 0.12);
   }
 
-  GuideLine guide_line(const Plot &plot, const Guide &guide)
-  {
-    Extent x, y;
-    for(const Curve &curve : plot.curves)
-      for(std::size_t i = 0; i < curve.x.size(); ++i)
-        if(curve.x[i] > 0 && curve.y[i] > 0)
-        {
-          x.include(curve.x[i], true);
-          y.include(curve.y[i], true);
-        }
-    const bool rising = guide.exponent > 0;
-    GuideLine line{};
-    line.x0 = std::clamp(rising ? x.upper : x.lower, plot.x.lower, plot.x.upper);
-    line.y0 = std::clamp(y.upper, plot.y.lower, plot.y.upper);
-    line.x1 = rising ? plot.x.lower : plot.x.upper;
-    line.y1 = line.y0 * std::pow(line.x1 / line.x0, guide.exponent);
-    const bool leaves_below = line.y1 < plot.y.lower;
-    if(leaves_below)
-    {
-      line.y1 = plot.y.lower;
-      line.x1 = line.x0 * std::pow(line.y1 / line.y0, 1 / guide.exponent);
-    }
-    // Below the line, where it leaves room: a rising one at its left end, a falling one
-    // at its right end.
-    line.left = rising;
-    line.offset_x = (rising ? 1 : -1) * (leaves_below ? 1.1 : 0.5);
-    line.offset_y = leaves_below ? 0.6 : -0.7;
-    return line;
-  }
-
   std::vector<double> spread_apart(const std::vector<double> &wanted, double gap,
                                    double lower, double upper)
   {
@@ -185,6 +155,16 @@ namespace meltfront::verification
     return labels;
   }
 
+  double linear_step(double lower, double upper, int most)
+  {
+    const double least = (upper - lower) / most;
+    const double power = std::pow(10, std::floor(std::log10(least)));
+    for(const double digit : {1., 2., 5.})
+      if(digit * power >= least * (1 - 1e-9))
+        return digit * power;
+    return 10 * power;
+  }
+
   std::string logarithmic_tics(double lower, double upper, bool small)
   {
     const int first = static_cast<int>(std::floor(std::log10(lower)));
@@ -206,7 +186,7 @@ namespace meltfront::verification
       add(labelled ? fmt::format("10^{{{}}}", decade) : "", power, labelled ? 0 : 1);
       for(int digit = 2; digit <= 9 && every == 1; ++digit)
       {
-        const bool named = (digit == 2 || digit == 5) && decades < 1.4;
+        const bool named = (digit == 2 || digit == 5) && decades < (small ? 1.2 : 2);
         add(named ? fmt::format("{}·10^{{{}}}", digit, decade) : "", digit * power,
             named ? 0 : 1);
       }
@@ -216,13 +196,14 @@ namespace meltfront::verification
 
   std::string shortened(const std::string &utf8, std::size_t length)
   {
-    std::size_t characters = 0;
+    std::vector<std::size_t> begins;
     for(std::size_t i = 0; i < utf8.size(); ++i)
-    {
-      const bool begins = (static_cast<unsigned char>(utf8[i]) & 0xc0) != 0x80;
-      if(begins && ++characters == length && i + 1 < utf8.size())
-        return utf8.substr(0, i) + "…";
-    }
-    return utf8;
+      if((static_cast<unsigned char>(utf8[i]) & 0xc0) != 0x80)
+        begins.push_back(i);
+    if(begins.size() <= length || length < 2)
+      return utf8;
+    if(utf8.ends_with("]"))
+      return "…" + utf8.substr(begins[begins.size() - length + 1]);
+    return utf8.substr(0, begins[length - 1]) + "…";
   }
 } // namespace meltfront::verification

@@ -72,6 +72,18 @@ namespace meltfront::verification
       return order_cell(fit, "n");
     }
 
+    /** As many significant digits as the paper prints, at least three. */
+    int printed_digits(const std::vector<double> &printed)
+    {
+      constexpr int least = 3, most = 8;
+      int digits = least;
+      for(const double value : printed)
+        while(digits < most
+              && std::stod(fmt::format("{:.{}e}", value, digits - 1)) != value)
+          ++digits;
+      return digits;
+    }
+
     NumberText signed_percent(double value)
     {
       return std::isfinite(value) ? NumberText{fmt::format("{:+.1f}", value), {}}
@@ -95,11 +107,12 @@ namespace meltfront::verification
       auto both = series.printed;
       both.insert(both.end(), series.measured.begin(), series.measured.end());
       const Notation notation = column_notation(both);
+      const int digits = printed_digits(series.printed);
       for(std::size_t i = 0; i < series.n.size(); ++i)
         group.rows.push_back(
             {{NumberText{std::to_string(series.n[i]), {}}},
-             {number_text(series.printed[i], 3, notation)},
-             {number_text(series.measured[i], 3, notation)},
+             {number_text(series.printed[i], digits, notation)},
+             {number_text(series.measured[i], digits, notation)},
              {signed_percent(deviation(series.measured[i], series.printed[i]))}});
       if(series.n.size() > 1)
         group.summary.push_back({{std::string("order")},

@@ -209,23 +209,6 @@ namespace meltfront::verification
       fmt::format_to(out, "end_of_data\n");
     }
 
-    enum class FrontShape
-    {
-      plane,  ///< across x
-      circle, ///< about the origin
-      unknown
-    };
-
-    /** A scene without symmetry has that of its exact solution, whose front is given. */
-    FrontShape front_shape(const CaseRecord &record)
-    {
-      if(record.symmetry == "planar" || record.exact.starts_with("planar"))
-        return FrontShape::plane;
-      const bool radial
-          = record.symmetry == "cylindrical" || record.symmetry == "spherical";
-      return radial || !record.exact.empty() ? FrontShape::circle : FrontShape::unknown;
-    }
-
     /** The phases as areas on either side of the front. */
     void write_areas(Script out, const CaseRecord &record, const RunRecord *run,
                      double front)
@@ -247,15 +230,14 @@ namespace meltfront::verification
                        "set object rectangle from graph 0,0 to graph 1,1 fs solid "
                        "noborder fc rgb '{}' behind\n",
                        outer);
-      const FrontShape shape = front_shape(record);
       if(!std::isfinite(front))
         return;
-      if(shape == FrontShape::circle)
+      if(radial_front(record))
         fmt::format_to(out,
                        "set object circle at 0,0 size {:.8g} fs solid noborder fc rgb "
                        "'{}' behind\n",
                        front, inner);
-      else if(shape == FrontShape::plane)
+      else
         fmt::format_to(out,
                        "set object rectangle from graph 0,0 to {:.8g},graph 1 fs solid "
                        "noborder fc rgb '{}' behind\n",
@@ -296,10 +278,7 @@ namespace meltfront::verification
                             double front)
     {
       const std::string look = " with lines lw 2.4 lc rgb 'black'";
-      const FrontShape shape = front_shape(record);
-      if(shape == FrontShape::unknown)
-        return {};
-      if(shape == FrontShape::plane)
+      if(!radial_front(record))
       {
         fmt::format_to(out,
                        "$front << end_of_data\n{0:.8g} {1:.8g}\n{0:.8g} "
@@ -342,6 +321,8 @@ namespace meltfront::verification
   std::string scene_picture_script(const CaseRecord &record, const RunRecord *run,
                                    double front)
   {
+    if(record.symmetry == "none" && record.exact.empty())
+      front = std::nan(""); // its shape is not known
     const Frame frame = frame_of(record, run);
     std::string script;
     const Script out = std::back_inserter(script);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace meltfront::verification
 {
@@ -52,6 +53,17 @@ namespace meltfront::verification
       return list;
     }
 
+    std::string resolutions(const std::vector<const StabilityVerdict *> &verdicts)
+    {
+      std::set<int> distinct_n;
+      for(const StabilityVerdict *verdict : verdicts)
+        distinct_n.insert(verdict->n);
+      std::string list;
+      for(const int n : distinct_n)
+        list += fmt::format("{}{}", list.empty() ? "" : ", ", n);
+      return list;
+    }
+
     /** The verdicts of one case and label: one badge per verdict, with its resolutions.
      */
     Markup verdict_cell(const std::vector<StabilityVerdict> &verdicts,
@@ -59,27 +71,23 @@ namespace meltfront::verification
                         Footnotes &footnotes)
     {
       std::map<std::string, std::vector<const StabilityVerdict *>> by_verdict;
-      std::size_t count = 0;
+      std::set<int> all_n;
       for(const StabilityVerdict &verdict : verdicts)
         if(verdict.case_name == case_name && verdict.label == label)
         {
           by_verdict[verdict.verdict].push_back(&verdict);
-          ++count;
+          all_n.insert(verdict.n);
         }
-      if(count == 0)
-        return element("td", {{"class", "off"}}, text("not in the matrix"));
+      if(all_n.empty())
+        return element("td", {{"class", "off"}}, text("\u2013"));
       Markup content;
       for(const auto &[verdict, members] : by_verdict)
       {
         std::string words = verdict;
-        if(count > 1)
-        {
-          std::string resolutions;
-          for(const StabilityVerdict *member : members)
-            resolutions
-                += fmt::format("{}{}", resolutions.empty() ? "" : ", ", member->n);
-          words += " (n = " + resolutions + ")";
-        }
+        if(all_n.size() > 1)
+          words += " (n = " + resolutions(members) + ")";
+        else if(members.size() > 1)
+          words += fmt::format(" ({} runs)", members.size());
         content += badge(kind_of(verdict), words);
         std::vector<int> numbers;
         for(const StabilityVerdict *member : members)
@@ -106,14 +114,15 @@ namespace meltfront::verification
         refused += verdict.verdict == "refused";
         failed += verdict.verdict != "held" && verdict.verdict != "refused";
       }
-      return element("p",
-                     text(fmt::format("Of {} runs ", verdicts.size()))
-                         + element("b", fmt::format("{} held", held))
-                         + text(fmt::format(", {} were refused with a reason, {} failed. "
-                                            "A run that held is finite, within the "
-                                            "maximum principle, closes its heat budget "
-                                            "and moves its front only as physics says.",
-                                            refused, failed)));
+      return element("p", text(fmt::format("Of {} runs ", verdicts.size()))
+                              + element("b", fmt::format("{} held", held))
+                              + text(fmt::format(
+                                  ", {} were refused with a reason, {} failed. "
+                                  "A run that held is finite, within the "
+                                  "maximum principle, closes its heat budget "
+                                  "and moves its front only as physics says. A dash: the "
+                                  "matrix has no such run.",
+                                  refused, failed)));
     }
   } // namespace
 

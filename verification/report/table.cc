@@ -74,7 +74,8 @@ namespace meltfront::verification
 
     Markup power_markup(const Power &power)
     {
-      Markup result = element("i", power.base) + element("sup", power.exponent);
+      Markup result
+          = element("i", power.base) + element("sup", with_minus_sign(power.exponent));
       if(!power.error.empty())
         result += text(" \u00b1 " + power.error);
       if(!power.remark.empty())

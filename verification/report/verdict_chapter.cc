@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace meltfront::verification
 {
@@ -24,7 +25,9 @@ namespace meltfront::verification
 
   Markup case_link(const std::string &name)
   {
-    return element("a", {{"href", fmt::format("#{}", case_anchor(name))}}, text(name));
+    return element("a",
+                   {{"href", fmt::format("#{}", case_anchor(name))}, {"class", "case"}},
+                   text(name));
   }
 
   Markup badge(const std::string &kind, const std::string &words)
@@ -65,6 +68,8 @@ namespace meltfront::verification
       const auto held = std::count_if(result.criteria.begin(), result.criteria.end(),
                                       [](const CriterionResult &c) { return c.passed; });
       const auto all = static_cast<long>(result.criteria.size());
+      if(all == 0 && !result.stability.empty())
+        return {};
       const std::string words
           = all == 0 ? "No acceptance criterion was set"
             : held == all
@@ -92,13 +97,14 @@ namespace meltfront::verification
                      text(words));
     }
 
-    Markup facts(const ReportContext &context)
+    Markup facts(const MatrixResult &result)
     {
-      const MatrixResult &result = context.result;
       int finished = 0, refused = 0, failed = 0;
       double cpu = 0;
+      std::set<std::string> methods;
       for(const RunRecord &run : result.runs)
       {
+        methods.insert(run.method);
         finished += run.status == RunStatus::finished;
         refused += run.status == RunStatus::refused;
         failed += run.status == RunStatus::failed;
@@ -109,7 +115,7 @@ namespace meltfront::verification
       const auto add = [&list](const std::string &what, const std::string &value)
       { list += element("div", element("dt", what) + element("dd", value)); };
       add("cases", std::to_string(result.cases.size()));
-      add("methods", std::to_string(context.labels().size()));
+      add("methods", std::to_string(methods.size()));
       add("runs finished", std::to_string(finished));
       add("refused", std::to_string(refused));
       add("failed", std::to_string(failed));
@@ -176,7 +182,7 @@ namespace meltfront::verification
           + verdict_line(result) + text(" ") + stability_line(result.stability);
     if(!result.description.empty())
       content += element("p", {{"class", "lead"}}, text(result.description));
-    content += facts(context);
+    content += facts(result);
     std::vector<CriterionResult> failed;
     std::copy_if(result.criteria.begin(), result.criteria.end(),
                  std::back_inserter(failed),
