@@ -16,67 +16,32 @@ namespace meltfront::verification
     constexpr double melting_tolerance = 1e-10;
     constexpr double lost_quarter = 0.25;
 
-    struct Profile
-    {
-      std::vector<double> coordinate, excess;
-    };
-
-    /** One entry per site, ascending. */
-    Profile
-    sorted_sites(const std::vector<double> &coordinate,
-                 std::span<const double> temperature, double melting_temperature)
+    /** isotherm_crossing() of sites of which each is a point of the profile. */
+    double crossing_of_sites(const std::vector<double> &coordinate,
+                             std::span<const double> temperature,
+                             double melting_temperature)
     {
       std::vector<std::size_t> order(coordinate.size());
       std::iota(order.begin(), order.end(), 0);
       if(!std::ranges::is_sorted(coordinate))
         std::ranges::stable_sort(order, {}, [&](std::size_t i) { return coordinate[i]; });
-      Profile profile;
+      std::vector<double> sorted, excess;
       for(const std::size_t i : order)
       {
-        profile.coordinate.push_back(coordinate[i]);
-        profile.excess.push_back(temperature[i] - melting_temperature);
+        sorted.push_back(coordinate[i]);
+        excess.push_back(temperature[i] - melting_temperature);
       }
-      return profile;
+      return isotherm_crossing(sorted, excess);
     }
 
-    /** One entry per shell: the mean of its sites. Shells are centred on multiples of
-     * their width from the first site, so that the rows of a lattice fall into one each.
-     */
-    Profile
-    shells(const std::vector<double> &coordinate, std::span<const double> temperature,
-           double melting_temperature, double width)
-    {
-      const auto [first, last] = std::ranges::minmax(coordinate);
-      const auto count = static_cast<std::size_t>(std::round((last - first) / width)) + 1;
-      Profile sum{std::vector<double>(count), std::vector<double>(count)};
-      std::vector<int> sites(count);
-      for(std::size_t i = 0; i < coordinate.size(); ++i)
-      {
-        const auto shell
-            = static_cast<std::size_t>(std::round((coordinate[i] - first) / width));
-        sum.coordinate[shell] += coordinate[i];
-        sum.excess[shell] += temperature[i] - melting_temperature;
-        ++sites[shell];
-      }
-      Profile profile;
-      for(std::size_t s = 0; s < count; ++s)
-        if(sites[s] > 0)
-        {
-          profile.coordinate.push_back(sum.coordinate[s] / sites[s]);
-          profile.excess.push_back(sum.excess[s] / sites[s]);
-        }
-      return profile;
-    }
-
-    int
-    sign(double value, double tolerance)
+    int sign(double value, double tolerance)
     {
       return value > tolerance ? 1 : value < -tolerance ? -1 : 0;
     }
   } // namespace
 
-  cases::Symmetry
-  measured_symmetry(const cases::Scene &scene, const cases::ExactSolution *exact)
+  cases::Symmetry measured_symmetry(const cases::Scene &scene,
+                                    const cases::ExactSolution *exact)
   {
     if(exact)
       return exact->symmetry();
@@ -93,8 +58,7 @@ namespace meltfront::verification
     }
   }
 
-  bool
-  solid_holds_origin(const cases::Scene &scene, const cases::ExactSolution *exact)
+  bool solid_holds_origin(const cases::Scene &scene, const cases::ExactSolution *exact)
   {
     if(exact)
       return exact->solid_at_origin();
@@ -119,8 +83,8 @@ namespace meltfront::verification
     return scene.initial.temperature(start, scene.start_time) <= melting;
   }
 
-  double
-  isotherm_crossing(std::span<const double> coordinate, std::span<const double> excess)
+  double isotherm_crossing(std::span<const double> coordinate,
+                           std::span<const double> excess)
   {
     double scale = 0;
     for(const double value : excess)
@@ -152,10 +116,12 @@ namespace meltfront::verification
 
   FrontReader::FrontReader(const cases::Scene &scene, const cases::ExactSolution *exact,
                            double spacing, double smoothing_length)
-      : symmetry(measured_symmetry(scene, exact)),
-        solid_at_origin(solid_holds_origin(scene, exact)),
-        melting_temperature(scene.material.melting_temperature), spacing(spacing),
-        smoothing_length(smoothing_length), site_coordinates(symmetry)
+    : symmetry(measured_symmetry(scene, exact))
+    , solid_at_origin(solid_holds_origin(scene, exact))
+    , melting_temperature(scene.material.melting_temperature)
+    , spacing(spacing)
+    , smoothing_length(smoothing_length)
+    , site_coordinates(symmetry)
   {
     if(symmetry != cases::Symmetry::planar)
       return;
@@ -165,14 +131,12 @@ namespace meltfront::verification
         cross_section *= scene.domain.upper[d] - scene.domain.lower[d];
   }
 
-  const std::vector<double> &
-  FrontReader::coordinates(const cases::Snapshot &snapshot)
+  const std::vector<double> &FrontReader::coordinates(const cases::Snapshot &snapshot)
   {
     return site_coordinates.of(snapshot);
   }
 
-  double
-  FrontReader::by_latent_heat(const cases::Snapshot &snapshot) const
+  double FrontReader::by_latent_heat(const cases::Snapshot &snapshot) const
   {
     double volume = 0;
     for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
@@ -182,23 +146,58 @@ namespace meltfront::verification
     return origin + cases::enclosing_coordinate(symmetry, volume / cross_section);
   }
 
-  double
-  FrontReader::by_isotherm(const cases::Snapshot &snapshot,
-                           const std::vector<double> &coordinate) const
+  Shells::Shells(const std::vector<double> &coordinates, double width)
+  {
+    const auto [first, last] = std::ranges::minmax(coordinates);
+    const auto shell = [width, start = first](double c)
+    { return static_cast<std::size_t>(std::round((c - start) / width)); };
+    std::vector<int> count(shell(last) + 1);
+    for(const double c : coordinates)
+      ++count[shell(c)];
+    std::vector<std::uint32_t> number(count.size());
+    for(std::size_t s = 0; s < count.size(); ++s)
+    {
+      number[s] = static_cast<std::uint32_t>(sites.size());
+      if(count[s] > 0)
+        sites.push_back(count[s]);
+    }
+    shell_of_site.reserve(coordinates.size());
+    for(const double c : coordinates)
+      shell_of_site.push_back(number[shell(c)]);
+    coordinate = means(coordinates);
+  }
+
+  std::vector<double> Shells::means(std::span<const double> values) const
+  {
+    std::vector<double> result(sites.size());
+    for(std::size_t i = 0; i < values.size(); ++i)
+      result[shell_of_site[i]] += values[i];
+    for(std::size_t s = 0; s < sites.size(); ++s)
+      result[s] /= sites[s];
+    return result;
+  }
+
+  double FrontReader::by_isotherm(const cases::Snapshot &snapshot,
+                                  const std::vector<double> &coordinate)
   {
     if(coordinate.empty())
       return nan;
-    const Profile profile
-        = snapshot.dimension > 1 && spacing > 0
-              ? shells(coordinate, snapshot.temperature, melting_temperature, spacing)
-              : sorted_sites(coordinate, snapshot.temperature, melting_temperature);
-    return isotherm_crossing(profile.coordinate, profile.excess);
+    if(snapshot.dimension == 1 || spacing <= 0)
+      return crossing_of_sites(coordinate, snapshot.temperature, melting_temperature);
+    if(!shells || shells_version != site_coordinates.version())
+    {
+      shells.emplace(coordinate, spacing);
+      shells_version = site_coordinates.version();
+    }
+    std::vector<double> excess = shells->means(snapshot.temperature);
+    for(double &value : excess)
+      value -= melting_temperature;
+    return isotherm_crossing(shells->coordinate, excess);
   }
 
-  void
-  FrontReader::read_extreme_sites(const cases::Snapshot &snapshot,
-                                  const std::vector<double> &coordinate,
-                                  FrontReading &reading) const
+  void FrontReader::read_extreme_sites(const cases::Snapshot &snapshot,
+                                       const std::vector<double> &coordinate,
+                                       FrontReading &reading) const
   {
     reading.max_ice = reading.heat_loss = nan;
     if(!solid_at_origin)
@@ -215,8 +214,7 @@ namespace meltfront::verification
     }
   }
 
-  FrontReading
-  FrontReader::read(const cases::Snapshot &snapshot)
+  FrontReading FrontReader::read(const cases::Snapshot &snapshot)
   {
     const std::vector<double> &coordinate = coordinates(snapshot);
     FrontReading reading;

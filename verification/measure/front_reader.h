@@ -6,6 +6,8 @@
 #include <cases/snapshot.h>
 #include <verification/measure/site_coordinates.h>
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -52,6 +54,21 @@ namespace meltfront::verification
   double isotherm_crossing(std::span<const double> coordinate,
                            std::span<const double> excess);
 
+  /** Sites gathered into shells of equal width along the coordinate. */
+  struct Shells
+  {
+    /** Shells are centred on multiples of their width from the first site, so that the
+     * rows of a lattice fall into one each; those without a site are left out. */
+    Shells(const std::vector<double> &coordinates, double width);
+
+    /** Mean over the sites of each shell. */
+    std::vector<double> means(std::span<const double> values) const;
+
+    std::vector<std::uint32_t> shell_of_site;
+    std::vector<int> sites;
+    std::vector<double> coordinate; ///< mean of the sites' (m), ascending
+  };
+
   /** Reads the front of snapshots of one run; the same code for every method. */
   class FrontReader
   {
@@ -74,7 +91,7 @@ namespace meltfront::verification
   private:
     double by_latent_heat(const cases::Snapshot &snapshot) const;
     double by_isotherm(const cases::Snapshot &snapshot,
-                       const std::vector<double> &coordinate) const;
+                       const std::vector<double> &coordinate);
     void read_extreme_sites(const cases::Snapshot &snapshot,
                             const std::vector<double> &coordinate,
                             FrontReading &reading) const;
@@ -87,6 +104,8 @@ namespace meltfront::verification
     double spacing;
     double smoothing_length;
     SiteCoordinates site_coordinates;
+    std::optional<Shells> shells; ///< of the coordinates of `shells_version`
+    long shells_version = 0;
   };
 } // namespace meltfront::verification
 

@@ -16,8 +16,7 @@ namespace meltfront::verification
     constexpr double largest_order = 20;
 
     /** (f_3 - f_2)/(f_2 - f_1) of a sequence of order p, for any p, also p -> 0. */
-    double
-    ratio_of_differences(double p, double log_r21, double log_r32)
+    double ratio_of_differences(double p, double log_r21, double log_r32)
     {
       if(p == 0)
         return log_r32 / log_r21;
@@ -25,8 +24,7 @@ namespace meltfront::verification
     }
   } // namespace
 
-  GridConvergence
-  extrapolate(std::span<const double> h, std::span<const double> values)
+  GridConvergence extrapolate(std::span<const double> h, std::span<const double> values)
   {
     std::map<double, double> by_resolution;
     if(h.size() == values.size())

@@ -26,8 +26,7 @@ namespace meltfront::verification
       double spread;  ///< sum of (x - mean x)^2
     };
 
-    Line
-    least_squares(std::span<const double> x, std::span<const double> y)
+    Line least_squares(std::span<const double> x, std::span<const double> y)
     {
       const double m = static_cast<double>(x.size());
       const double mean_x = std::accumulate(x.begin(), x.end(), 0.) / m;
@@ -54,8 +53,7 @@ namespace meltfront::verification
       std::vector<double> log_h, log_error;
     };
 
-    Levels
-    sorted_levels(std::span<const double> h, std::span<const double> errors)
+    Levels sorted_levels(std::span<const double> h, std::span<const double> errors)
     {
       std::map<double, std::pair<double, int>, std::greater<>> sums;
       for(std::size_t i = 0; i < h.size(); ++i)
@@ -72,9 +70,8 @@ namespace meltfront::verification
       return levels;
     }
 
-    OrderVerdict
-    judge(const OrderFit &fit, const Levels &levels, const Line &line,
-          double plausible_order)
+    OrderVerdict judge(const OrderFit &fit, const Levels &levels, const Line &line,
+                       double plausible_order)
     {
       if(fit.levels < fewest_levels)
         return OrderVerdict::too_few_levels;
@@ -95,8 +92,7 @@ namespace meltfront::verification
     }
   } // namespace
 
-  const char *
-  to_string(OrderVerdict verdict)
+  const char *to_string(OrderVerdict verdict)
   {
     switch(verdict)
     {
@@ -119,8 +115,7 @@ namespace meltfront::verification
     }
   }
 
-  std::string
-  OrderFit::text() const
+  std::string OrderFit::text() const
   {
     if(std::isnan(order))
       return fmt::format("none ({})", to_string(verdict));
@@ -132,9 +127,8 @@ namespace meltfront::verification
     return result;
   }
 
-  OrderFit
-  fit_order(std::span<const double> h, std::span<const double> errors,
-            double plausible_order)
+  OrderFit fit_order(std::span<const double> h, std::span<const double> errors,
+                     double plausible_order)
   {
     if(h.size() != errors.size())
       throw cases::InputError("an order needs one error for each resolution");

@@ -4,8 +4,7 @@
 
 namespace meltfront::verification
 {
-  cases::Position
-  site_position(const cases::Snapshot &snapshot, std::size_t site)
+  cases::Position site_position(const cases::Snapshot &snapshot, std::size_t site)
   {
     cases::Position position{};
     for(int d = 0; d < snapshot.dimension; ++d)
@@ -13,12 +12,12 @@ namespace meltfront::verification
     return position;
   }
 
-  SiteCoordinates::SiteCoordinates(cases::Symmetry symmetry) : symmetry(symmetry)
+  SiteCoordinates::SiteCoordinates(cases::Symmetry symmetry)
+    : symmetry(symmetry)
   {
   }
 
-  bool
-  SiteCoordinates::moved(const cases::Snapshot &snapshot) const
+  bool SiteCoordinates::moved(const cases::Snapshot &snapshot) const
   {
     if(coordinates.size() != snapshot.temperature.size())
       return true;
@@ -28,11 +27,11 @@ namespace meltfront::verification
     return false;
   }
 
-  const std::vector<double> &
-  SiteCoordinates::of(const cases::Snapshot &snapshot)
+  const std::vector<double> &SiteCoordinates::of(const cases::Snapshot &snapshot)
   {
     if(moved(snapshot))
     {
+      ++times_computed;
       for(int d = 0; d < snapshot.dimension; ++d)
         positions[d].assign(snapshot.positions[d].begin(), snapshot.positions[d].end());
       coordinates.resize(snapshot.temperature.size());
@@ -40,5 +39,10 @@ namespace meltfront::verification
         coordinates[i] = cases::coordinate(symmetry, site_position(snapshot, i));
     }
     return coordinates;
+  }
+
+  long SiteCoordinates::version() const
+  {
+    return times_computed;
   }
 } // namespace meltfront::verification

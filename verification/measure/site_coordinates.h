@@ -24,12 +24,17 @@ namespace meltfront::verification
     /** One coordinate per site, valid until the next call. */
     const std::vector<double> &of(const cases::Snapshot &snapshot);
 
+    /** How often they have been computed: what is derived from them holds while it stays.
+     */
+    long version() const;
+
   private:
     bool moved(const cases::Snapshot &snapshot) const;
 
     cases::Symmetry symmetry;
     std::array<std::vector<double>, 3> positions; ///< for which `coordinates` holds
     std::vector<double> coordinates;
+    long times_computed = 0;
   };
 } // namespace meltfront::verification
 

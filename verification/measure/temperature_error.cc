@@ -8,17 +8,16 @@ namespace meltfront::verification
 {
   namespace
   {
-    double
-    relative(double error, double reference)
+    double relative(double error, double reference)
     {
       return reference > 0 ? error / reference : std::numeric_limits<double>::quiet_NaN();
     }
   } // namespace
 
-  TemperatureError
-  temperature_error(const cases::Snapshot &snapshot, std::span<const double> coordinates,
-                    const cases::ExactSolution &exact, double melting_temperature,
-                    double from, double to)
+  TemperatureError temperature_error(const cases::Snapshot &snapshot,
+                                     std::span<const double> coordinates,
+                                     const cases::ExactSolution &exact,
+                                     double melting_temperature, double from, double to)
   {
     double weighted = 0, weighted_exact = 0, plain = 0;
     double largest = 0, largest_excess = 0, largest_exact = 0;
