@@ -139,7 +139,7 @@ namespace meltfront::verification
           context.plots.figure(
               runs.record->name + "-budget", budget_against_time(runs, context.styles),
               text("Defect of the heat budget, relative to its largest term; "
-                   "drawn at 1e-17 where it is less.")));
+                   "drawn at 10⁻¹⁷ where it is less.")));
     }
 
     Markup parameters(const CaseRuns &runs)

@@ -51,6 +51,8 @@ namespace meltfront::verification
     {
       if(!std::isfinite(value))
         return "n/a";
+      if(value == 0)
+        return "0 %";
       if(value > 0 && value < 0.1)
         return "< 0.1 %";
       return fmt::format("{:.{}f} %", value, value < 10 ? 1 : 0);

@@ -32,6 +32,12 @@ namespace meltfront::verification
       return number_markup(value, 4);
     }
 
+    /** A number before a symbol; one is left out. */
+    Markup factor(double value)
+    {
+      return value == 1 ? Markup() : number(value) + text(" ");
+    }
+
     Markup line(const std::string &where, const Markup &equation)
     {
       return element("div", {{"class", "equation"}},
@@ -71,9 +77,8 @@ namespace meltfront::verification
       return symbol("ρ", index) + symbol("c", index) + text(" ") + rate + text(" = ")
              + symbol("k", index) + text(" ") + laplacian(record)
              + element("span", {{"class", "filled"}},
-                       number(phase.volumetric_heat_capacity()) + text(" ") + rate
-                           + text(" = ") + number(phase.conductivity) + text(" ")
-                           + laplacian(record));
+                       factor(phase.volumetric_heat_capacity()) + rate + text(" = ")
+                           + factor(phase.conductivity) + laplacian(record));
     }
 
     /** A gradient at the front, taken on one of its sides. */
@@ -95,10 +100,9 @@ namespace meltfront::verification
              + symbol("k", "s") + text(" ") + solid + text(" − ") + symbol("k", "l")
              + text(" ") + liquid
              + element("span", {{"class", "filled"}},
-                       number(material.solid.density * material.latent_heat) + text(" ")
-                           + speed + text(" = ") + number(material.solid.conductivity)
-                           + text(" ") + solid + text(" − ")
-                           + number(material.liquid.conductivity) + text(" ") + liquid);
+                       factor(material.solid.density * material.latent_heat) + speed
+                           + text(" = ") + factor(material.solid.conductivity) + solid
+                           + text(" − ") + factor(material.liquid.conductivity) + liquid);
     }
 
     Markup conditions(const CaseRecord &record)

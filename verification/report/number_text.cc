@@ -95,7 +95,7 @@ namespace meltfront::verification
   NumberText prose_number(double value, int significant_digits)
   {
     const double size = std::abs(value);
-    const bool plain = size >= 1e-3 && size < 1e7;
+    const bool plain = size >= 1e-3 && size < 1e6;
     NumberText number = number_text(value, significant_digits,
                                     plain ? Notation::plain : Notation::scientific);
     if(number.digits.find('.') != std::string::npos)

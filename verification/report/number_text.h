@@ -46,7 +46,7 @@ namespace meltfront::verification
   /** The notation that suits all finite values of a column. */
   Notation column_notation(const std::vector<double> &values);
 
-  /** A number of running text: plain between 0.001 and ten million, without zeros at the
+  /** A number of running text: plain between 0.001 and a million, without zeros at the
    * end. */
   NumberText prose_number(double value, int significant_digits = 3);
 

@@ -95,7 +95,7 @@ td sup,td sub,.equation sup,.equation sub{line-height:0;font-size:.76em}
 .group th{font-weight:620;padding-top:.7rem;text-align:left}
 .group th>span{position:sticky;left:.1rem}
 .summary td{border-top:1px dotted var(--line);color:var(--muted);white-space:nowrap}
-.summary small{font-size:.86em}
+.summary small{display:block;font-size:.86em;line-height:1.1}
 td b{color:var(--ink);font-weight:720}
 .plain td{white-space:normal;max-width:46ch}
 .links{font-size:.83rem;color:var(--muted);margin:.1rem 0 1rem}

@@ -157,7 +157,7 @@ namespace meltfront::verification
           = fmt::format(" lw {} dt {}", plot.small ? 1.6 : 2, dash_of(curve.style));
       const std::string marks
           = fmt::format(" pt {} ps {}", point_type(curve.style.marker, curve.style.open),
-                        plot.small ? 0.7 : 0.9);
+                        plot.small ? 0.7 : (curve.line ? 0.9 : 0.5));
       if(curve.line && curve.markers)
         command
             += "linespoints" + line + marks

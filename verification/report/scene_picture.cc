@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <numbers>
 
@@ -95,12 +96,26 @@ namespace meltfront::verification
       std::string look;
     };
 
+    /** The words of a record in the room beside a wall: `T = -10`. */
+    std::string brief(const std::string &words)
+    {
+      const std::string fixed = "fixed temperature ", exact = "temperature of the exact";
+      if(words.starts_with(exact))
+        return "exact temperature";
+      if(!words.starts_with(fixed))
+        return words;
+      const std::string value = words.substr(fixed.size());
+      char *end = nullptr;
+      const double number = std::strtod(value.c_str(), &end);
+      return "T = " + (*end == 0 ? fmt::format("{:.4g}", number) : value);
+    }
+
     Wall wall_of(const std::string &boundary)
     {
       const std::size_t colon = boundary.find(": ");
       Wall wall{boundary.substr(0, colon), "", ""};
       if(colon != std::string::npos)
-        wall.words = boundary.substr(colon + 2);
+        wall.words = brief(boundary.substr(colon + 2));
       if(wall.words.starts_with("insulated"))
         wall.look = fmt::format("lw 2 dt (3,3) lc rgb '{}'", plot_colours::axis);
       else if(wall.words.starts_with("periodic"))
@@ -145,10 +160,10 @@ namespace meltfront::verification
         {
           const int at = wall.side == "x_max";
           line(at, 0, at, 1, wall);
-          if(strip)
-            fmt::format_to(out, "set label {} at graph {},1 {} offset {},0.9\n",
-                           words(wall, room(frame.width / 2 - 10)), at,
-                           at ? "right" : "left", at ? 0.5 : -0.5);
+          if(strip) // beside a low strip there is no room: above and below it
+            fmt::format_to(out, "set label {} at graph {},{} {} offset {},{}\n",
+                           words(wall, room(frame.width)), at, 1 - at,
+                           at ? "right" : "left", at ? 0.5 : -0.5, at ? -0.9 : 0.9);
           else
             fmt::format_to(out,
                            "set label {} at graph {},0.5 center rotate by 90 offset "

@@ -1,0 +1,46 @@
+#ifndef meltfront_verification_report_tests_fixture_h
+#define meltfront_verification_report_tests_fixture_h
+
+#include <verification/matrix/matrix_result.h>
+
+#include <filesystem>
+#include <string>
+
+namespace meltfront::verification::fixture
+{
+  /** A finished run whose front error is exactly `factor` h^`order`, h = 1/n, and whose
+   * CPU time is `seconds` at n = 20 and grows with n squared. */
+  RunRecord run(const std::string &case_name, const std::string &label, int n,
+                double factor, double order, double seconds);
+
+  CaseRecord plane_case(const std::string &name);
+
+  CaseRecord sink_case(const std::string &name);
+
+  /**
+   * Two cases and three methods: exact orders, a failed and a refused run, a run with NaN
+   * in all of its results, two seeds, titles and messages full of `<>&"'`, criteria that
+   * hold and fail, printed values, hard cases.
+   */
+  MatrixResult matrix();
+
+  /** A directory of its own, removed at the end. */
+  class Directory
+  {
+  public:
+    Directory();
+    ~Directory();
+    Directory(const Directory &) = delete;
+    Directory &operator=(const Directory &) = delete;
+
+    std::string path() const;
+    /** A file in it; fails the test if there is none. */
+    std::string read(const std::string &file) const;
+    bool has(const std::string &file) const;
+
+  private:
+    std::filesystem::path directory;
+  };
+} // namespace meltfront::verification::fixture
+
+#endif
