@@ -15,9 +15,9 @@ namespace meltfront::verification
 {
   namespace
   {
-    Markup pair(const Markup &left, const Markup &right)
+    Markup pair(const Markup &left, const Markup &right, const std::string &kind = "pair")
     {
-      return element("div", {{"class", "pair"}}, left + right);
+      return element("div", {{"class", kind}}, left + right);
     }
 
     Markup folded(const std::string &summary, const Markup &content)
@@ -36,9 +36,9 @@ namespace meltfront::verification
           = fmt::format("The scene at t = {}{}.", plain_number(record.end_time, 6),
                         unit_of(record, " s"));
       if(std::isfinite(front))
-        caption
-            += fmt::format(" Black: the {} front, at {}{}.", exact ? "exact" : "computed",
-                           plain_number(front, 4), unit_of(record, " m"));
+        caption += fmt::format(" The line is the {} front, at {}{}.",
+                               exact ? "exact" : "computed", plain_number(front, 4),
+                               unit_of(record, " m"));
       if(run)
         caption
             += fmt::format(" Sites of {} at n = {}: filled where at least half is solid, "
@@ -228,7 +228,8 @@ namespace meltfront::verification
     if(!record.description.empty())
       content += element("p", record.description);
     content += pair(picture(context, runs),
-                    element("div", element("h3", "Equations") + equations(record)));
+                    element("div", element("h3", "Equations") + equations(record)),
+                    "pair scene");
     content += folded("Material", material_table(record));
     if(const Markup effects = effects_of_case(context, runs); !effects.empty())
       content += folded("Effects: on or off, because, share of time, memory", effects);

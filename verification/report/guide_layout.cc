@@ -51,6 +51,9 @@ namespace meltfront::verification
           last = next;
           begun = true;
         }
+        // The line that leads to the curve's label.
+        if(begun)
+          add_segment(points, last, {canvas.width - canvas.right, last.y});
       }
       return points;
     }

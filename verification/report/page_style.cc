@@ -137,7 +137,7 @@ ul,ol{padding-left:1.25rem;max-width:82ch} li{margin:.22rem 0}
  main,nav div{padding-left:16px;padding-right:16px}
  h1{font-size:1.62rem} h2{font-size:1.28rem}
  .pair{grid-template-columns:minmax(0,1fr)}
- .pair .plot svg{min-width:460px}
+ .pair:not(.scene) .plot svg{min-width:460px}
 }
 @media print{
  nav{display:none} body{font-size:10.5pt} main{max-width:none;padding:0}

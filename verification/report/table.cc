@@ -85,6 +85,8 @@ namespace meltfront::verification
 
     Markup number_cell(const NumberText &number, const ColumnWidths &width)
     {
+      if(number.digits.empty()) // no value: a dash at the edge of the column
+        return number.markup();
       if(number.exponent.empty())
         return number.markup() + padding(number, width);
       // The mantissa's missing decimals belong before the power of ten.

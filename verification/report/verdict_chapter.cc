@@ -145,9 +145,12 @@ namespace meltfront::verification
     if(criteria.empty())
       return {};
     Markup head = element("th", std::string());
-    for(const char *heading : {"case", "method", "quantity", "value", "bound", ""})
-      if(with_case || std::string(heading) != "case")
-        head += element("th", std::string(heading));
+    if(with_case)
+      head += element("th", std::string("case"));
+    head += element("th", std::string("method")) + element("th", std::string("quantity"));
+    for(const char *heading : {"value", "bound"})
+      head += element("th", {{"class", "number"}}, text(heading));
+    head += element("th", std::string());
     Markup rows;
     for(const CriterionResult &criterion : criteria)
     {
