@@ -1,11 +1,42 @@
 #ifndef meltfront_reference_fem_enthalpy_compensated_vector_h
 #define meltfront_reference_fem_enthalpy_compensated_vector_h
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace meltfront::reference_fem
 {
+  /** A sum of doubles that keeps the rounding error of every addition (Knuth 1969,
+   * TwoSum). */
+  class CompensatedSum
+  {
+  public:
+    void add(double term)
+    {
+      const double next = sum + term;
+      const double part = next - sum;
+      error += (sum - (next - part)) + (term - part);
+      sum = next;
+    }
+
+    /** Add the product of two numbers with its own rounding error. */
+    void add_product(double a, double b)
+    {
+      const double product = a * b;
+      error += std::fma(a, b, -product);
+      add(product);
+    }
+
+    double value() const
+    {
+      return sum + error;
+    }
+
+  private:
+    double sum = 0, error = 0;
+  };
+
   /**
    * Numbers stored as the unevaluated sum of two doubles, so that the difference of two
    * neighbours keeps full relative accuracy.
@@ -17,33 +48,31 @@ namespace meltfront::reference_fem
   class CompensatedVector
   {
   public:
-    explicit CompensatedVector(std::size_t size = 0) : leading(size), remainder(size)
+    explicit CompensatedVector(std::size_t size = 0)
+      : leading(size)
+      , remainder(size)
     {
     }
 
-    std::size_t
-    size() const
+    std::size_t size() const
     {
       return leading.size();
     }
 
     /** The value rounded to a double; its sign is that of the value. */
-    double
-    operator[](std::size_t i) const
+    double operator[](std::size_t i) const
     {
       return leading[i];
     }
 
-    void
-    set(std::size_t i, double value)
+    void set(std::size_t i, double value)
     {
       leading[i] = value;
       remainder[i] = 0;
     }
 
     /** Add with the rounding error kept (Knuth 1969, TwoSum). */
-    void
-    add(std::size_t i, double increment)
+    void add(std::size_t i, double increment)
     {
       increment += remainder[i];
       const double sum = leading[i] + increment;
@@ -53,10 +82,20 @@ namespace meltfront::reference_fem
     }
 
     /** Value j less value i. */
-    double
-    difference(std::size_t j, std::size_t i) const
+    double difference(std::size_t j, std::size_t i) const
     {
       return (leading[j] - leading[i]) + (remainder[j] - remainder[i]);
+    }
+
+    /** Add factor times (value j less value i) to a sum, nothing rounded off. */
+    void add_difference(std::size_t j, std::size_t i, double factor,
+                        CompensatedSum &sum) const
+    {
+      const double difference = leading[j] - leading[i];
+      const double part = difference - leading[j];
+      const double error = (leading[j] - (difference - part)) - (leading[i] + part);
+      sum.add_product(factor, difference);
+      sum.add_product(factor, error + (remainder[j] - remainder[i]));
     }
 
   private:

@@ -8,22 +8,19 @@ namespace meltfront::reference_fem
     class FemEnthalpy : public cases::Method
     {
     public:
-      std::string
-      name() const override
+      std::string name() const override
       {
         return "fem-enthalpy";
       }
 
-      std::string
-      summary() const override
+      std::string summary() const override
       {
         return "Enthalpy method with linear finite elements (deal.II): the exact "
                "enthalpy "
                "graph, solved by truncated nonsmooth Newton steps.";
       }
 
-      std::vector<cases::Effect>
-      supported_effects() const override
+      std::vector<cases::Effect> supported_effects() const override
       {
         using cases::Effect;
         return {Effect::phase_change,        Effect::phase_conductivity,
@@ -31,15 +28,14 @@ namespace meltfront::reference_fem
                 Effect::wall_temperature,    Effect::wall_flux};
       }
 
-      std::vector<cases::OptionDeclaration>
-      option_declarations() const override
+      std::vector<cases::OptionDeclaration> option_declarations() const override
       {
         return enthalpy_options();
       }
 
-      cases::Cost
-      solve(const cases::Scene &scene, const cases::EffectSet &effects,
-            const cases::Resolution &resolution, cases::Observer &observer) const override
+      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
+                        const cases::Resolution &resolution,
+                        cases::Observer &observer) const override
       {
         cases::require_effects(*this, effects);
         StepStatistics statistics;
@@ -48,8 +44,7 @@ namespace meltfront::reference_fem
     };
   } // namespace
 
-  std::unique_ptr<cases::Method>
-  make_fem_enthalpy()
+  std::unique_ptr<cases::Method> make_fem_enthalpy()
   {
     return std::make_unique<FemEnthalpy>();
   }

@@ -29,17 +29,16 @@ namespace meltfront::reference_fem
     static constexpr bool linear = !latent && !two_slopes;
 
     explicit EnthalpyGraph(const cases::Material &material)
-        : solid_conductivity(material.solid.conductivity),
-          liquid_conductivity(material.liquid.conductivity),
-          solid_capacity(material.solid.volumetric_heat_capacity()),
-          liquid_capacity(material.liquid.volumetric_heat_capacity()),
-          volumetric_latent_heat(material.solid.density * material.latent_heat)
+      : solid_conductivity(material.solid.conductivity)
+      , liquid_conductivity(material.liquid.conductivity)
+      , solid_capacity(material.solid.volumetric_heat_capacity())
+      , liquid_capacity(material.liquid.volumetric_heat_capacity())
+      , volumetric_latent_heat(material.solid.density * material.latent_heat)
     {
     }
 
     /** dH/du off the jump; the liquid's at u = 0. */
-    double
-    slope(double u) const
+    double slope(double u) const
     {
       if constexpr(two_slopes)
         if(u >= 0)
@@ -47,9 +46,17 @@ namespace meltfront::reference_fem
       return solid_capacity / solid_conductivity;
     }
 
+    /** rho c of the phase (J/(m^3 K)); the liquid's at u = 0. */
+    double capacity(double u) const
+    {
+      if constexpr(two_slopes)
+        if(u >= 0)
+          return liquid_capacity;
+      return solid_capacity;
+    }
+
     /** H(u); its upper end, rho L, at u = 0. */
-    double
-    enthalpy(double u) const
+    double enthalpy(double u) const
     {
       if constexpr(latent)
         if(u >= 0)
@@ -58,8 +65,7 @@ namespace meltfront::reference_fem
     }
 
     /** The root u of the inclusion volume H(u) + stiffness u = heat. */
-    double
-    resolve(double heat, double volume, double stiffness) const
+    double resolve(double heat, double volume, double stiffness) const
     {
       if(heat < 0)
         return heat / (volume * slope(-1) + stiffness);
@@ -73,8 +79,7 @@ namespace meltfront::reference_fem
     }
 
     /** T - T_m (K) where Kirchhoff's variable is u. */
-    double
-    temperature_excess(double u) const
+    double temperature_excess(double u) const
     {
       if constexpr(two_slopes)
         if(u > 0)
@@ -83,8 +88,7 @@ namespace meltfront::reference_fem
     }
 
     /** T - T_m (K) where the enthalpy per volume is H. */
-    double
-    temperature_excess_at_enthalpy(double enthalpy) const
+    double temperature_excess_at_enthalpy(double enthalpy) const
     {
       if(enthalpy < 0)
         return enthalpy / solid_capacity;
@@ -100,8 +104,7 @@ namespace meltfront::reference_fem
     }
 
     /** u where T - T_m is given. */
-    double
-    kirchhoff(double temperature_excess) const
+    double kirchhoff(double temperature_excess) const
     {
       if constexpr(two_slopes)
         if(temperature_excess > 0)

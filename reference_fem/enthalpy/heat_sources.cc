@@ -27,8 +27,7 @@ namespace meltfront::reference_fem
     }
   }
 
-  void
-  HeatSources::add_load(const StepFormula &step, std::vector<double> &load)
+  void HeatSources::add_load(const StepFormula &step, std::vector<double> &load)
   {
     const ScopedTimer timer(effect_cost.seconds);
     ++effect_cost.calls;
@@ -42,8 +41,7 @@ namespace meltfront::reference_fem
     }
   }
 
-  double
-  HeatSources::energy(double time) const
+  double HeatSources::energy(double time) const
   {
     double sum = 0;
     for(const Source &source : sources)

@@ -35,8 +35,7 @@ namespace meltfront::reference_fem
     /** Heat from all sources since the start (J). */
     double energy(double time) const;
 
-    const cases::EffectCost &
-    cost() const
+    const cases::EffectCost &cost() const
     {
       return effect_cost;
     }

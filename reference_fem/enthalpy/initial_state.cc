@@ -16,9 +16,8 @@ namespace meltfront::reference_fem
 
     /** Enthalpy per volume of a coordinate's phase: the front decides, not the sign of a
      * temperature that may be the melting point's. */
-    double
-    phase_enthalpy(const Material &material, const ExactSolution &exact, bool solid,
-                   double coordinate, double time)
+    double phase_enthalpy(const Material &material, const ExactSolution &exact,
+                          bool solid, double coordinate, double time)
     {
       const double excess
           = exact.temperature(coordinate, time) - material.melting_temperature;
@@ -29,8 +28,8 @@ namespace meltfront::reference_fem
     }
 
     /** Average of the enthalpy between two coordinates with the measure of a symmetry. */
-    double
-    average(const cases::Scene &scene, Symmetry measure, double lower, double upper)
+    double average(const cases::Scene &scene, Symmetry measure, double lower,
+                   double upper)
     {
       const ExactSolution &exact = *scene.initial.exact;
       const double time = scene.start_time;
@@ -57,9 +56,8 @@ namespace meltfront::reference_fem
              / cases::volume_between(measure, lower, upper);
     }
 
-    std::vector<double>
-    averages(const cases::Scene &scene, const Mesh &mesh,
-             const Discretization &discretization)
+    std::vector<double> averages(const cases::Scene &scene, const Mesh &mesh,
+                                 const Discretization &discretization)
     {
       const std::size_t n = discretization.volume.size();
       std::vector<double> result(n);
@@ -99,9 +97,9 @@ namespace meltfront::reference_fem
     }
   } // namespace
 
-  std::vector<double>
-  initial_enthalpy(const cases::Scene &scene, const Mesh &mesh,
-                   const Discretization &discretization, const std::vector<char> &free)
+  std::vector<double> initial_enthalpy(const cases::Scene &scene, const Mesh &mesh,
+                                       const Discretization &discretization,
+                                       const std::vector<char> &free)
   {
     const std::size_t n = discretization.volume.size();
     const auto &exact = scene.initial.exact;

@@ -20,8 +20,7 @@ namespace meltfront::reference_fem
   {
     /** Trilinos' vectors need MPI, which a program that runs alone starts when first
      * needed and ends with itself. */
-    void
-    start_mpi()
+    void start_mpi()
     {
       int started = 0;
       MPI_Initialized(&started);
@@ -53,7 +52,9 @@ namespace meltfront::reference_fem
       void assemble(const NewtonSystem &system);
       bool multigrid_pays(const NewtonSystem &system) const;
       template <class Precondition>
-      void iterate(const Precondition &precondition, double reduction, long passes);
+      unsigned int iterate(const Precondition &precondition, const NewtonSystem &system,
+                           double reduction, long passes);
+      void iterate_with_multigrid(const NewtonSystem &system, double reduction);
 
       const ConductionMatrix &conduction;
       Preconditioner preconditioner;
@@ -61,11 +62,14 @@ namespace meltfront::reference_fem
       dealii::SparseMatrix<double> matrix;
       dealii::Vector<double> solution, right_side;
       std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> multigrid;
+      double multigrid_step_factor = 0;
+      unsigned int multigrid_iterations = 0; ///< with a fresh hierarchy
     };
 
     KrylovSolver::KrylovSolver(const ConductionMatrix &conduction,
                                Preconditioner preconditioner, int threads)
-        : conduction(conduction), preconditioner(preconditioner)
+      : conduction(conduction)
+      , preconditioner(preconditioner)
     {
       dealii::MultithreadInfo::set_thread_limit(std::max(1, threads));
       const std::size_t n = conduction.size();
@@ -83,8 +87,7 @@ namespace meltfront::reference_fem
       right_side.reinit(n);
     }
 
-    std::string
-    KrylovSolver::description() const
+    std::string KrylovSolver::description() const
     {
       switch(preconditioner)
       {
@@ -93,13 +96,12 @@ namespace meltfront::reference_fem
       case Preconditioner::amg:
         return "conjugate gradients, Trilinos ML";
       default:
-        return "conjugate gradients, SSOR or (above 50000 nodes and a Fourier number of "
-               "50) Trilinos ML";
+        return "conjugate gradients, SSOR or (from 50000 nodes and a Fourier number of "
+               "1000) Trilinos ML";
       }
     }
 
-    void
-    KrylovSolver::assemble(const NewtonSystem &system)
+    void KrylovSolver::assemble(const NewtonSystem &system)
     {
       const double c = system.step_factor;
       for(std::size_t i = 0; i < conduction.size(); ++i)
@@ -122,13 +124,12 @@ namespace meltfront::reference_fem
       entries_touched += conduction.entries();
     }
 
-    bool
-    KrylovSolver::multigrid_pays(const NewtonSystem &system) const
+    bool KrylovSolver::multigrid_pays(const NewtonSystem &system) const
     {
       if(preconditioner != Preconditioner::automatic)
         return preconditioner == Preconditioner::amg;
       constexpr std::size_t many_nodes = 50000;
-      constexpr double long_step = 50;
+      constexpr double long_step = 1000;
       if(conduction.size() < many_nodes)
         return false;
       double fourier = 0;
@@ -140,11 +141,14 @@ namespace meltfront::reference_fem
     }
 
     template <class Precondition>
-    void
-    KrylovSolver::iterate(const Precondition &precondition, double reduction, long passes)
+    unsigned int KrylovSolver::iterate(const Precondition &precondition,
+                                       const NewtonSystem &system, double reduction,
+                                       long passes)
     {
       // Stopping early is safe: the outer iteration goes on until the graph holds.
-      dealii::ReductionControl control(2000, 0, reduction, false, false);
+      constexpr unsigned int most_iterations = 2000;
+      dealii::ReductionControl control(most_iterations, system.sufficient_residual,
+                                       reduction, false, false);
       dealii::SolverCG<dealii::Vector<double>> solver(control);
       solution = 0;
       try
@@ -156,41 +160,52 @@ namespace meltfront::reference_fem
       }
       entries_touched
           += static_cast<long>(control.last_step() + 1) * passes * conduction.entries();
+      return control.last_step();
     }
 
-    void
-    KrylovSolver::solve(const NewtonSystem &system, double reduction,
-                        std::vector<double> &x)
+    /** The hierarchy is kept from step to step: the matrix changes at the front only. It
+     * is built anew when the step changes or the iterations grow by a half. */
+    void KrylovSolver::iterate_with_multigrid(const NewtonSystem &system,
+                                              double reduction)
+    {
+      const bool fresh = !multigrid || multigrid_step_factor != system.step_factor;
+      if(fresh)
+      {
+        start_mpi();
+        multigrid = std::make_unique<dealii::TrilinosWrappers::PreconditionAMG>();
+        multigrid->initialize(matrix);
+        multigrid_step_factor = system.step_factor;
+        multigrid_iterations = 0;
+      }
+      // A product and a cycle, counted as five passes over the finest matrix.
+      const unsigned int iterations = iterate(*multigrid, system, reduction, 6);
+      if(multigrid_iterations == 0)
+        multigrid_iterations = iterations;
+      else if(2 * iterations > 3 * multigrid_iterations + 8)
+        multigrid.reset();
+    }
+
+    void KrylovSolver::solve(const NewtonSystem &system, double reduction,
+                             std::vector<double> &x)
     {
       assemble(system);
-      if(system.new_step)
-      {
-        multigrid.reset();
-        if(multigrid_pays(system))
-        {
-          start_mpi();
-          multigrid = std::make_unique<dealii::TrilinosWrappers::PreconditionAMG>();
-          multigrid->initialize(matrix);
-        }
-      }
       if(right_side.l2_norm() == 0)
         solution = 0;
-      else if(multigrid)
-        // A product and a cycle, counted as five passes over the finest matrix.
-        iterate(*multigrid, reduction, 6);
+      else if(multigrid_pays(system))
+        iterate_with_multigrid(system, reduction);
       else
       {
         dealii::PreconditionSSOR<dealii::SparseMatrix<double>> ssor;
         ssor.initialize(matrix, 1.2);
-        iterate(ssor, reduction, 3);
+        iterate(ssor, system, reduction, 3);
       }
       std::copy(solution.begin(), solution.end(), x.begin());
     }
   } // namespace
 
-  std::unique_ptr<LinearSolver>
-  make_krylov_solver(const ConductionMatrix &matrix, Preconditioner preconditioner,
-                     int threads)
+  std::unique_ptr<LinearSolver> make_krylov_solver(const ConductionMatrix &matrix,
+                                                   Preconditioner preconditioner,
+                                                   int threads)
   {
     return std::make_unique<KrylovSolver>(matrix, preconditioner, threads);
   }

@@ -16,8 +16,7 @@ namespace meltfront::reference_fem
     double step_factor;                       ///< c (s)
     const std::vector<char> &active;          ///< x is zero where this is 0
     const std::vector<double> &residual;      ///< r (J)
-    bool new_step; ///< the first system of a time step: preconditioners may be kept until
-                   ///< the next
+    double sufficient_residual; ///< norm of r - (D + c K) x below which x is exact enough
   };
 
   /** Solves the symmetric positive definite systems of the truncated Newton method. */
@@ -35,8 +34,7 @@ namespace meltfront::reference_fem
         = 0;
 
     /** Matrix entries touched since the start. */
-    long
-    work() const
+    long work() const
     {
       return entries_touched;
     }

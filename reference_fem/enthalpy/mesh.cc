@@ -32,8 +32,7 @@ namespace meltfront::reference_fem
     constexpr unsigned int strip_width = 4; ///< cells across a slab in 2D and 3D
 
     template <int dim>
-    Position
-    position(const dealii::Point<dim> &point)
+    Position position(const dealii::Point<dim> &point)
     {
       Position result{};
       for(int d = 0; d < dim; ++d)
@@ -86,9 +85,9 @@ namespace meltfront::reference_fem
 
     template <int dim>
     DealMesh<dim>::DealMesh(const cases::Scene &scene, int n)
-        : dof_handler(triangulation),
-          mapping(scene.domain.shape == DomainShape::ball && dim > 1 ? 4 : 1),
-          cartesian(scene.domain.shape != DomainShape::ball)
+      : dof_handler(triangulation)
+      , mapping(scene.domain.shape == DomainShape::ball && dim > 1 ? 4 : 1)
+      , cartesian(scene.domain.shape != DomainShape::ball)
     {
       if(cartesian)
         mesh_block(scene, n);
@@ -104,8 +103,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void
-    DealMesh<dim>::mesh_block(const cases::Scene &scene, int n)
+    void DealMesh<dim>::mesh_block(const cases::Scene &scene, int n)
     {
       const cases::Domain &domain = scene.domain;
       const bool strip = domain.shape == DomainShape::slab;
@@ -133,8 +131,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void
-    DealMesh<dim>::mesh_radius(const cases::Scene &scene, int n)
+    void DealMesh<dim>::mesh_radius(const cases::Scene &scene, int n)
     {
       if constexpr(dim == 1)
       {
@@ -154,8 +151,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void
-    DealMesh<dim>::mesh_ball(const cases::Scene &scene, int n)
+    void DealMesh<dim>::mesh_ball(const cases::Scene &scene, int n)
     {
       if constexpr(dim > 1)
       {
@@ -179,8 +175,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void
-    DealMesh<dim>::join_periodic_sides(const cases::Scene &scene)
+    void DealMesh<dim>::join_periodic_sides(const cases::Scene &scene)
     {
       const bool strip = scene.domain.shape == DomainShape::slab;
       for(int d = 0; d < dim; ++d)
@@ -206,8 +201,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void
-    DealMesh<dim>::number_nodes()
+    void DealMesh<dim>::number_nodes()
     {
       const auto n_sites = static_cast<unsigned int>(dof_handler.n_dofs());
       node_of_site.resize(n_sites);
@@ -221,8 +215,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    double
-    DealMesh<dim>::weight(const dealii::Point<dim> &point) const
+    double DealMesh<dim>::weight(const dealii::Point<dim> &point) const
     {
       if(measure == cases::Symmetry::cylindrical)
         return 2 * std::numbers::pi * point[0];
@@ -232,8 +225,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    std::vector<unsigned int>
-    DealMesh<dim>::sites(
+    std::vector<unsigned int> DealMesh<dim>::sites(
         const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const
     {
       std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
@@ -242,8 +234,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    Discretization
-    DealMesh<dim>::discretize() const
+    Discretization DealMesh<dim>::discretize() const
     {
       Discretization result;
       result.dimension = dim;
@@ -257,8 +248,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void
-    DealMesh<dim>::integrate_cells(Discretization &result) const
+    void DealMesh<dim>::integrate_cells(Discretization &result) const
     {
       const dealii::Quadrature<dim> quadrature
           = cartesian ? static_cast<dealii::Quadrature<dim>>(dealii::QTrapezoid<dim>())
@@ -314,8 +304,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void
-    DealMesh<dim>::integrate_walls(Discretization &result) const
+    void DealMesh<dim>::integrate_walls(Discretization &result) const
     {
       const dealii::QGauss<dim - 1> quadrature(3);
       dealii::FEFaceValues<dim> values(mapping, element, quadrature,
@@ -352,8 +341,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void
-    DealMesh<dim>::place_sites(Discretization &result) const
+    void DealMesh<dim>::place_sites(Discretization &result) const
     {
       const std::size_t n_sites = node_of_site.size();
       for(int d = 0; d < dim; ++d)
@@ -422,8 +410,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    std::vector<double>
-    DealMesh<dim>::node_averages(
+    std::vector<double> DealMesh<dim>::node_averages(
         const std::function<double(const Position &)> &function) const
     {
       const dealii::QIterated<dim> quadrature(dealii::QMidpoint<1>(), 8);
@@ -452,8 +439,7 @@ namespace meltfront::reference_fem
     }
   } // namespace
 
-  std::vector<int>
-  mesh_dimensions(const cases::Scene &scene)
+  std::vector<int> mesh_dimensions(const cases::Scene &scene)
   {
     switch(scene.domain.shape)
     {
@@ -469,8 +455,7 @@ namespace meltfront::reference_fem
     }
   }
 
-  std::unique_ptr<Mesh>
-  make_mesh(const cases::Scene &scene, int dimension, int n)
+  std::unique_ptr<Mesh> make_mesh(const cases::Scene &scene, int dimension, int n)
   {
     switch(dimension)
     {

@@ -29,6 +29,10 @@ namespace meltfront::reference_fem
      * next step is halved. */
     constexpr int comfortable_iterations = 30;
 
+    /** Coarse runs take more steps than the cells call for, so that their fronts can be
+     * compared at 50 times at least. */
+    constexpr long fewest_steps = 50;
+
     /** Below this share of the nominal step a step that does not converge stops the run.
      */
     constexpr double smallest_step = 1e-4;
@@ -37,8 +41,7 @@ namespace meltfront::reference_fem
      * by a few per cent of their span at most; with one, by round-off. */
     constexpr double slack_without_maximum_principle = 0.05;
 
-    int
-    choose_dimension(const cases::Scene &scene, const cases::Options &options)
+    int choose_dimension(const cases::Scene &scene, const cases::Options &options)
     {
       const std::vector<int> possible = mesh_dimensions(scene);
       const int wanted = static_cast<int>(options.get_integer("dimension"));
@@ -51,17 +54,16 @@ namespace meltfront::reference_fem
       return wanted;
     }
 
-    long
-    choose_steps(const cases::Options &options, int n)
+    long choose_steps(const cases::Options &options, int n)
     {
       const long steps = options.get_integer("steps");
       if(steps > 0)
         return steps;
-      return std::max(1L, std::lround(options.get_double("steps_per_cell") * n));
+      return std::max(fewest_steps,
+                      std::lround(options.get_double("steps_per_cell") * n));
     }
 
-    Preconditioner
-    choose_preconditioner(const cases::Options &options)
+    Preconditioner choose_preconditioner(const cases::Options &options)
     {
       const std::string &word = options.get_string("preconditioner");
       return word == "ssor"  ? Preconditioner::ssor
@@ -72,8 +74,7 @@ namespace meltfront::reference_fem
     /** Sum of volume times enthalpy, in extended precision: a balance to 1e-13 over many
      * nodes must not end in the sum's own round-off. */
     template <typename Value>
-    double
-    sum_over(const std::vector<double> &volume, const Value &value)
+    double sum_over(const std::vector<double> &volume, const Value &value)
     {
       long double sum = 0;
       for(std::size_t i = 0; i < volume.size(); ++i)
@@ -100,6 +101,7 @@ namespace meltfront::reference_fem
       cases::RunDescription description() const;
       std::string mesh_in_words() const;
       StepFormula formula(double next) const;
+      void predict(double next);
       StepOutcome attempt(const StepFormula &step);
       void accept(const StepFormula &step, StepStatistics &statistics);
       void require_halvable(const StepFormula &step, const StepOutcome &outcome) const;
@@ -128,7 +130,7 @@ namespace meltfront::reference_fem
       cases::TemperatureBounds bounds;
       double slack = 1e-9;
 
-      CompensatedVector u, u_accepted;
+      CompensatedVector u, u_accepted, u_before;     ///< by node, W/m
       std::vector<double> enthalpy, enthalpy_before; ///< by node, J/m^3
       std::vector<double> rhs, heat;                 ///< by node, J
       History boundary_heat;
@@ -142,13 +144,16 @@ namespace meltfront::reference_fem
 
     EnthalpyRun::EnthalpyRun(const cases::Scene &scene, const cases::EffectSet &effects,
                              const cases::Resolution &resolution)
-        : scene(scene), effects(effects), resolution(resolution),
-          bdf2(resolution.options.get_string("time_scheme") == "bdf2"),
-          nominal_steps(choose_steps(resolution.options, resolution.n)),
-          iteration_limit(
-              static_cast<int>(resolution.options.get_integer("iteration_limit"))),
-          bounds(cases::temperature_bounds(scene)), time(scene.start_time),
-          time_before(scene.start_time)
+      : scene(scene)
+      , effects(effects)
+      , resolution(resolution)
+      , bdf2(resolution.options.get_string("time_scheme") == "bdf2")
+      , nominal_steps(choose_steps(resolution.options, resolution.n))
+      , iteration_limit(
+            static_cast<int>(resolution.options.get_integer("iteration_limit")))
+      , bounds(cases::temperature_bounds(scene))
+      , time(scene.start_time)
+      , time_before(scene.start_time)
     {
       const int dimension = choose_dimension(scene, resolution.options);
       const std::unique_ptr<Mesh> geometry = make_mesh(scene, dimension, resolution.n);
@@ -182,8 +187,7 @@ namespace meltfront::reference_fem
       initial_heat = sum_over(mesh.volume, [&](std::size_t i) { return enthalpy[i]; });
     }
 
-    std::string
-    EnthalpyRun::mesh_in_words() const
+    std::string EnthalpyRun::mesh_in_words() const
     {
       const char *shape
           = mesh.measure == cases::Symmetry::cylindrical     ? "radial, weight 2 pi r"
@@ -195,8 +199,7 @@ namespace meltfront::reference_fem
                          mesh.dimension, shape);
     }
 
-    cases::RunDescription
-    EnthalpyRun::description() const
+    cases::RunDescription EnthalpyRun::description() const
     {
       cases::RunDescription result;
       result.dimension = mesh.dimension;
@@ -219,28 +222,36 @@ namespace meltfront::reference_fem
       return result;
     }
 
-    StepFormula
-    EnthalpyRun::formula(double next) const
+    StepFormula EnthalpyRun::formula(double next) const
     {
       return bdf2 && step_number > 0 ? bdf2_step(time_before, time, next)
                                      : backward_euler_step(time, next);
     }
 
-    StepOutcome
-    EnthalpyRun::attempt(const StepFormula &step)
+    /** First guess: the last change goes on. Halves the iterations of long steps. */
+    void EnthalpyRun::predict(double next)
+    {
+      if(step_number == 0)
+        return;
+      const double ratio = (next - time) / (time - time_before);
+      for(std::size_t i = 0; i < u.size(); ++i)
+        u.add(i, ratio * (u_accepted[i] - u_before[i]));
+    }
+
+    StepOutcome EnthalpyRun::attempt(const StepFormula &step)
     {
       for(std::size_t i = 0; i < rhs.size(); ++i)
         rhs[i] = mesh.volume[i] * step.combine(enthalpy[i], enthalpy_before[i]);
       if(sources)
         sources->add_load(step, rhs);
       step_flux_heat = flux ? flux->add_load(step, rhs) : 0;
+      predict(step.next);
       if(walls)
         walls->prescribe(step.next, *solver, u);
       return solver->solve(step.c, rhs, iteration_limit, u, heat);
     }
 
-    void
-    EnthalpyRun::accept(const StepFormula &step, StepStatistics &statistics)
+    void EnthalpyRun::accept(const StepFormula &step, StepStatistics &statistics)
     {
       enthalpy_before.swap(enthalpy);
       for(std::size_t i = 0; i < enthalpy.size(); ++i)
@@ -259,8 +270,7 @@ namespace meltfront::reference_fem
       check_balance(statistics);
     }
 
-    void
-    EnthalpyRun::check_temperatures() const
+    void EnthalpyRun::check_temperatures() const
     {
       double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
       for(std::size_t i = 0; i < enthalpy.size(); ++i)
@@ -277,14 +287,12 @@ namespace meltfront::reference_fem
                                step_number, time, slack);
     }
 
-    double
-    EnthalpyRun::source_heat() const
+    double EnthalpyRun::source_heat() const
     {
       return sources ? sources->energy(time) : 0;
     }
 
-    void
-    EnthalpyRun::check_balance(StepStatistics &statistics)
+    void EnthalpyRun::check_balance(StepStatistics &statistics)
     {
       const double total
           = sum_over(mesh.volume, [&](std::size_t i) { return enthalpy[i]; });
@@ -304,8 +312,7 @@ namespace meltfront::reference_fem
                         accepted_balance_defect));
     }
 
-    void
-    EnthalpyRun::observe(cases::Observer &observer)
+    void EnthalpyRun::observe(cases::Observer &observer)
     {
       const cases::Material &material = scene.material;
       const double density = material.solid.density;
@@ -343,8 +350,7 @@ namespace meltfront::reference_fem
       observer.observe(snapshot);
     }
 
-    void
-    EnthalpyRun::report(cases::Observer &observer, bool always)
+    void EnthalpyRun::report(cases::Observer &observer, bool always)
     {
       watch.without(
           [&]
@@ -354,8 +360,7 @@ namespace meltfront::reference_fem
           });
     }
 
-    std::vector<cases::EffectCost>
-    EnthalpyRun::effect_costs() const
+    std::vector<cases::EffectCost> EnthalpyRun::effect_costs() const
     {
       const NonlinearSolver::GraphCost graph = solver->graph_cost();
       std::vector<cases::EffectCost> result;
@@ -388,8 +393,7 @@ namespace meltfront::reference_fem
       return result;
     }
 
-    cases::Cost
-    EnthalpyRun::run(cases::Observer &observer, StepStatistics &statistics)
+    cases::Cost EnthalpyRun::run(cases::Observer &observer, StepStatistics &statistics)
     {
       cases::Cost cost;
       const Stopwatch::Seconds setup = watch.elapsed();
@@ -416,6 +420,7 @@ namespace meltfront::reference_fem
           continue;
         }
         queue.pop();
+        u_before = u_accepted;
         u_accepted = u;
         statistics.graph_inconsistency
             = std::max(statistics.graph_inconsistency, outcome.graph_inconsistency);
@@ -440,9 +445,8 @@ namespace meltfront::reference_fem
       return cost;
     }
 
-    void
-    EnthalpyRun::require_halvable(const StepFormula &step,
-                                  const StepOutcome &outcome) const
+    void EnthalpyRun::require_halvable(const StepFormula &step,
+                                       const StepOutcome &outcome) const
     {
       const double nominal = (scene.end_time - scene.start_time) / nominal_steps;
       if(!std::isfinite(outcome.graph_inconsistency))
@@ -458,17 +462,15 @@ namespace meltfront::reference_fem
     }
   } // namespace
 
-  cases::Cost
-  run_enthalpy(const cases::Scene &scene, const cases::EffectSet &effects,
-               const cases::Resolution &resolution, cases::Observer &observer,
-               StepStatistics &statistics)
+  cases::Cost run_enthalpy(const cases::Scene &scene, const cases::EffectSet &effects,
+                           const cases::Resolution &resolution, cases::Observer &observer,
+                           StepStatistics &statistics)
   {
     EnthalpyRun run(scene, effects, resolution);
     return run.run(observer, statistics);
   }
 
-  std::vector<cases::OptionDeclaration>
-  enthalpy_options()
+  std::vector<cases::OptionDeclaration> enthalpy_options()
   {
     return {
         {"time_scheme",
@@ -479,7 +481,8 @@ namespace meltfront::reference_fem
          0,
          {"bdf2", "backward_euler"}},
         {"steps_per_cell", "1", 0.78125,
-         "Time steps over the run per cell along the domain's side.", 1e-6, 1e6},
+         "Time steps over the run per cell along the domain's side; at least 50 in all.",
+         1e-6, 1e6},
         {"steps", "1", 0L, "Time steps over the run; 0: from steps_per_cell.", 0, 1e9},
         {"start_halvings", "1", 3L,
          "The first step is replaced by steps that double from 2^-start_halvings of it.",

@@ -11,7 +11,8 @@ namespace meltfront::reference_fem
   {
   public:
     explicit ScopedTimer(double &seconds)
-        : seconds(seconds), start(std::chrono::steady_clock::now())
+      : seconds(seconds)
+      , start(std::chrono::steady_clock::now())
     {
     }
 
@@ -39,21 +40,20 @@ namespace meltfront::reference_fem
       double wall = 0, cpu = 0;
     };
 
-    Stopwatch() : started(now())
+    Stopwatch()
+      : started(now())
     {
     }
 
     /** Time since construction or the last restart, pauses excluded. */
-    Seconds
-    elapsed() const
+    Seconds elapsed() const
     {
       const Seconds time = now();
       return {time.wall - started.wall - paused.wall,
               time.cpu - started.cpu - paused.cpu};
     }
 
-    void
-    restart()
+    void restart()
     {
       started = now();
       paused = {};
@@ -61,8 +61,7 @@ namespace meltfront::reference_fem
 
     /** Run a function whose time does not count. */
     template <typename Function>
-    auto
-    without(const Function &function)
+    auto without(const Function &function)
     {
       const Pause pause(*this);
       return function();
@@ -72,7 +71,9 @@ namespace meltfront::reference_fem
     /** Ends also where the function throws. */
     struct Pause
     {
-      explicit Pause(Stopwatch &watch) : watch(watch), begin(now())
+      explicit Pause(Stopwatch &watch)
+        : watch(watch)
+        , begin(now())
       {
       }
       ~Pause()
@@ -85,8 +86,7 @@ namespace meltfront::reference_fem
       Seconds begin;
     };
 
-    static Seconds
-    now()
+    static Seconds now()
     {
       const std::chrono::duration<double> wall
           = std::chrono::steady_clock::now().time_since_epoch();

@@ -4,14 +4,12 @@
 
 namespace meltfront::reference_fem
 {
-  StepFormula
-  backward_euler_step(double now, double next)
+  StepFormula backward_euler_step(double now, double next)
   {
     return {now, now, next, next - now, 1, 0};
   }
 
-  StepFormula
-  bdf2_step(double before, double now, double next)
+  StepFormula bdf2_step(double before, double now, double next)
   {
     const double ratio = (next - now) / (now - before);
     const double scale = 1 + 2 * ratio;

@@ -19,8 +19,7 @@ namespace meltfront::reference_fem
     double c = 0;                         ///< s
     double weight_now = 1, weight_before = 0;
 
-    double
-    combine(double value_now, double value_before) const
+    double combine(double value_now, double value_before) const
     {
       return weight_now * value_now + weight_before * value_before;
     }
@@ -49,28 +48,24 @@ namespace meltfront::reference_fem
      */
     StepQueue(double start, double end, long steps, int start_halvings);
 
-    bool
-    empty() const
+    bool empty() const
     {
       return times.empty();
     }
 
     /** Where the next step ends. */
-    double
-    next() const
+    double next() const
     {
       return times.back();
     }
 
-    void
-    pop()
+    void pop()
     {
       times.pop_back();
     }
 
     /** Halve the next step, which starts at `now`. */
-    void
-    halve(double now)
+    void halve(double now)
     {
       times.push_back(now + (times.back() - now) / 2);
     }

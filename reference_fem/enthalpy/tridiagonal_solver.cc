@@ -16,7 +16,9 @@ namespace meltfront::reference_fem
     {
     public:
       explicit TridiagonalSolver(const ConductionMatrix &matrix)
-          : link(matrix.size()), pivot(matrix.size()), load(matrix.size())
+        : link(matrix.size())
+        , pivot(matrix.size())
+        , load(matrix.size())
       {
         for(std::size_t i = 0; i < matrix.size(); ++i)
           for(std::size_t k = matrix.row_start[i]; k < matrix.row_start[i + 1]; ++k)
@@ -27,14 +29,12 @@ namespace meltfront::reference_fem
                   "the tridiagonal solver needs nodes numbered along a line");
       }
 
-      std::string
-      description() const override
+      std::string description() const override
       {
         return "tridiagonal elimination";
       }
 
-      void
-      solve(const NewtonSystem &system, double, std::vector<double> &x) override
+      void solve(const NewtonSystem &system, double, std::vector<double> &x) override
       {
         const std::size_t n = link.size();
         const double c = system.step_factor;
@@ -69,8 +69,7 @@ namespace meltfront::reference_fem
     };
   } // namespace
 
-  std::unique_ptr<LinearSolver>
-  make_tridiagonal_solver(const ConductionMatrix &matrix)
+  std::unique_ptr<LinearSolver> make_tridiagonal_solver(const ConductionMatrix &matrix)
   {
     return std::make_unique<TridiagonalSolver>(matrix);
   }

@@ -15,9 +15,13 @@ namespace meltfront::reference_fem
     public:
       TruncatedNewton(const StepProblem &problem, const cases::Material &material,
                       std::unique_ptr<LinearSolver> linear_solver)
-          : problem(problem), graph(material), linear_solver(std::move(linear_solver)),
-            active(problem.free), heat_capacity(problem.free.size()),
-            residual(problem.free.size()), direction(problem.free.size())
+        : problem(problem)
+        , graph(material)
+        , linear_solver(std::move(linear_solver))
+        , active(problem.free)
+        , heat_capacity(problem.free.size())
+        , residual(problem.free.size())
+        , direction(problem.free.size())
       {
         if constexpr(Graph::jumps)
           cost.bytes = static_cast<long>(active.size() * sizeof(char));
@@ -26,32 +30,27 @@ namespace meltfront::reference_fem
       StepOutcome solve(double c, const std::vector<double> &rhs, int iteration_limit,
                         CompensatedVector &u, std::vector<double> &heat) override;
 
-      double
-      temperature_excess(double u) const override
+      double temperature_excess(double u) const override
       {
         return graph.temperature_excess(u);
       }
 
-      double
-      temperature_excess_at_enthalpy(double enthalpy) const override
+      double temperature_excess_at_enthalpy(double enthalpy) const override
       {
         return graph.temperature_excess_at_enthalpy(enthalpy);
       }
 
-      double
-      kirchhoff(double temperature_excess) const override
+      double kirchhoff(double temperature_excess) const override
       {
         return graph.kirchhoff(temperature_excess);
       }
 
-      long
-      work() const override
+      long work() const override
       {
         return entries_touched + linear_solver->work();
       }
 
-      GraphCost
-      graph_cost() const override
+      GraphCost graph_cost() const override
       {
         return cost;
       }
@@ -60,16 +59,18 @@ namespace meltfront::reference_fem
       struct Consistency
       {
         double distance; ///< max |T(u) - T(H)| over max |T - T_m|
+        double largest;  ///< max |T - T_m|
         bool settled;    ///< every node is on the right side of the jump
       };
 
-      Consistency recover_heat(double c, const std::vector<double> &rhs,
-                               const CompensatedVector &u, std::vector<double> &heat);
-      void sweep(double c, const std::vector<double> &rhs, CompensatedVector &u);
-      void relax(std::size_t i, double c, const std::vector<double> &rhs,
+      void recover_heat(double c, const std::vector<double> &rhs,
+                        const CompensatedVector &u, std::vector<double> &heat);
+      Consistency compare(const CompensatedVector &u,
+                          const std::vector<double> &heat) const;
+      bool sweep(double c, const std::vector<double> &rhs, CompensatedVector &u);
+      bool relax(std::size_t i, double c, const std::vector<double> &rhs,
                  CompensatedVector &u);
-      void linearise(double c, const std::vector<double> &rhs,
-                     const CompensatedVector &u);
+      double linearise(const CompensatedVector &u, const std::vector<double> &heat);
       bool project(const CompensatedVector &u);
       double line_search(double c, const CompensatedVector &u);
       void advance(double length, CompensatedVector &u) const;
@@ -84,10 +85,20 @@ namespace meltfront::reference_fem
     };
 
     template <class Graph>
+    void TruncatedNewton<Graph>::recover_heat(double c, const std::vector<double> &rhs,
+                                              const CompensatedVector &u,
+                                              std::vector<double> &heat)
+    {
+      for(std::size_t i = 0; i < u.size(); ++i)
+        if(problem.free[i])
+          heat[i] = rhs[i] + c * problem.conduction.exact_inflow(i, u);
+      entries_touched += problem.conduction.entries();
+    }
+
+    template <class Graph>
     typename TruncatedNewton<Graph>::Consistency
-    TruncatedNewton<Graph>::recover_heat(double c, const std::vector<double> &rhs,
-                                         const CompensatedVector &u,
-                                         std::vector<double> &heat)
+    TruncatedNewton<Graph>::compare(const CompensatedVector &u,
+                                    const std::vector<double> &heat) const
     {
       double distance = 0, largest = 0;
       bool settled = true;
@@ -97,7 +108,6 @@ namespace meltfront::reference_fem
         largest = std::max(largest, std::abs(excess));
         if(!problem.free[i])
           continue;
-        heat[i] = rhs[i] + c * problem.conduction.inflow(i, u);
         const double recovered
             = graph.temperature_excess_at_enthalpy(heat[i] / problem.volume[i]);
         const double off = std::abs(excess - recovered);
@@ -106,14 +116,14 @@ namespace meltfront::reference_fem
         settled
             = settled && (u[i] > 0) == (recovered > 0) && (u[i] < 0) == (recovered < 0);
       }
-      entries_touched += problem.conduction.entries();
-      return {largest > 0 ? distance / largest : distance, settled};
+      return {largest > 0 ? distance / largest : distance, largest, settled};
     }
 
+    /** Solve one node's inclusion; true if it moved on, off or over the jump. */
     template <class Graph>
-    void
-    TruncatedNewton<Graph>::relax(std::size_t i, double c, const std::vector<double> &rhs,
-                                  CompensatedVector &u)
+    bool TruncatedNewton<Graph>::relax(std::size_t i, double c,
+                                       const std::vector<double> &rhs,
+                                       CompensatedVector &u)
     {
       const double volume = problem.volume[i];
       const double stiffness = c * problem.conduction.diagonal[i];
@@ -126,32 +136,39 @@ namespace meltfront::reference_fem
         if((u[i] + change) * u[i] > 0)
         {
           u.add(i, change);
-          return;
+          return false;
         }
       }
-      u.set(i, graph.resolve(supply + stiffness * u[i], volume, stiffness));
+      const double before = u[i];
+      u.set(i, graph.resolve(supply + stiffness * before, volume, stiffness));
+      return before != 0 || u[i] != 0;
     }
 
+    /** A symmetric sweep; true if a node moved on, off or over the jump. */
     template <class Graph>
-    void
-    TruncatedNewton<Graph>::sweep(double c, const std::vector<double> &rhs,
-                                  CompensatedVector &u)
+    bool TruncatedNewton<Graph>::sweep(double c, const std::vector<double> &rhs,
+                                       CompensatedVector &u)
     {
+      bool moved = false;
       for(std::size_t i = 0; i < u.size(); ++i)
         if(problem.free[i])
-          relax(i, c, rhs, u);
+          moved = relax(i, c, rhs, u) || moved;
       for(std::size_t i = u.size(); i-- > 0;)
         if(problem.free[i])
-          relax(i, c, rhs, u);
+          moved = relax(i, c, rhs, u) || moved;
       entries_touched += 2 * problem.conduction.entries();
       ++cost.sweeps;
+      return moved;
     }
 
+    /** Fill heat_capacity, active and residual; returns the heat that changes a typical
+     * active node by one kelvin. */
     template <class Graph>
-    void
-    TruncatedNewton<Graph>::linearise(double c, const std::vector<double> &rhs,
-                                      const CompensatedVector &u)
+    double TruncatedNewton<Graph>::linearise(const CompensatedVector &u,
+                                             const std::vector<double> &heat)
     {
+      double heat_per_kelvin = 0;
+      long nodes = 0;
       for(std::size_t i = 0; i < u.size(); ++i)
       {
         if(!problem.free[i])
@@ -167,18 +184,18 @@ namespace meltfront::reference_fem
         }
         const double volume = problem.volume[i];
         heat_capacity[i] = volume * graph.slope(u[i]);
-        residual[i] = rhs[i] + c * problem.conduction.inflow(i, u)
-                      - volume * graph.enthalpy(u[i]);
+        residual[i] = heat[i] - volume * graph.enthalpy(u[i]);
+        heat_per_kelvin += std::pow(volume * graph.capacity(u[i]), 2);
+        ++nodes;
       }
-      entries_touched += problem.conduction.entries();
       if constexpr(Graph::has_two_slopes)
         ++cost.linearisations;
+      return nodes > 0 ? std::sqrt(heat_per_kelvin / nodes) : 0;
     }
 
     /** Cut the direction off where it passes the jump; false where it never does. */
     template <class Graph>
-    bool
-    TruncatedNewton<Graph>::project(const CompensatedVector &u)
+    bool TruncatedNewton<Graph>::project(const CompensatedVector &u)
     {
       bool cut = false;
       for(std::size_t i = 0; i < u.size(); ++i)
@@ -196,8 +213,7 @@ namespace meltfront::reference_fem
      * increasing and linear between the lengths at which a node changes phase.
      */
     template <class Graph>
-    double
-    TruncatedNewton<Graph>::line_search(double c, const CompensatedVector &u)
+    double TruncatedNewton<Graph>::line_search(double c, const CompensatedVector &u)
     {
       struct Kink
       {
@@ -240,8 +256,7 @@ namespace meltfront::reference_fem
     }
 
     template <class Graph>
-    void
-    TruncatedNewton<Graph>::advance(double length, CompensatedVector &u) const
+    void TruncatedNewton<Graph>::advance(double length, CompensatedVector &u) const
     {
       for(std::size_t i = 0; i < u.size(); ++i)
       {
@@ -256,16 +271,17 @@ namespace meltfront::reference_fem
     }
 
     template <class Graph>
-    StepOutcome
-    TruncatedNewton<Graph>::solve(double c, const std::vector<double> &rhs,
-                                  int iteration_limit, CompensatedVector &u,
-                                  std::vector<double> &heat)
+    StepOutcome TruncatedNewton<Graph>::solve(double c, const std::vector<double> &rhs,
+                                              int iteration_limit, CompensatedVector &u,
+                                              std::vector<double> &heat)
     {
-      constexpr double loose = 1e-3, tight = 1e-8;
+      constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
+      constexpr int most_sweeps = 4;
       StepOutcome outcome;
       for(;; ++outcome.iterations)
       {
-        const Consistency state = recover_heat(c, rhs, u, heat);
+        recover_heat(c, rhs, u, heat);
+        const Consistency state = compare(u, heat);
         outcome.graph_inconsistency = state.distance;
         outcome.converged = state.distance <= target_inconsistency;
         if(outcome.converged || outcome.iterations == iteration_limit
@@ -275,11 +291,14 @@ namespace meltfront::reference_fem
           if(!state.settled)
           {
             const ScopedTimer timer(cost.seconds);
-            sweep(c, rhs, u);
+            for(int sweeps = 0; sweeps < most_sweeps && sweep(c, rhs, u);)
+              ++sweeps;
+            recover_heat(c, rhs, u, heat);
           }
-        linearise(c, rhs, u);
+        const double heat_per_kelvin = linearise(u, heat);
         linear_solver->solve(
-            {heat_capacity, c, active, residual, outcome.iterations == 0},
+            {heat_capacity, c, active, residual,
+             safety * target_inconsistency * state.largest * heat_per_kelvin},
             state.settled ? tight : loose, direction);
         double length = 1;
         if constexpr(!Graph::linear)
@@ -293,9 +312,9 @@ namespace meltfront::reference_fem
     }
 
     template <class Graph>
-    std::unique_ptr<NonlinearSolver>
-    make(const StepProblem &problem, const cases::Material &material,
-         std::unique_ptr<LinearSolver> linear_solver)
+    std::unique_ptr<NonlinearSolver> make(const StepProblem &problem,
+                                          const cases::Material &material,
+                                          std::unique_ptr<LinearSolver> linear_solver)
     {
       return std::make_unique<TruncatedNewton<Graph>>(problem, material,
                                                       std::move(linear_solver));

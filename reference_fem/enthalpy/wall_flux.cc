@@ -18,8 +18,7 @@ namespace meltfront::reference_fem
     }
   }
 
-  double
-  WallFlux::add_load(const StepFormula &step, std::vector<double> &load)
+  double WallFlux::add_load(const StepFormula &step, std::vector<double> &load)
   {
     const ScopedTimer timer(effect_cost.seconds);
     ++effect_cost.calls;

@@ -21,8 +21,7 @@ namespace meltfront::reference_fem
      */
     double add_load(const StepFormula &step, std::vector<double> &load);
 
-    const cases::EffectCost &
-    cost() const
+    const cases::EffectCost &cost() const
     {
       return effect_cost;
     }

@@ -7,7 +7,7 @@ namespace meltfront::reference_fem
 {
   WallTemperature::WallTemperature(const cases::Scene &scene,
                                    const Discretization &discretization)
-      : melting_temperature(scene.material.melting_temperature)
+    : melting_temperature(scene.material.melting_temperature)
   {
     const ScopedTimer timer(effect_cost.seconds);
     std::vector<char> taken(discretization.volume.size());
@@ -28,16 +28,14 @@ namespace meltfront::reference_fem
                                           + nodes.size() * sizeof(Node));
   }
 
-  void
-  WallTemperature::mark(std::vector<char> &free) const
+  void WallTemperature::mark(std::vector<char> &free) const
   {
     for(const Node &node : nodes)
       free[node.place.node] = 0;
   }
 
-  void
-  WallTemperature::prescribe(double time, const NonlinearSolver &solver,
-                             CompensatedVector &u)
+  void WallTemperature::prescribe(double time, const NonlinearSolver &solver,
+                                  CompensatedVector &u)
   {
     const ScopedTimer timer(effect_cost.seconds);
     ++effect_cost.calls;
@@ -48,10 +46,11 @@ namespace meltfront::reference_fem
     }
   }
 
-  double
-  WallTemperature::react(const StepFormula &step, const StepProblem &problem,
-                         const cases::Material &material, const CompensatedVector &u,
-                         const std::vector<double> &rhs, std::vector<double> &enthalpy)
+  double WallTemperature::react(const StepFormula &step, const StepProblem &problem,
+                                const cases::Material &material,
+                                const CompensatedVector &u,
+                                const std::vector<double> &rhs,
+                                std::vector<double> &enthalpy)
   {
     const ScopedTimer timer(effect_cost.seconds);
     double sum = 0;
@@ -64,7 +63,7 @@ namespace meltfront::reference_fem
                                   : material.enthalpy(node.temperature);
       enthalpy[i] = material.solid.density * specific;
       sum += problem.volume[i] * enthalpy[i] - rhs[i]
-             - step.c * problem.conduction.inflow(i, u);
+             - step.c * problem.conduction.exact_inflow(i, u);
     }
     return sum;
   }

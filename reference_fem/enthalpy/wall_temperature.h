@@ -39,8 +39,7 @@ namespace meltfront::reference_fem
                  const cases::Material &material, const CompensatedVector &u,
                  const std::vector<double> &rhs, std::vector<double> &enthalpy);
 
-    const cases::EffectCost &
-    cost() const
+    const cases::EffectCost &cost() const
     {
       return effect_cost;
     }
