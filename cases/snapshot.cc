@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meltfront::cases
 {
   double HeatBudget::defect() const
   {
+    const double imbalance = stored + latent - initial - boundary - sources;
+    if(!std::isfinite(imbalance))
+      return std::numeric_limits<double>::infinity();
     const double scale = std::max({std::abs(stored) + std::abs(latent), std::abs(initial),
                                    std::abs(boundary), std::abs(sources)});
     if(scale == 0)
       return 0;
-    return std::abs(stored + latent - initial - boundary - sources) / scale;
+    return std::abs(imbalance) / scale;
   }
 } // namespace meltfront::cases

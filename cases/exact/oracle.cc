@@ -256,8 +256,8 @@ namespace meltfront::cases
   std::string SpectralOracle::description() const
   {
     return fmt::format(
-        "spectral front-fixing solution on {:.6g} ... {:.6g} m, {} Chebyshev "
-        "intervals per phase, {} steps{}",
+        "spectral front-fixing solution on {:.6g} ... {:.6g} m, {} + {} "
+        "Chebyshev intervals, {} steps{}",
         run->problem.inner, run->problem.outer, near_nodes(), far_nodes(), steps(),
         run->problem.start ? ", started from: " + run->problem.start->description() : "");
   }

@@ -167,4 +167,5 @@ TEST(HeatBudget, DefectIsRelativeToItsLargestTerm)
   EXPECT_EQ(HeatBudget().defect(), 0);
   EXPECT_EQ((HeatBudget{3, 4, -2, -1, 10}).defect(), 0);
   EXPECT_DOUBLE_EQ((HeatBudget{3, 4, -2, -1.5, 10}).defect(), 0.05);
+  EXPECT_TRUE(std::isinf((HeatBudget{0, 0, std::nan(""), 0, 0}).defect()));
 }

@@ -4,9 +4,9 @@
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
 #include <verification/app/methods.h>
-#include <verification/matrix/criteria.h>
-#include <verification/matrix/matrix_files.h>
+#include <verification/matrix/json_values.h>
 #include <verification/matrix/matrix_file.h>
+#include <verification/matrix/matrix_files.h>
 #include <verification/matrix/run_one.h>
 #include <verification/matrix/runner.h>
 #include <verification/report/report.h>
@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 namespace meltfront::verification
 {
@@ -29,7 +28,7 @@ namespace meltfront::verification
 
     std::string default_directory(const std::string &name)
     {
-      return "results/" + std::filesystem::path(name).stem().string();
+      return "results/" + short_case_name(name);
     }
 
     void make_directory(const std::string &directory)
@@ -95,14 +94,6 @@ namespace meltfront::verification
       }
       return set;
     }
-
-    void write_record(const RunRecord &record, const std::string &path)
-    {
-      std::ofstream out(path);
-      out << nlohmann::json(record).dump(1) << '\n';
-      if(!out.flush())
-        throw cases::OutputError(fmt::format("cannot write {}", path));
-    }
   } // namespace
 
   void set_command_line(int argc, char **argv)
@@ -143,7 +134,7 @@ namespace meltfront::verification
         = run_one(c, method, resolution, run_label(method.name(), set, arguments.threads),
                   {{"program_version", program_version}, {"command_line", command_line}},
                   &fields, once);
-    write_record(record, directory + "/run.json");
+    write_json(directory + "/run.json", record);
     write_run_page(record, make_case_record(c), directory);
     std::fputs(run_text(record, c).c_str(), stdout);
     fmt::print("Written to {}: run.json, front.csv, picture.svg, fields.pvd\n",
