@@ -132,7 +132,7 @@ summary:hover{color:var(--ink)}
 ul,ol{padding-left:1.25rem;max-width:82ch} li{margin:.22rem 0}
 .tags{font-size:.84rem;color:var(--muted)}
 .off{color:var(--muted)}
-@media(max-width:760px){
+@media screen and (max-width:760px){
  body{font-size:15px}
  main,nav div{padding-left:16px;padding-right:16px}
  h1{font-size:1.62rem} h2{font-size:1.28rem}
@@ -140,6 +140,7 @@ ul,ol{padding-left:1.25rem;max-width:82ch} li{margin:.22rem 0}
  .pair:not(.scene) .plot svg{min-width:460px}
 }
 @media print{
+ .pair{break-inside:avoid}
  nav{display:none} body{font-size:10.5pt} main{max-width:none;padding:0}
  section{margin-top:1.2rem;padding-top:1.2rem}
  figure,tr,.equations,.facts{break-inside:avoid} h2,h3{break-after:avoid}

@@ -89,11 +89,12 @@ namespace meltfront::verification
       {
         const Curve &curve = plot.curves[label.curve];
         const std::string colour = colour_of(curve.style);
-        fmt::format_to(
-            out,
-            "set arrow from {:.8g},{:.8g} to graph 1.022,{:.5f} nohead lw 0.6 lc "
-            "rgb '{}'\n",
-            label.x, label.y, label.height, colour);
+        if(curve.line)
+          fmt::format_to(
+              out,
+              "set arrow from {:.8g},{:.8g} to graph 1.022,{:.5f} nohead lw 0.6 "
+              "lc rgb '{}'\n",
+              label.x, label.y, label.height, colour);
         std::string words = gnuplot_text(shortened(curve.label, longest_label));
         if(!curve.exponent.empty())
         {

@@ -114,10 +114,10 @@ namespace meltfront::verification
         refused += verdict.verdict == "refused";
         failed += verdict.verdict != "held" && verdict.verdict != "refused";
       }
-      return element("p", text(fmt::format("Of {} runs ", verdicts.size()))
+      return element("p", text(fmt::format("Runs: {}; ", verdicts.size()))
                               + element("b", fmt::format("{} held", held))
                               + text(fmt::format(
-                                  ", {} were refused with a reason, {} failed. "
+                                  ", {} refused with a reason, {} failed. "
                                   "A run that held is finite, within the "
                                   "maximum principle, closes its heat budget "
                                   "and moves its front only as physics says. A dash: the "
