@@ -273,7 +273,7 @@ namespace meltfront::verification
     for(const bool solid : {true, false})
     {
       Curve curve;
-      curve.label = run.label + (solid ? ", solid" : ", liquid");
+      curve.label = solid ? "solid" : "liquid";
       curve.style = styles.style(run.label);
       curve.style.open = !solid;
       curve.line = false;

@@ -1,6 +1,7 @@
 #include <verification/report/scene_picture.h>
 
 #include <verification/report/gnuplot.h>
+#include <verification/report/method_styles.h>
 #include <verification/report/plot_layout.h>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <cstdlib>
 #include <iterator>
 #include <numbers>
+#include <tuple>
 
 namespace meltfront::verification
 {
@@ -282,11 +284,13 @@ namespace meltfront::verification
     }
 
     /** The markers' size, from the area that each site has. */
-    double point_size(const RunRecord &run, const Frame &frame)
+    double point_size(const RunRecord &run, const Frame &frame, bool ball)
     {
-      const double area = frame.width * frame.height / run.profile.picture_x.size();
+      const double covered = ball ? std::numbers::pi / 4 : 1;
+      const double area
+          = covered * frame.width * frame.height / run.profile.picture_x.size();
       constexpr double radius_of_size_one = 4.5;
-      return std::clamp(0.36 * std::sqrt(area), 0.9, 7.) / radius_of_size_one;
+      return std::clamp(0.35 * std::sqrt(area), 0.9, 7.) / radius_of_size_one;
     }
 
     std::string write_front(Script out, const CaseRecord &record, const Frame &frame,
@@ -308,20 +312,20 @@ namespace meltfront::verification
 
   const RunRecord *run_to_picture(const CaseRuns &runs)
   {
-    constexpr std::size_t most_sites = 2600;
+    constexpr long most_sites = 2600;
+    // The most sites up to that number, else the fewest; corrected forms before
+    // published.
+    const auto rank = [](const RunRecord &run)
+    {
+      const long sites = static_cast<long>(run.profile.picture_x.size());
+      return std::tuple(sites <= most_sites, sites <= most_sites ? sites : -sites,
+                        base_method(run.label) == run.method);
+    };
     const RunRecord *best = nullptr;
     for(const LabelRuns &label : runs.labels)
       for(const Level &level : label.levels)
-      {
-        const RunRecord *run = level.finished;
-        if(!has_sites(run))
-          continue;
-        const std::size_t sites = run->profile.picture_x.size();
-        const std::size_t present = best ? best->profile.picture_x.size() : 0;
-        if(!best || (sites <= most_sites && (present > most_sites || sites > present))
-           || (sites > most_sites && sites < present))
-          best = run;
-      }
+        if(has_sites(level.finished) && (!best || rank(*level.finished) > rank(*best)))
+          best = level.finished;
     return best;
   }
 
@@ -347,7 +351,7 @@ namespace meltfront::verification
     std::vector<std::string> plots;
     if(has_sites(run))
     {
-      const double size = point_size(*run, frame);
+      const double size = point_size(*run, frame, record.shape == "ball");
       for(const bool solid : {true, false})
       {
         if(write_sites(out, *run, solid) == 0)

@@ -1,5 +1,6 @@
 #include <verification/report/convergence_table.h>
 #include <verification/report/cost_at_error.h>
+#include <verification/report/scene_picture.h>
 #include <verification/report/tests/fixture.h>
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 namespace meltfront::verification
 {
@@ -150,6 +152,28 @@ namespace meltfront::verification
         = table_markdown(printed_table(collect_runs(result, result.cases[0])));
     EXPECT_NE(markdown.find("0.01063"), std::string::npos) << markdown;
     EXPECT_NE(markdown.find("n/a"), std::string::npos);
+  }
+
+  TEST(Picture, FinestRunThatIsStillReadable)
+  {
+    MatrixResult result;
+    result.cases = {fixture::sink_case("sink")};
+    for(const auto &[label, n, sites] : {std::tuple("sph-2005", 50, 2500),
+                                         {"sph", 20, 400},
+                                         {"sph", 50, 2500},
+                                         {"sph", 80, 6000},
+                                         {"fem-enthalpy", 1024, 0}})
+    {
+      RunRecord &run = result.runs.emplace_back(fixture::run("sink", label, n, 1, 1, 1));
+      run.profile.picture_x.assign(sites, 0);
+      run.profile.picture_y.assign(sites, 0);
+    }
+    const RunRecord *best = run_to_picture(collect_runs(result, result.cases[0]));
+    ASSERT_NE(best, nullptr);
+    EXPECT_EQ(best->label, "sph");
+    EXPECT_EQ(best->n, 50);
+    result.runs.resize(0);
+    EXPECT_EQ(run_to_picture(collect_runs(result, result.cases[0])), nullptr);
   }
 
   TEST(CostAtError, KnownAnswer)
