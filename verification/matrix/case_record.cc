@@ -82,9 +82,15 @@ namespace meltfront::verification
       const auto coordinates
           = std::vector(source.position.begin(),
                         source.position.begin() + std::max(scene.domain.dimension, 1));
-      const char *unit = scene.domain.dimension == 3 ? "W" : "W/m";
-      return fmt::format("at ({}): {}{}", fmt::join(coordinates, ", "), source.expression,
-                         scene.units == "SI" ? fmt::format(" {}", unit) : "");
+      const std::string unit
+          = scene.units != "SI" ? "" : (scene.domain.dimension == 3 ? " W" : " W/m");
+      // "exact" is a word for a number that the exact solution knows.
+      const std::string strength
+          = source.expression == "exact"
+                ? fmt::format("that of the exact solution, {:.7g}{} at the end",
+                              source.power(scene.end_time), unit)
+                : source.expression + unit;
+      return fmt::format("at ({}): {}", fmt::join(coordinates, ", "), strength);
     }
 
     std::string words(const cases::InitialState &state)
