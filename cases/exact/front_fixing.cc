@@ -43,10 +43,14 @@ namespace meltfront::cases::spectral
       double range = 0;
       for(int i = 1; i <= samples; ++i)
         range = std::max(range, excess(static_cast<double>(i) / samples));
-      const double step = 1e-6, slope = excess(step) / step;
+      double slope = 0;
+      for(double step = 1e-2; step > 1e-9; step /= 10)
+        slope = std::max(slope, excess(step) / step);
       const double spacing = slope > 0 ? 12 * range / slope : 1;
+      const double most_stretch = 18;
       double stretch = 0;
-      while(stretch < 12 && (stretch > 0 ? stretch / std::sinh(stretch) : 1) > spacing)
+      while(stretch < most_stretch
+            && (stretch > 0 ? stretch / std::sinh(stretch) : 1) > spacing)
         stretch += 0.25;
       return stretch;
     }

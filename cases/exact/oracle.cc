@@ -129,7 +129,7 @@ namespace meltfront::cases
      */
     Result integrate_resolved(const OracleProblem &problem, double allowed)
     {
-      const int most_intervals = 160, enough_to_judge = 30;
+      const int most_intervals = 160, enough_to_judge = 60;
       int near = 12, far = 12;
       double last_defect = any_defect;
       while(std::max(near, far) <= most_intervals)
@@ -140,7 +140,7 @@ namespace meltfront::cases
         catch(const Unresolved &unresolved)
         {
           const double defect = std::max(unresolved.defect.near, unresolved.defect.far);
-          if(std::max(near, far) > enough_to_judge && defect > 0.1 * last_defect)
+          if(std::max(near, far) > enough_to_judge && defect > 0.3 * last_defect)
             return nullptr;
           last_defect = defect;
           if(unresolved.defect.near > allowed)
@@ -175,24 +175,35 @@ namespace meltfront::cases
     Result integrate_by_comparison(const OracleProblem &problem)
     {
       const int most_intervals = 125;
+      const double hopeless = 1e-3;
       Result last;
       double difference = any_defect;
       for(int intervals = 24; intervals <= most_intervals; intervals += intervals / 2)
-      {
-        auto next
-            = std::make_unique<Integration>(problem, intervals, intervals, any_defect);
-        if(last)
-          difference = front_difference(problem, *last, *next);
-        last = std::move(next);
-        last->defect = difference;
-        if(difference <= 10 * problem.tolerance)
-          return last;
-      }
+        try
+        {
+          auto next
+              = std::make_unique<Integration>(problem, intervals, intervals, hopeless);
+          if(last)
+            difference = front_difference(problem, *last, *next);
+          last = std::move(next);
+          last->defect = difference;
+          if(difference <= 10 * problem.tolerance)
+            return last;
+        }
+        catch(const Unresolved &)
+        {
+          last = nullptr;
+        }
       throw NumericalError(
-          "spectral oracle", last->trajectory.steps(), problem.end_time, "the front",
-          fmt::format("still moves by {:.1e} of the domain from one set of Chebyshev "
-                      "nodes to the next: the data are not smooth enough",
-                      difference));
+          "spectral oracle", 0, problem.start_time, "the front",
+          std::isfinite(difference)
+              ? fmt::format("still moves by {:.1e} of the domain from one set of "
+                            "Chebyshev nodes to the next: the data are too steep or not "
+                            "smooth enough",
+                            difference)
+              : fmt::format("cannot be computed: {} Chebyshev intervals do not resolve "
+                            "the profile",
+                            most_intervals));
     }
 
     Result integrate(const OracleProblem &problem)

@@ -219,6 +219,10 @@ namespace meltfront::cases::spectral
       if(length < 1e-13 * std::max(std::abs(time), end - start))
         throw NumericalError(problem.name, result.steps(), time, "the time step",
                              "cannot be made small enough");
+      const long most_steps = 5000;
+      if(result.steps() == most_steps)
+        throw NumericalError(problem.name, most_steps, time, "the number of steps",
+                             "is at its limit before the end");
       const Eigen::VectorXd scale = problem.scale(state);
       Eigen::MatrixXd states(state.size(), stages + 1);
       states.col(0) = state;
