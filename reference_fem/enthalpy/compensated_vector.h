@@ -28,9 +28,10 @@ namespace meltfront::reference_fem
       add(product);
     }
 
-    double value() const
+    /** The sum in extended precision, where there is one. */
+    long double value() const
     {
-      return sum + error;
+      return static_cast<long double>(sum) + error;
     }
 
   private:

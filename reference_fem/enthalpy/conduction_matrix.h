@@ -44,7 +44,7 @@ namespace meltfront::reference_fem
 
     /** The same with the cancellation between neighbours kept to the last digit: heat
      * flows through a node of a good conductor many times over what it stores. */
-    double exact_inflow(std::size_t i, const CompensatedVector &u) const
+    long double exact_inflow(std::size_t i, const CompensatedVector &u) const
     {
       CompensatedSum sum;
       for(std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)

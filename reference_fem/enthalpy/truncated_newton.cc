@@ -91,7 +91,8 @@ namespace meltfront::reference_fem
     {
       for(std::size_t i = 0; i < u.size(); ++i)
         if(problem.free[i])
-          heat[i] = rhs[i] + c * problem.conduction.exact_inflow(i, u);
+          heat[i]
+              = static_cast<double>(rhs[i] + c * problem.conduction.exact_inflow(i, u));
       entries_touched += problem.conduction.entries();
     }
 

@@ -83,7 +83,7 @@ namespace meltfront::reference_fem
     {
       long sweeps = 0;         ///< nonlinear sweeps: calls of phase_change
       long bytes = 0;          ///< arrays of the truncation
-      double seconds = 0;      ///< in sweeps, truncation and projection
+      double seconds = 0;      ///< in sweeps
       long linearisations = 0; ///< uses of the phases' two slopes
     };
     virtual GraphCost graph_cost() const = 0;

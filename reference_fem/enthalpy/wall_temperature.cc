@@ -53,7 +53,9 @@ namespace meltfront::reference_fem
                                 std::vector<double> &enthalpy)
   {
     const ScopedTimer timer(effect_cost.seconds);
-    double sum = 0;
+    // Heat may pass in through one wall and out through another many times over what is
+    // stored: the sum is that of the balance, which must hold to round-off of the stored.
+    long double sum = 0;
     for(const Node &node : nodes)
     {
       const unsigned int i = node.place.node;
@@ -65,6 +67,6 @@ namespace meltfront::reference_fem
       sum += problem.volume[i] * enthalpy[i] - rhs[i]
              - step.c * problem.conduction.exact_inflow(i, u);
     }
-    return sum;
+    return static_cast<double>(sum);
   }
 } // namespace meltfront::reference_fem

@@ -9,16 +9,14 @@ namespace meltfront::reference_fem::tests
 {
   using namespace cases;
 
-  Material
-  normalised_material()
+  Material normalised_material()
   {
     Material material;
     material.melting_temperature = 1;
     return material;
   }
 
-  Material
-  water()
+  Material water()
   {
     Material material;
     material.solid = {2.2, 2090, 1000};
@@ -27,14 +25,12 @@ namespace meltfront::reference_fem::tests
     return material;
   }
 
-  Boundary
-  fixed_wall(double temperature)
+  Boundary fixed_wall(double temperature)
   {
     return {BoundaryKind::fixed_temperature, Field::uniform(temperature), false};
   }
 
-  Boundary
-  varying_wall(std::function<double(double)> temperature)
+  Boundary varying_wall(std::function<double(double)> temperature)
   {
     return {BoundaryKind::fixed_temperature,
             {"varying",
@@ -43,8 +39,7 @@ namespace meltfront::reference_fem::tests
             false};
   }
 
-  Boundary
-  exact_wall(const ExactPointer &exact)
+  Boundary exact_wall(const ExactPointer &exact)
   {
     return {BoundaryKind::fixed_temperature,
             {"exact",
@@ -54,16 +49,15 @@ namespace meltfront::reference_fem::tests
             true};
   }
 
-  Boundary
-  flux_wall(double flux)
+  Boundary flux_wall(double flux)
   {
     return {BoundaryKind::flux, Field::uniform(flux), false};
   }
 
   namespace
   {
-    Scene
-    uniform_scene(const Material &material, double temperature, double start, double end)
+    Scene uniform_scene(const Material &material, double temperature, double start,
+                        double end)
     {
       Scene scene;
       scene.name = "test";
@@ -75,9 +69,8 @@ namespace meltfront::reference_fem::tests
     }
   } // namespace
 
-  Scene
-  slab(const Material &material, double length, double temperature, double start,
-       double end)
+  Scene slab(const Material &material, double length, double temperature, double start,
+             double end)
   {
     Scene scene = uniform_scene(material, temperature, start, end);
     scene.symmetry = Symmetry::planar;
@@ -87,9 +80,8 @@ namespace meltfront::reference_fem::tests
     return scene;
   }
 
-  Scene
-  ball(const Material &material, int dimension, double radius, double temperature,
-       double end)
+  Scene ball(const Material &material, int dimension, double radius, double temperature,
+             double end)
   {
     Scene scene = uniform_scene(material, temperature, 0, end);
     scene.symmetry = dimension == 2 ? Symmetry::cylindrical : Symmetry::spherical;
@@ -98,9 +90,8 @@ namespace meltfront::reference_fem::tests
     return scene;
   }
 
-  Scene
-  box(const Material &material, int dimension, const Position &lower,
-      const Position &upper, double temperature, double end)
+  Scene box(const Material &material, int dimension, const Position &lower,
+            const Position &upper, double temperature, double end)
   {
     Scene scene = uniform_scene(material, temperature, 0, end);
     scene.domain = {DomainShape::box, dimension, lower, upper, 0};
@@ -109,14 +100,12 @@ namespace meltfront::reference_fem::tests
     return scene;
   }
 
-  void
-  set_boundary(Scene &scene, Side side, const Boundary &boundary)
+  void set_boundary(Scene &scene, Side side, const Boundary &boundary)
   {
     scene.boundaries[static_cast<std::size_t>(side)] = boundary;
   }
 
-  void
-  start_from(Scene &scene, const ExactPointer &exact)
+  void start_from(Scene &scene, const ExactPointer &exact)
   {
     scene.initial.exact = exact;
     scene.initial.temperature = {"exact",
@@ -134,24 +123,23 @@ namespace meltfront::reference_fem::tests
     {
     public:
       Recorder(const Scene &scene, const ExactSolution *exact, RunRecord &record)
-          : scene(scene), exact(exact), record(record)
+        : scene(scene)
+        , exact(exact)
+        , record(record)
       {
       }
 
-      void
-      begin(const RunDescription &description) override
+      void begin(const RunDescription &description) override
       {
         record.description = description;
       }
 
-      bool
-      wants(long, double) override
+      bool wants(long, double) override
       {
         return true;
       }
 
-      void
-      observe(const Snapshot &snapshot) override
+      void observe(const Snapshot &snapshot) override
       {
         double solid = 0;
         for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
@@ -170,8 +158,7 @@ namespace meltfront::reference_fem::tests
       }
 
     private:
-      void
-      keep_state(const Snapshot &snapshot)
+      void keep_state(const Snapshot &snapshot)
       {
         record.temperature.assign(snapshot.temperature.begin(),
                                   snapshot.temperature.end());
@@ -208,14 +195,12 @@ namespace meltfront::reference_fem::tests
     };
   } // namespace
 
-  double
-  RunRecord::worst_budget_defect() const
+  double RunRecord::worst_budget_defect() const
   {
     return *std::max_element(budget_defect.begin(), budget_defect.end());
   }
 
-  double
-  RunRecord::worst_front_error(double after) const
+  double RunRecord::worst_front_error(double after) const
   {
     double worst = 0;
     for(std::size_t i = 0; i < time.size(); ++i)
@@ -224,14 +209,13 @@ namespace meltfront::reference_fem::tests
     return worst / front_exact.back();
   }
 
-  double
-  RunRecord::final_front_error() const
+  double RunRecord::final_front_error() const
   {
     return std::abs(front.back() / front_exact.back() - 1);
   }
 
-  RunRecord
-  run(const Scene &scene, int n, const OptionTexts &options, const ExactSolution *exact)
+  RunRecord run(const Scene &scene, int n, const OptionTexts &options,
+                const ExactSolution *exact)
   {
     RunRecord record;
     const EffectSet effects = effects_called_for(scene);
@@ -240,15 +224,17 @@ namespace meltfront::reference_fem::tests
     resolution.n = n;
     resolution.options = Options(make_fem_enthalpy()->option_declarations());
     for(const auto &[key, text] : options)
-      resolution.options.set(key, text);
+      if(key == "threads")
+        resolution.threads = std::stoi(text);
+      else
+        resolution.options.set(key, text);
     Recorder recorder(scene, exact, record);
     record.cost
         = run_enthalpy(simulated, effects, resolution, recorder, record.statistics);
     return record;
   }
 
-  double
-  fitted_order(const std::vector<int> &n, const std::vector<double> &errors)
+  double fitted_order(const std::vector<int> &n, const std::vector<double> &errors)
   {
     double x = 0, y = 0, xx = 0, xy = 0;
     const double count = static_cast<double>(n.size());

@@ -77,7 +77,8 @@ namespace meltfront::reference_fem::tests
 
   using OptionTexts = std::map<std::string, std::string>;
 
-  /** Run a scene with its own effects, every step recorded. */
+  /** Run a scene with its own effects, every step recorded. The text `threads` sets the
+   * number of threads, any other an option of the method. */
   RunRecord run(const cases::Scene &scene, int n, const OptionTexts &options = {},
                 const cases::ExactSolution *exact = nullptr);
 
