@@ -1,4 +1,5 @@
 #include <reference_fem/enthalpy/enthalpy.h>
+#include <reference_fem/enthalpy/options.h>
 #include <reference_fem/enthalpy/solver.h>
 
 namespace meltfront::reference_fem

@@ -3,6 +3,8 @@
 
 #include <cases/material.h>
 
+#include <algorithm>
+
 namespace meltfront::reference_fem
 {
   /**
@@ -101,6 +103,12 @@ namespace meltfront::reference_fem
       if constexpr(two_slopes)
         return enthalpy / liquid_capacity;
       return enthalpy / solid_capacity;
+    }
+
+    /** L/c (K), with the smaller c: by how much the latent heat would warm. */
+    double latent_temperature() const
+    {
+      return volumetric_latent_heat / std::min(solid_capacity, liquid_capacity);
     }
 
     /** u where T - T_m is given. */

@@ -1,6 +1,7 @@
 #include <reference_fem/enthalpy/mesh.h>
 
 #include <cases/error.h>
+#include <reference_fem/enthalpy/shaped_triangulation.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -8,9 +9,7 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <fmt/format.h>
@@ -28,8 +27,6 @@ namespace meltfront::reference_fem
     using cases::DomainShape;
     using cases::Position;
     using cases::Side;
-
-    constexpr unsigned int strip_width = 4; ///< cells across a slab in 2D and 3D
 
     template <int dim>
     Position position(const dealii::Point<dim> &point)
@@ -53,9 +50,6 @@ namespace meltfront::reference_fem
           const std::function<double(const Position &)> &function) const override;
 
     private:
-      void mesh_block(const cases::Scene &scene, int n);
-      void mesh_radius(const cases::Scene &scene, int n);
-      void mesh_ball(const cases::Scene &scene, int n);
       void join_periodic_sides(const cases::Scene &scene);
       void number_nodes();
 
@@ -68,110 +62,26 @@ namespace meltfront::reference_fem
       void integrate_walls(Discretization &result) const;
       void place_sites(Discretization &result) const;
 
-      dealii::Triangulation<dim> triangulation;
+      ShapedTriangulation<dim> shape;
       dealii::FE_Q<dim> element{1};
       dealii::DoFHandler<dim> dof_handler;
       dealii::AffineConstraints<double> periodicity;
       dealii::MappingQ<dim> mapping;
-      bool cartesian;
-      cases::Symmetry measure = cases::Symmetry::none;
-      double spacing = 0;
-      double strip_section
-          = 1; ///< m or m^2: by how much a strip exceeds the slab's measure
-      std::vector<Side> sides;
       std::vector<unsigned int> node_of_site;
       unsigned int n_nodes = 0;
     };
 
     template <int dim>
     DealMesh<dim>::DealMesh(const cases::Scene &scene, int n)
-      : dof_handler(triangulation)
-      , mapping(scene.domain.shape == DomainShape::ball && dim > 1 ? 4 : 1)
-      , cartesian(scene.domain.shape != DomainShape::ball)
+      : shape(scene, n)
+      , dof_handler(shape.triangulation)
+      , mapping(shape.curved ? 4 : 1)
     {
-      if(cartesian)
-        mesh_block(scene, n);
-      else if(dim == 1)
-        mesh_radius(scene, n);
-      else
-        mesh_ball(scene, n);
       dof_handler.distribute_dofs(element);
-      if(cartesian)
+      if(shape.cartesian)
         join_periodic_sides(scene);
       periodicity.close();
       number_nodes();
-    }
-
-    template <int dim>
-    void DealMesh<dim>::mesh_block(const cases::Scene &scene, int n)
-    {
-      const cases::Domain &domain = scene.domain;
-      const bool strip = domain.shape == DomainShape::slab;
-      spacing = domain.side() / n;
-      dealii::Point<dim> lower, upper;
-      std::vector<unsigned int> cells(dim, n);
-      for(int d = 0; d < dim; ++d)
-      {
-        lower[d] = domain.lower[d];
-        upper[d] = domain.upper[d];
-        if(d > 0 && strip)
-        {
-          cells[d] = strip_width;
-          upper[d] = lower[d] + strip_width * spacing;
-          strip_section *= strip_width * spacing;
-        }
-        else if(d > 0)
-          cells[d] = std::max(
-              1, static_cast<int>(std::lround((upper[d] - lower[d]) / spacing)));
-      }
-      dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, cells, lower,
-                                                        upper, true);
-      // deal.II numbers the sides of a block in the order of cases::Side.
-      sides = scene.sides();
-    }
-
-    template <int dim>
-    void DealMesh<dim>::mesh_radius(const cases::Scene &scene, int n)
-    {
-      if constexpr(dim == 1)
-      {
-        const unsigned int cells = std::max(1, (n + 1) / 2);
-        dealii::GridGenerator::subdivided_hyper_rectangle(
-            triangulation, std::vector<unsigned int>{cells}, dealii::Point<1>(0),
-            dealii::Point<1>(scene.domain.radius));
-        spacing = scene.domain.radius / cells;
-        measure = scene.domain.dimension == 2 ? cases::Symmetry::cylindrical
-                                              : cases::Symmetry::spherical;
-        for(const auto &cell : triangulation.active_cell_iterators())
-          for(const auto face : cell->face_indices())
-            if(cell->at_boundary(face) && cell->face(face)->center()[0] > 0)
-              cell->face(face)->set_boundary_id(static_cast<unsigned int>(Side::outer));
-        sides = {Side::outer};
-      }
-    }
-
-    template <int dim>
-    void DealMesh<dim>::mesh_ball(const cases::Scene &scene, int n)
-    {
-      if constexpr(dim > 1)
-      {
-        int refinements = 0;
-        while((4 << refinements) < n)
-          ++refinements;
-        if((4 << refinements) != n)
-          throw cases::Refusal(fmt::format(
-              "fem-enthalpy meshes a ball in {}D only with n = 4, 8, 16, 32, ... cells "
-              "along the diameter, not {}",
-              dim, n));
-        dealii::GridGenerator::hyper_ball_balanced(triangulation, dealii::Point<dim>(),
-                                                   scene.domain.radius);
-        triangulation.refine_global(refinements);
-        for(const auto &face : triangulation.active_face_iterators())
-          if(face->at_boundary())
-            face->set_boundary_id(static_cast<unsigned int>(Side::outer));
-        spacing = scene.domain.side() / n;
-        sides = {Side::outer};
-      }
     }
 
     template <int dim>
@@ -217,11 +127,11 @@ namespace meltfront::reference_fem
     template <int dim>
     double DealMesh<dim>::weight(const dealii::Point<dim> &point) const
     {
-      if(measure == cases::Symmetry::cylindrical)
+      if(shape.measure == cases::Symmetry::cylindrical)
         return 2 * std::numbers::pi * point[0];
-      if(measure == cases::Symmetry::spherical)
+      if(shape.measure == cases::Symmetry::spherical)
         return 4 * std::numbers::pi * point[0] * point[0];
-      return 1 / strip_section;
+      return 1 / shape.strip_section;
     }
 
     template <int dim>
@@ -238,8 +148,8 @@ namespace meltfront::reference_fem
     {
       Discretization result;
       result.dimension = dim;
-      result.spacing = spacing;
-      result.measure = measure;
+      result.spacing = shape.spacing;
+      result.measure = shape.measure;
       result.node_of_site = node_of_site;
       integrate_cells(result);
       integrate_walls(result);
@@ -251,8 +161,9 @@ namespace meltfront::reference_fem
     void DealMesh<dim>::integrate_cells(Discretization &result) const
     {
       const dealii::Quadrature<dim> quadrature
-          = cartesian ? static_cast<dealii::Quadrature<dim>>(dealii::QTrapezoid<dim>())
-                      : static_cast<dealii::Quadrature<dim>>(dealii::QGauss<dim>(3));
+          = shape.cartesian
+                ? static_cast<dealii::Quadrature<dim>>(dealii::QTrapezoid<dim>())
+                : static_cast<dealii::Quadrature<dim>>(dealii::QGauss<dim>(3));
       dealii::FEValues<dim> values(mapping, element, quadrature,
                                    dealii::update_values | dealii::update_gradients
                                        | dealii::update_JxW_values
@@ -316,8 +227,8 @@ namespace meltfront::reference_fem
         {
           const unsigned int side = cell->face(face)->boundary_id();
           if(!cell->at_boundary(face)
-             || std::find(sides.begin(), sides.end(), static_cast<Side>(side))
-                    == sides.end())
+             || std::find(shape.sides.begin(), shape.sides.end(), static_cast<Side>(side))
+                    == shape.sides.end())
             continue;
           values.reinit(cell, face);
           const auto corners = sites(cell);

@@ -12,7 +12,8 @@ namespace meltfront::reference_fem
     double graph_inconsistency = 0; ///< see StepOutcome::graph_inconsistency
     double balance_defect = 0;      ///< of one step, over the heat at hand
     int iterations = 0;
-    long halvings = 0; ///< steps that were halved
+    long halvings = 0;    ///< steps that were halved
+    long euler_steps = 0; ///< steps that BDF2 left to backward Euler
   };
 
   /** The largest relative defect of a step's heat balance that is accepted. */
@@ -25,9 +26,6 @@ namespace meltfront::reference_fem
   cases::Cost run_enthalpy(const cases::Scene &scene, const cases::EffectSet &effects,
                            const cases::Resolution &resolution, cases::Observer &observer,
                            StepStatistics &statistics);
-
-  /** The options that run_enthalpy reads. */
-  std::vector<cases::OptionDeclaration> enthalpy_options();
 } // namespace meltfront::reference_fem
 
 #endif

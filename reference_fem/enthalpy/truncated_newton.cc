@@ -9,6 +9,9 @@ namespace meltfront::reference_fem
 {
   namespace
   {
+    /** The share of rho L/(rho c) below which temperatures drown in its round-off. */
+    constexpr double round_off_share = 1e-3;
+
     template <class Graph>
     class TruncatedNewton : public NonlinearSolver
     {
@@ -58,8 +61,8 @@ namespace meltfront::reference_fem
     private:
       struct Consistency
       {
-        double distance; ///< max |T(u) - T(H)| over max |T - T_m|
-        double largest;  ///< max |T - T_m|
+        double distance; ///< max |T(u) - T(H)| over the scale
+        double scale;    ///< see StepOutcome::graph_inconsistency
         bool settled;    ///< every node is on the right side of the jump
       };
 
@@ -80,6 +83,7 @@ namespace meltfront::reference_fem
       std::unique_ptr<LinearSolver> linear_solver;
       std::vector<char> active;
       std::vector<double> heat_capacity, residual, direction;
+      double scale = 0; ///< largest |T - T_m| of the steps solved so far
       long entries_touched = 0;
       GraphCost cost;
     };
@@ -117,6 +121,7 @@ namespace meltfront::reference_fem
         settled
             = settled && (u[i] > 0) == (recovered > 0) && (u[i] < 0) == (recovered < 0);
       }
+      largest = std::max({largest, scale, round_off_share * graph.latent_temperature()});
       return {largest > 0 ? distance / largest : distance, largest, settled};
     }
 
@@ -285,6 +290,8 @@ namespace meltfront::reference_fem
         const Consistency state = compare(u, heat);
         outcome.graph_inconsistency = state.distance;
         outcome.converged = state.distance <= target_inconsistency;
+        if(outcome.converged)
+          scale = state.scale;
         if(outcome.converged || outcome.iterations == iteration_limit
            || !std::isfinite(state.distance))
           break;
@@ -299,7 +306,7 @@ namespace meltfront::reference_fem
         const double heat_per_kelvin = linearise(u, heat);
         linear_solver->solve(
             {heat_capacity, c, active, residual,
-             safety * target_inconsistency * state.largest * heat_per_kelvin},
+             safety * target_inconsistency * state.scale * heat_per_kelvin},
             state.settled ? tight : loose, direction);
         double length = 1;
         if constexpr(!Graph::linear)

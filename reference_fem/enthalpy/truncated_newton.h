@@ -17,7 +17,11 @@ namespace meltfront::reference_fem
   {
     bool converged = false;
     int iterations = 0;
-    /** max |T(u) - T(H)| over max |T - T_m|: how far the state is off the graph. */
+    /**
+     * How far the state is off the graph: max |T(u) - T(H)| over the largest |T - T_m| of
+     * the run so far, but at least over a thousandth of L/c, since the latent heat's own
+     * round-off sets a floor.
+     */
     double graph_inconsistency = 0;
   };
 

@@ -166,6 +166,49 @@ namespace meltfront::reference_fem::tests
       }
     }
 
+    TEST(HardCases, SuddenWallsKeepTheBounds)
+    {
+      // BDF2 alone swings beyond the wall's temperatures here.
+      long euler_steps = 0;
+      for(const int n : {8, 32, 128})
+        for(const double latent_heat : {0., 1.})
+        {
+          Material material = normalised_material();
+          material.latent_heat = latent_heat;
+          material.liquid.conductivity = 1e3;
+          Scene scene = slab(material, 1, 1.2, 0, 0.25);
+          set_boundary(
+              scene, Side::x_min,
+              varying_wall([](double time)
+                           { return std::fmod(time, 0.05) > 0.025 ? 0.2 : 1.2; }));
+          const RunRecord record = run(scene, n);
+          euler_steps += record.statistics.euler_steps;
+          EXPECT_GE(*std::min_element(record.lowest.begin(), record.lowest.end()), 0.198);
+          EXPECT_LE(*std::max_element(record.highest.begin(), record.highest.end()),
+                    1.202);
+          EXPECT_LE(record.worst_budget_defect(), 1e-13);
+        }
+      EXPECT_GT(euler_steps, 0);
+    }
+
+    TEST(HardCases, EverythingEndsAtTheMeltingPoint)
+    {
+      // The heat of the liquid side melts a part of the solid side: temperatures vanish
+      // under the round-off of the latent heat.
+      Material material = normalised_material();
+      material.liquid.conductivity = 1e3;
+      Scene scene = slab(material, 1, 1.2, 0, 100);
+      scene.initial.temperature
+          = {"jump", [](const Position &p, double) { return p[0] < 0.5 ? 0.2 : 1.8; },
+             false};
+      const RunRecord record = run(scene, 32);
+      EXPECT_EQ(record.cost.capped_steps, 0);
+      EXPECT_NEAR(record.lowest.back(), 1, 1e-9);
+      EXPECT_NEAR(record.highest.back(), 1, 1e-9);
+      EXPECT_LE(record.worst_budget_defect(), 1e-13);
+      EXPECT_NEAR(record.heat.latent, record.heat.initial, 1e-9);
+    }
+
     TEST(HardCases, TheFrontTurnsBackWithTheWall)
     {
       Scene scene = slab(normalised_material(), 1, 1.1, 0, 1);

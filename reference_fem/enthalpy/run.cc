@@ -1,0 +1,272 @@
+#include <cases/error.h>
+#include <reference_fem/enthalpy/initial_state.h>
+#include <reference_fem/enthalpy/run.h>
+#include <reference_fem/enthalpy/sum_over.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meltfront::reference_fem
+{
+  using cases::Effect;
+
+  namespace
+  {
+    constexpr const char *method_name = "fem-enthalpy";
+
+    /** Iterations grow with the cells that the front crosses in a step: beyond these the
+     * next step is halved. */
+    constexpr int comfortable_iterations = 30;
+
+    /** Below this share of the nominal step a step that does not converge stops the run.
+     */
+    constexpr double smallest_step = 1e-4;
+
+    /** Without an M-matrix (balls in 2D and 3D) the discrete maximum principle holds only
+     * nearly; with one, up to round-off. Relative to the span of the bounds. */
+    constexpr double slack_without_maximum_principle = 0.01;
+  } // namespace
+
+  EnthalpyRun::EnthalpyRun(const cases::Scene &scene, const cases::EffectSet &effects,
+                           const cases::Resolution &resolution)
+    : scene(scene)
+    , effects(effects)
+    , resolution(resolution)
+    , options(scene, resolution)
+    , bounds(cases::temperature_bounds(scene))
+    , time(scene.start_time)
+    , time_before(scene.start_time)
+  {
+    const std::unique_ptr<Mesh> geometry
+        = make_mesh(scene, options.dimension, resolution.n);
+    mesh = geometry->discretize();
+    if(!mesh.conduction.is_monotone())
+      slack = slack_without_maximum_principle;
+    const std::size_t n = mesh.volume.size();
+    free.assign(n, 1);
+    if(effects.contains(Effect::heat_sources))
+      sources.emplace(scene, *geometry, mesh);
+    if(effects.contains(Effect::wall_flux))
+      flux.emplace(scene, mesh);
+    if(effects.contains(Effect::wall_temperature))
+      walls.emplace(scene, mesh).mark(free);
+
+    auto linear_solver = options.dimension == 1
+                             ? make_tridiagonal_solver(mesh.conduction)
+                             : make_krylov_solver(mesh.conduction, options.preconditioner,
+                                                  resolution.threads);
+    linear_solver_in_words = linear_solver->description();
+    solver = make_nonlinear_solver({mesh.conduction, mesh.volume, free}, scene.material,
+                                   effects, std::move(linear_solver));
+    enthalpy = initial_enthalpy(scene, *geometry, mesh, free);
+    enthalpy_before = enthalpy;
+    u = CompensatedVector(n);
+    for(std::size_t i = 0; i < n; ++i)
+      u.set(i, solver->kirchhoff(solver->temperature_excess_at_enthalpy(enthalpy[i])));
+    rhs.resize(n);
+    heat.resize(n);
+    initial_heat = total_heat();
+  }
+
+  StepFormula EnthalpyRun::formula(double next) const
+  {
+    return options.bdf2 && step_number > 0 ? bdf2_step(time_before, time, next)
+                                           : backward_euler_step(time, next);
+  }
+
+  /** First guess: the last change goes on. Halves the iterations of long steps. */
+  void EnthalpyRun::predict(double next)
+  {
+    if(step_number == 0)
+      return;
+    const double ratio = (next - time) / (time - time_before);
+    for(std::size_t i = 0; i < u.size(); ++i)
+      u.add(i, ratio * (u_accepted[i] - u_before[i]));
+  }
+
+  StepOutcome EnthalpyRun::attempt(const StepFormula &step)
+  {
+    for(std::size_t i = 0; i < rhs.size(); ++i)
+      rhs[i] = mesh.volume[i] * step.combine(enthalpy[i], enthalpy_before[i]);
+    if(sources)
+      sources->add_load(step, rhs);
+    step_flux_heat = flux ? flux->add_load(step, rhs) : 0;
+    predict(step.next);
+    if(walls)
+      walls->prescribe(step.next, *solver, u);
+    const StepOutcome outcome
+        = solver->solve(step.c, rhs, options.iteration_limit, u, heat);
+    iterations += outcome.iterations;
+    capped_steps += outcome.iterations >= options.iteration_limit;
+    return outcome;
+  }
+
+  void EnthalpyRun::accept(const StepFormula &step, StepStatistics &statistics)
+  {
+    enthalpy_before.swap(enthalpy);
+    for(std::size_t i = 0; i < enthalpy.size(); ++i)
+      enthalpy[i] = free[i] ? heat[i] / mesh.volume[i] : enthalpy_before[i];
+    double entered = step_flux_heat;
+    if(walls)
+      entered += walls->react(step, {mesh.conduction, mesh.volume, free}, scene.material,
+                              u, rhs, enthalpy);
+    const double boundary_now
+        = step.combine(boundary_heat.now, boundary_heat.before) + entered;
+    boundary_heat = {boundary_now, boundary_heat.now};
+    time_before = time;
+    time = step.next;
+    ++step_number;
+    check_balance(statistics);
+  }
+
+  void EnthalpyRun::check_temperatures(const StepFormula &step) const
+  {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for(std::size_t i = 0; i < u.size(); ++i)
+    {
+      const double excess = solver->temperature_excess(u[i]);
+      lowest = std::min(lowest, excess);
+      highest = std::max(highest, excess);
+    }
+    const double melting = scene.material.melting_temperature;
+    cases::check_temperature(bounds, melting + lowest, melting + highest, method_name,
+                             step_number + 1, step.next, slack);
+  }
+
+  bool EnthalpyRun::keeps_bounds(const StepFormula &step) const
+  {
+    try
+    {
+      check_temperatures(step);
+      return true;
+    }
+    catch(const cases::NumericalError &)
+    {
+      return false;
+    }
+  }
+
+  /**
+   * Solve a step. BDF2 obeys no maximum principle: where it swings beyond the bounds
+   * after a sudden change, the step is made with backward Euler instead.
+   */
+  StepOutcome EnthalpyRun::solve(StepFormula &step, StepStatistics &statistics)
+  {
+    StepOutcome outcome = attempt(step);
+    if(!outcome.converged)
+      return outcome;
+    if(step.weight_before != 0 && !keeps_bounds(step))
+    {
+      u = u_accepted;
+      step = backward_euler_step(step.now, step.next);
+      outcome = attempt(step);
+      ++statistics.euler_steps;
+    }
+    if(outcome.converged)
+      check_temperatures(step);
+    return outcome;
+  }
+
+  double EnthalpyRun::nominal_step() const
+  {
+    return (scene.end_time - scene.start_time) / options.steps;
+  }
+
+  double EnthalpyRun::total_heat() const
+  {
+    return sum_over(mesh.volume, [&](std::size_t i) { return enthalpy[i]; });
+  }
+
+  double EnthalpyRun::source_heat() const
+  {
+    return sources ? sources->energy(time) : 0;
+  }
+
+  void EnthalpyRun::check_balance(StepStatistics &statistics)
+  {
+    const double total = total_heat();
+    const double magnitude
+        = sum_over(mesh.volume, [&](std::size_t i) { return std::abs(enthalpy[i]); });
+    const double received = boundary_heat.now + source_heat();
+    const double defect_before = defect;
+    defect = total - initial_heat - received;
+    const double scale = std::max({magnitude, std::abs(boundary_heat.now),
+                                   std::abs(source_heat()), std::abs(initial_heat)});
+    const double relative = scale > 0 ? std::abs(defect - defect_before) / scale : 0;
+    statistics.balance_defect = std::max(statistics.balance_defect, relative);
+    if(!(relative <= accepted_balance_defect))
+      throw cases::NumericalError(
+          method_name, step_number, time, "heat balance",
+          fmt::format("is off by {:.3g} of the heat at hand, more than {:g}", relative,
+                      accepted_balance_defect));
+  }
+
+  cases::Cost EnthalpyRun::run(cases::Observer &observer, StepStatistics &statistics)
+  {
+    cases::Cost cost;
+    const Stopwatch::Seconds setup = watch.elapsed();
+    const cases::RunDescription run_description = description();
+    observer.begin(run_description);
+    watch.restart();
+    report(observer, true);
+
+    StepQueue queue(scene.start_time, scene.end_time, options.steps,
+                    options.start_halvings);
+    u_accepted = u;
+    while(!queue.empty())
+    {
+      StepFormula step = formula(queue.next());
+      const StepOutcome outcome = solve(step, statistics);
+      if(!outcome.converged)
+      {
+        require_halvable(step, outcome);
+        queue.halve(time);
+        ++statistics.halvings;
+        u = u_accepted;
+        continue;
+      }
+      queue.pop();
+      u_before = u_accepted;
+      u_accepted = u;
+      statistics.graph_inconsistency
+          = std::max(statistics.graph_inconsistency, outcome.graph_inconsistency);
+      statistics.iterations = std::max(statistics.iterations, outcome.iterations);
+      accept(step, statistics);
+      report(observer, queue.empty());
+      if(outcome.iterations > comfortable_iterations && !queue.empty())
+      {
+        queue.halve(time);
+        ++statistics.halvings;
+      }
+    }
+    const Stopwatch::Seconds stepping = watch.elapsed();
+    cost.setup_wall = setup.wall;
+    cost.setup_cpu = setup.cpu;
+    cost.stepping_wall = stepping.wall;
+    cost.stepping_cpu = stepping.cpu;
+    cost.steps = step_number;
+    cost.unknowns = run_description.unknowns;
+    cost.work = solver->work();
+    cost.solver_iterations = iterations;
+    cost.capped_steps = capped_steps;
+    cost.effects = effect_costs();
+    return cost;
+  }
+
+  void EnthalpyRun::require_halvable(const StepFormula &step,
+                                     const StepOutcome &outcome) const
+  {
+    if(!std::isfinite(outcome.graph_inconsistency))
+      throw cases::NumericalError(method_name, step_number + 1, step.next, "enthalpy",
+                                  "is not finite");
+    if(step.next - step.now < smallest_step * nominal_step())
+      throw cases::NumericalError(
+          method_name, step_number + 1, step.next, "enthalpy",
+          fmt::format("is off the enthalpy graph by {:.3g} after {} iterations, however "
+                      "short the step",
+                      outcome.graph_inconsistency, outcome.iterations));
+  }
+} // namespace meltfront::reference_fem

@@ -1,0 +1,84 @@
+#ifndef meltfront_reference_fem_enthalpy_run_h
+#define meltfront_reference_fem_enthalpy_run_h
+
+#include <reference_fem/enthalpy/heat_sources.h>
+#include <reference_fem/enthalpy/mesh.h>
+#include <reference_fem/enthalpy/options.h>
+#include <reference_fem/enthalpy/solver.h>
+#include <reference_fem/enthalpy/stopwatch.h>
+#include <reference_fem/enthalpy/time_scheme.h>
+#include <reference_fem/enthalpy/truncated_newton.h>
+#include <reference_fem/enthalpy/wall_flux.h>
+#include <reference_fem/enthalpy/wall_temperature.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meltfront::reference_fem
+{
+  /** A run: the state and the parts that the scene's effects call for. */
+  class EnthalpyRun
+  {
+  public:
+    EnthalpyRun(const cases::Scene &scene, const cases::EffectSet &effects,
+                const cases::Resolution &resolution);
+
+    cases::Cost run(cases::Observer &observer, StepStatistics &statistics);
+
+  private:
+    /** What a quantity that is summed over time was at the last two times. */
+    struct History
+    {
+      double now = 0, before = 0;
+    };
+
+    cases::RunDescription description() const;
+    std::string mesh_in_words() const;
+    StepFormula formula(double next) const;
+    void predict(double next);
+    StepOutcome attempt(const StepFormula &step);
+    void accept(const StepFormula &step, StepStatistics &statistics);
+    void require_halvable(const StepFormula &step, const StepOutcome &outcome) const;
+    StepOutcome solve(StepFormula &step, StepStatistics &statistics);
+    void check_temperatures(const StepFormula &step) const;
+    bool keeps_bounds(const StepFormula &step) const;
+    double nominal_step() const;
+    double total_heat() const;
+    void check_balance(StepStatistics &statistics);
+    double source_heat() const;
+    void report(cases::Observer &observer, bool always);
+    void observe(cases::Observer &observer);
+    std::vector<cases::EffectCost> effect_costs() const;
+
+    const cases::Scene &scene;
+    const cases::EffectSet &effects;
+    const cases::Resolution &resolution;
+    Stopwatch watch;
+    RunOptions options;
+
+    Discretization mesh;
+    std::vector<char> free;
+    std::unique_ptr<NonlinearSolver> solver;
+    std::string linear_solver_in_words;
+    std::optional<HeatSources> sources;
+    std::optional<WallTemperature> walls;
+    std::optional<WallFlux> flux;
+    cases::TemperatureBounds bounds;
+    double slack = 1e-9;
+
+    CompensatedVector u, u_accepted, u_before;     ///< by node, W/m
+    std::vector<double> enthalpy, enthalpy_before; ///< by node, J/m^3
+    std::vector<double> rhs, heat;                 ///< by node, J
+    History boundary_heat;
+    double step_flux_heat = 0; ///< what the flux walls bring in the step under way
+    double initial_heat = 0;
+    double defect = 0; ///< heat at hand less heat received (J)
+    double time, time_before;
+    long step_number = 0, iterations = 0, capped_steps = 0;
+    std::vector<double> site_temperature, site_solid_fraction;
+  };
+} // namespace meltfront::reference_fem
+
+#endif

@@ -1,0 +1,128 @@
+#include <reference_fem/enthalpy/run.h>
+#include <reference_fem/enthalpy/sum_over.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meltfront::reference_fem
+{
+  std::string EnthalpyRun::mesh_in_words() const
+  {
+    const char *shape
+        = mesh.measure == cases::Symmetry::cylindrical     ? "radial, weight 2 pi r"
+          : mesh.measure == cases::Symmetry::spherical     ? "radial, weight 4 pi r^2"
+          : scene.domain.shape == cases::DomainShape::ball ? "unstructured"
+                                                           : "Cartesian";
+    return fmt::format("{} cells, {} nodes, {}D, {}", mesh.cells.size() >> mesh.dimension,
+                       mesh.volume.size(), mesh.dimension, shape);
+  }
+
+  cases::RunDescription EnthalpyRun::description() const
+  {
+    cases::RunDescription result;
+    result.dimension = mesh.dimension;
+    result.spacing = mesh.spacing;
+    result.time_step = nominal_step();
+    result.unknowns = std::count(free.begin(), free.end(), 1);
+    result.parameters = {
+        {"elements", "linear, lumped mass, exact enthalpy graph", ""},
+        {"mesh", mesh_in_words(), ""},
+        {"time scheme",
+         options.bdf2
+             ? "BDF2; backward Euler for the first step and where BDF2 passes the "
+               "bounds of the maximum principle"
+             : "backward Euler",
+         ""},
+        {"time step", fmt::format("{:.6g}", result.time_step), "s"},
+        {"nonlinear solver", "truncated nonsmooth Newton with Gauss-Seidel sweeps", ""},
+        {"iteration limit", fmt::format("{}", options.iteration_limit), "1"},
+        {"linear solver", linear_solver_in_words, ""},
+        {"graph consistency required",
+         fmt::format("{:g}", NonlinearSolver::accepted_inconsistency), "1"},
+        {"heat balance required", fmt::format("{:g}", accepted_balance_defect), "1"},
+        {"tolerance of the maximum principle", fmt::format("{:g}", slack), "1"}};
+    return result;
+  }
+
+  void EnthalpyRun::observe(cases::Observer &observer)
+  {
+    const cases::Material &material = scene.material;
+    const double density = material.solid.density;
+    const std::size_t n_sites = mesh.node_of_site.size();
+    site_temperature.resize(n_sites);
+    site_solid_fraction.resize(n_sites);
+    for(std::size_t site = 0; site < n_sites; ++site)
+    {
+      const double specific = enthalpy[mesh.node_of_site[site]] / density;
+      site_temperature[site] = material.temperature(specific);
+      site_solid_fraction[site] = material.solid_fraction(specific);
+    }
+    cases::Snapshot snapshot;
+    snapshot.step = step_number;
+    snapshot.time = time;
+    snapshot.dimension = mesh.dimension;
+    for(int d = 0; d < mesh.dimension; ++d)
+      snapshot.positions[d] = mesh.site_positions[d];
+    snapshot.weights = mesh.site_weights;
+    snapshot.temperature = site_temperature;
+    snapshot.solid_fraction = site_solid_fraction;
+    snapshot.cells = mesh.cells;
+    snapshot.heat.latent = sum_over(
+        mesh.volume, [&](std::size_t i)
+        { return std::clamp(enthalpy[i], 0., density * material.latent_heat); });
+    snapshot.heat.stored
+        = sum_over(mesh.volume,
+                   [&](std::size_t i) {
+                     return enthalpy[i]
+                            - std::clamp(enthalpy[i], 0., density * material.latent_heat);
+                   });
+    snapshot.heat.boundary = boundary_heat.now;
+    snapshot.heat.sources = source_heat();
+    snapshot.heat.initial = initial_heat;
+    observer.observe(snapshot);
+  }
+
+  void EnthalpyRun::report(cases::Observer &observer, bool always)
+  {
+    watch.without(
+        [&]
+        {
+          if(observer.wants(step_number, time) || always)
+            observe(observer);
+        });
+  }
+
+  std::vector<cases::EffectCost> EnthalpyRun::effect_costs() const
+  {
+    const NonlinearSolver::GraphCost graph = solver->graph_cost();
+    std::vector<cases::EffectCost> result;
+    for(const cases::EffectDecision &decision : effects.decisions())
+    {
+      if(!decision.on)
+        continue;
+      switch(decision.effect)
+      {
+      case cases::Effect::phase_change:
+        result.push_back({decision.effect, graph.sweeps, graph.bytes, graph.seconds});
+        break;
+      case cases::Effect::heat_sources:
+        result.push_back(sources->cost());
+        break;
+      case cases::Effect::wall_temperature:
+        result.push_back(walls->cost());
+        break;
+      case cases::Effect::wall_flux:
+        result.push_back(flux->cost());
+        break;
+      default:
+        // Kirchhoff's variable makes the phases' differences a second slope of the
+        // graph: two numbers, and no time that could be told apart.
+        result.push_back(
+            {decision.effect, graph.linearisations,
+             graph.linearisations > 0 ? static_cast<long>(sizeof(double)) : 0L, 0});
+      }
+    }
+    return result;
+  }
+} // namespace meltfront::reference_fem
