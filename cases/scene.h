@@ -138,9 +138,9 @@ namespace meltfront::cases
   };
 
   /**
-   * Extremes of initial and wall temperatures, sampled over the domain and time. A sink
-   * removes the lower bound, a source the upper one, an inward (outward) flux the upper
-   * (lower) one.
+   * Extremes of initial and wall temperatures, sampled over the domain and time (an
+   * expression at 4097 times: a shorter pulse than that goes unseen). A sink removes the
+   * lower bound, a source the upper one, an inward (outward) flux the upper (lower) one.
    */
   TemperatureBounds temperature_bounds(const Scene &scene);
 

@@ -4,6 +4,7 @@
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
 #include <verification/app/methods.h>
+#include <verification/matrix/criteria.h>
 #include <verification/matrix/json_values.h>
 #include <verification/matrix/matrix_file.h>
 #include <verification/matrix/matrix_files.h>
@@ -61,6 +62,24 @@ namespace meltfront::verification
       return result.passed ? all_well : criterion_failed;
     }
 
+    /** Load a case and hold the names in its criteria against what there is. */
+    cases::Case load_checked_case(const std::string &name)
+    {
+      cases::Case c = cases::load_case(name);
+      const std::vector<std::string> quantities = table_value_names();
+      for(const cases::Criterion &criterion : c.criteria)
+      {
+        method_named(criterion.method);
+        if(std::find(quantities.begin(), quantities.end(), criterion.quantity)
+           == quantities.end())
+          throw cases::InputError(fmt::format(
+              "{}: criterion '{}': there is no quantity '{}'; the nearest is '{}'",
+              c.file, criterion.text, criterion.quantity,
+              cases::nearest_name(criterion.quantity, quantities)));
+      }
+      return c;
+    }
+
     int run_and_conclude(const Matrix &matrix, const std::string &directory, int jobs)
     {
       RunnerOptions options;
@@ -69,7 +88,7 @@ namespace meltfront::verification
       options.program_version = program_version;
       options.command_line = command_line;
       options.progress = stderr;
-      MatrixResult result = run_matrix(matrix, options, cases::load_case, method_named);
+      MatrixResult result = run_matrix(matrix, options, load_checked_case, method_named);
       return conclude(result, directory);
     }
 
@@ -135,10 +154,13 @@ namespace meltfront::verification
                   {{"program_version", program_version}, {"command_line", command_line}},
                   &fields, once);
     write_json(directory + "/run.json", record);
-    write_run_page(record, make_case_record(c), directory);
     std::fputs(run_text(record, c).c_str(), stdout);
-    fmt::print("Written to {}: run.json, front.csv, picture.svg, fields.pvd\n",
-               directory);
+    if(record.status == RunStatus::finished)
+      write_run_page(record, make_case_record(c), directory);
+    fmt::print("Written to {}: run.json{}\n", directory,
+               record.status == RunStatus::finished
+                   ? ", front.csv, picture.svg, fields.pvd"
+                   : "");
     switch(record.status)
     {
     case RunStatus::finished:

@@ -63,11 +63,20 @@ namespace meltfront::verification
     , end_time(end_time)
     , frames(frames)
   {
+    // Fields of an earlier run in the same directory would mix with this one's.
+    for(const auto &entry : std::filesystem::directory_iterator(directory))
+    {
+      const std::string name = entry.path().filename().string();
+      if(name == "fields.pvd" || (name.starts_with("fields-") && name.ends_with(".vtu")))
+        std::filesystem::remove_all(entry.path());
+    }
   }
 
   bool FieldWriter::wants(long, double time)
   {
-    return time >= start_time + (end_time - start_time) * next_frame / frames;
+    // A step may end a rounding error before the frame's time.
+    const double span = end_time - start_time;
+    return time >= start_time + span * (double(next_frame) / frames - 1e-9);
   }
 
   void FieldWriter::observe(const cases::Snapshot &snapshot)
@@ -79,6 +88,8 @@ namespace meltfront::verification
     const std::string name = fmt::format("fields-{:04}.vtu", written.size());
     const std::string path = directory + "/" + name;
     std::ofstream out(path);
+    if(!out)
+      throw cases::OutputError(fmt::format("cannot write {}", path));
     switch(snapshot.cells.empty() ? 0 : snapshot.dimension)
     {
     case 0:
@@ -103,6 +114,8 @@ namespace meltfront::verification
   {
     const std::string path = directory + "/fields.pvd";
     std::ofstream out(path);
+    if(!out)
+      throw cases::OutputError(fmt::format("cannot write {}", path));
     dealii::DataOutBase::write_pvd_record(out, written);
     if(!out.flush())
       throw cases::OutputError(fmt::format("cannot write {}", path));

@@ -17,8 +17,10 @@ namespace meltfront::verification
   class FieldWriter : public cases::Observer
   {
   public:
-    /** Write `frames` frames equidistant in time, and the initial state, into a
-     * directory. */
+    /**
+     * Write `frames` frames equidistant in time, and the initial state, into a directory
+     * that exists; frames of an earlier run there are removed.
+     */
     FieldWriter(const std::string &directory, double start_time, double end_time,
                 int frames);
 

@@ -82,6 +82,8 @@ namespace meltfront::verification
       text += effect_list();
     if(what.empty() || what == "matrices")
       text += matrix_list();
+    if(what == "keys")
+      text += cases::case_file_reference();
     return text;
   }
 } // namespace meltfront::verification

@@ -7,7 +7,8 @@ namespace meltfront::verification
 {
   /**
    * What there is, printed from the declarations themselves.
-   * @param what cases, methods, effects, matrices, or empty for all four
+   * @param what cases, methods, effects, matrices, or empty for all four; keys: those of
+   * case files
    */
   std::string list_text(const std::string &what);
 } // namespace meltfront::verification

@@ -53,7 +53,7 @@ namespace
     {
       command->add_option("--out", verify_arguments.output, "directory (results/MATRIX)");
       command->add_option("--jobs", verify_arguments.jobs, "runs at once (one per core)")
-          ->check(CLI::NonNegativeNumber);
+          ->check(CLI::Range(0, 1024));
     };
     auto *verify_command
         = app.add_subcommand("verify", "run a verification matrix and write its report");
@@ -104,15 +104,17 @@ namespace
         ->check(CLI::Range(2, 1000000));
     command->add_option("--out", a.output, "directory (results/compare-CASE)");
     command->add_option("--jobs", a.jobs, "runs at once (one per core)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(CLI::Range(0, 1024));
     command->callback([this] { action = [this] { return compare(compare_arguments); }; });
   }
 
   void CommandLine::declare_others()
   {
     auto *list_command = app.add_subcommand("list", "what there is");
-    list_command->add_option("what", list_what, "cases, methods, effects or matrices")
-        ->check(CLI::IsMember({"cases", "methods", "effects", "matrices"}));
+    list_command
+        ->add_option("what", list_what,
+                     "cases, methods, effects, matrices, or keys of case files")
+        ->check(CLI::IsMember({"cases", "methods", "effects", "matrices", "keys"}));
     list_command->callback(
         [this]
         {
@@ -129,7 +131,16 @@ namespace
         ->required();
     report_command->callback([this]
                              { action = [this] { return report(report_directory); }; });
-    app.add_subcommand("test", "build and run all tests (done by the meltfront script)");
+    app.add_subcommand("test", "build and run all tests (./meltfront test)")
+        ->callback(
+            [this]
+            {
+              action = []() -> int
+              {
+                throw meltfront::cases::InputError(
+                    "the tests are run by the script: ./meltfront test");
+              };
+            });
   }
 
   int say(const std::exception &error, int status)
@@ -154,7 +165,10 @@ int main(int argc, char **argv)
   }
   try
   {
-    return command_line.action ? command_line.action() : all_well;
+    const int status = command_line.action ? command_line.action() : int(all_well);
+    if(std::fflush(stdout) != 0)
+      throw meltfront::cases::OutputError("standard output cannot be written to");
+    return status;
   }
   catch(const meltfront::cases::InputError &error)
   {

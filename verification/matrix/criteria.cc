@@ -1,4 +1,5 @@
 #include <verification/matrix/criteria.h>
+#include <verification/matrix/run_observer.h>
 #include <verification/measure/order_fit.h>
 
 #include <fmt/format.h>
@@ -121,31 +122,51 @@ namespace meltfront::verification
     }
   } // namespace
 
+  namespace
+  {
+    /** What a table shows of a run beside its quantities. */
+    std::map<std::string, double> columns(const RunRecord &run)
+    {
+      const cases::Cost &cost = run.cost;
+      return {{"h", run.description.spacing},
+              {"unknowns", static_cast<double>(cost.unknowns)},
+              {"steps", static_cast<double>(cost.steps)},
+              {"work", static_cast<double>(cost.work)},
+              {"solver_iterations", static_cast<double>(cost.solver_iterations)},
+              {"capped_steps", static_cast<double>(cost.capped_steps)},
+              {"cpu_seconds", cost.setup_cpu + cost.stepping_cpu},
+              {"wall_seconds", cost.setup_wall + cost.stepping_wall},
+              {"peak_memory_mb", run.peak_memory_mb}};
+    }
+  } // namespace
+
   double table_value(const RunRecord &run, const std::string &name)
   {
     if(run.status != RunStatus::finished)
       return nan;
     if(const auto found = run.quantities.find(name); found != run.quantities.end())
       return found->second;
-    const cases::Cost &cost = run.cost;
-    const std::map<std::string, double> columns{
-        {"h", run.description.spacing},
-        {"unknowns", static_cast<double>(cost.unknowns)},
-        {"steps", static_cast<double>(cost.steps)},
-        {"work", static_cast<double>(cost.work)},
-        {"solver_iterations", static_cast<double>(cost.solver_iterations)},
-        {"capped_steps", static_cast<double>(cost.capped_steps)},
-        {"cpu_seconds", cost.setup_cpu + cost.stepping_cpu},
-        {"wall_seconds", cost.setup_wall + cost.stepping_wall},
-        {"peak_memory_mb", run.peak_memory_mb}};
-    const auto found = columns.find(name);
-    return found == columns.end() ? nan : found->second;
+    const auto all = columns(run);
+    const auto found = all.find(name);
+    return found == all.end() ? nan : found->second;
+  }
+
+  std::vector<std::string> table_value_names()
+  {
+    std::vector<std::string> names = RunObserver::quantity_names();
+    for(const auto &[name, value] : columns(RunRecord()))
+      names.push_back(name);
+    return names;
   }
 
   void evaluate(MatrixResult &result)
   {
     result.criteria.clear();
-    result.passed = true;
+    result.passed = std::any_of(result.runs.begin(), result.runs.end(),
+                                [](const RunRecord &run)
+                                { return run.status == RunStatus::finished; });
+    if(!result.passed)
+      result.omissions.push_back("no run finished: nothing was judged");
     for(const RunRecord &run : result.runs)
       if(run.status != RunStatus::finished)
       {

@@ -4,6 +4,7 @@
 #include <verification/matrix/matrix_result.h>
 
 #include <string>
+#include <vector>
 
 namespace meltfront::verification
 {
@@ -13,6 +14,9 @@ namespace meltfront::verification
    * `peak_memory_mb`. NaN for a run that did not finish and for an unknown name.
    */
   double table_value(const RunRecord &run, const std::string &name);
+
+  /** The names that table_value() knows: what a criterion may ask of. */
+  std::vector<std::string> table_value_names();
 
   /**
    * Hold the criteria of every case of a matrix against its runs; fills `criteria` and

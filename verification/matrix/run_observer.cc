@@ -50,6 +50,11 @@ namespace meltfront::verification
     return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : nan;
   }
 
+  long ErrorStatistics::samples() const
+  {
+    return count;
+  }
+
   double ErrorStatistics::largest() const
   {
     return count > 0 ? maximum : nan;
@@ -67,11 +72,16 @@ namespace meltfront::verification
     largest_rise = std::max(largest_rise, position - lowest);
   }
 
-  double FrontCourse::largest_backstep() const
+  double FrontCourse::net_advance() const
+  {
+    return any ? last - first : nan;
+  }
+
+  double FrontCourse::largest_backstep(bool retreats) const
   {
     if(!any)
       return nan;
-    return last < first ? largest_rise : largest_fall;
+    return retreats ? largest_rise : largest_fall;
   }
 
   RunObserver::RunObserver(const cases::Case &c, const cases::Scene &simulated,
@@ -254,28 +264,50 @@ namespace meltfront::verification
     return end_profile;
   }
 
+  const std::vector<std::string> &RunObserver::quantity_names()
+  {
+    static const std::vector<std::string> names{"front_rms",
+                                                "front_max",
+                                                "front_end",
+                                                "front_end_position",
+                                                "front_rms_relative",
+                                                "front_end_relative",
+                                                "front_late_max_relative",
+                                                "front_isotherm_rms",
+                                                "front_max_ice_rms",
+                                                "front_heat_loss_rms",
+                                                "front_row_solid_fraction",
+                                                "front_backsteps",
+                                                "front_floor",
+                                                "temperature_l2",
+                                                "temperature_max",
+                                                "temperature_rmse",
+                                                "budget_defect"};
+    return names;
+  }
+
   std::map<std::string, double> RunObserver::quantities() const
   {
     const double end = exact ? std::abs(exact->front(scene.end_time)) : nan;
-    std::map<std::string, double> values{
-        {"front_end", nan},
-        {"front_end_position", nan},
-        {"front_row_solid_fraction", nan},
-        {"temperature_l2", nan},
-        {"temperature_max", nan},
-        {"temperature_rmse", nan},
-    };
+    std::map<std::string, double> values;
+    for(const std::string &name : quantity_names())
+      values[name] = nan;
     for(const auto &[name, value] : at_end)
       values[name] = value;
-    values["front_rms"] = front.root_mean_square();
+    // Fewer steps than that are no average over the run.
+    const double rms = front.samples() >= fewest_samples ? front.root_mean_square() : nan;
+    values["front_rms"] = rms;
     values["front_max"] = front.largest();
-    values["front_rms_relative"] = front.root_mean_square() / end;
+    values["front_rms_relative"] = rms / end;
     values["front_end_relative"] = values["front_end"] / end;
     values["front_late_max_relative"] = late_front.largest() / end;
     values["front_isotherm_rms"] = isotherm.root_mean_square();
     values["front_max_ice_rms"] = max_ice.root_mean_square();
     values["front_heat_loss_rms"] = heat_loss.root_mean_square();
-    values["front_backsteps"] = course.largest_backstep();
+    const double advance
+        = exact ? exact->front(scene.end_time) - exact->front(scene.start_time)
+                : course.net_advance();
+    values["front_backsteps"] = course.largest_backstep(advance < 0);
     values["budget_defect"] = worst_defect;
     if(the_case.measurement.front_floor > 0)
       values["front_floor"] = the_case.measurement.front_floor;

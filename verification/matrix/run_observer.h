@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace meltfront::verification
 {
@@ -24,21 +25,29 @@ namespace meltfront::verification
     /** Largest magnitude; NaN for no error at all. */
     double largest() const;
 
+    /** Errors gathered, NaN left out. */
+    long samples() const;
+
   private:
     long count = 0;
     double squares = 0;
     double maximum = 0;
   };
 
-  /** How far a front fell back behind where it had been on its way from its first to its
-   * last position. */
+  /** How far a front fell back behind where it had been. */
   class FrontCourse
   {
   public:
     void add(double position);
 
-    /** NaN for no position at all. */
-    double largest_backstep() const;
+    /** Last position less the first; NaN for no position at all. */
+    double net_advance() const;
+
+    /**
+     * NaN for no position at all.
+     * @param retreats whether physics says that the coordinate of the front falls
+     */
+    double largest_backstep(bool retreats) const;
 
   private:
     bool any = false;
@@ -84,7 +93,8 @@ namespace meltfront::verification
      * Results by name, NaN where not defined; errors of the front are found - exact, in
      * m:
      *
-     * front_rms, front_max: over all snapshots but an initial one without a front;
+     * front_rms, front_max: over all snapshots but an initial one without a front; no
+     * root mean square of fewer than 50;
      * front_end: |error| at the end; front_end_position: the front found there;
      * front_rms_relative, front_end_relative: over the exact front at the end;
      * front_late_max_relative: largest over the second half of the time, over the same;
@@ -92,12 +102,16 @@ namespace meltfront::verification
      * front_max_ice_rms, front_heat_loss_rms: of the readings of the same names, over
      * snapshots with at least one fully frozen site;
      * front_row_solid_fraction: mean solid fraction of the partly frozen sites at the
-     * end; front_backsteps: farthest that the front fell back behind where it had been;
+     * end; front_backsteps: farthest that the front fell back behind where it had been
+     * on its way (the exact front's, or without one its own net way);
      * front_floor: Measurement::front_floor, where it is not zero;
      * temperature_l2, temperature_max, temperature_rmse: TemperatureError at the end;
      * budget_defect: largest of any snapshot.
      */
     std::map<std::string, double> quantities() const;
+
+    /** The names of all of them. */
+    static const std::vector<std::string> &quantity_names();
 
   private:
     double clock(double time) const;

@@ -155,6 +155,12 @@ namespace meltfront::verification
     {
       record.status = RunStatus::failed;
       record.message = fmt::format("{} needs more memory than there is", method.name());
+      // The machine's fault, not the run's: it is to be tried again.
+      record.provenance["ended"] = "killed";
+    }
+    catch(const cases::OutputError &)
+    {
+      throw; // nothing is wrong with the run
     }
     catch(const std::exception &error)
     {

@@ -62,7 +62,8 @@ namespace meltfront::verification
       if(run.status == RunStatus::refused)
         verdict.verdict = run.message.empty() ? "failed" : "refused";
       else if(run.status == RunStatus::failed)
-        verdict.verdict = "failed";
+        verdict.verdict
+            = beyond_limit(run) && !run.message.empty() ? "refused" : "failed";
       verdict.reason = run.message;
       if(run.status == RunStatus::finished)
       {

@@ -15,7 +15,7 @@ namespace meltfront::verification
    * its front never moved back by more than 1e-9 of the domain's side in a case whose
    * physics says that it does not. A refusal must give its reason. A run beyond a
    * method's stability limit (`step_factor` above 1) that returns a result has failed,
-   * whatever the result looks like.
+   * whatever the result looks like; one that is caught on its way counts as refused.
    */
   std::vector<StabilityVerdict> judge_stability(const MatrixResult &result);
 } // namespace meltfront::verification

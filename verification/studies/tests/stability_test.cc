@@ -82,6 +82,9 @@ TEST(Stability, AResultBeyondTheStabilityLimitHasFailed)
   result.runs[0].status = RunStatus::refused;
   result.runs[0].message = "the step is beyond the limit";
   EXPECT_EQ(verdict_of(result).verdict, "refused");
+  result.runs[0].status = RunStatus::failed;
+  result.runs[0].message = "temperature is not finite";
+  EXPECT_EQ(verdict_of(result).verdict, "refused") << "caught, not returned";
 }
 
 TEST(Stability, RefusalsNeedAReasonAndFailuresKeepTheirs)
