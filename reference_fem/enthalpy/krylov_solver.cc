@@ -1,6 +1,5 @@
 #include <reference_fem/enthalpy/linear_solver.h>
 
-#include <deal.II/base/multithread_info.h>
 #include <deal.II/lac/precondition.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
@@ -27,21 +26,22 @@ namespace meltfront::reference_fem
       if(started)
         return;
       MPI_Init(nullptr, nullptr);
-      std::atexit(
-          []
-          {
-            int ended = 0;
-            MPI_Finalized(&ended);
-            if(!ended)
-              MPI_Finalize();
-          });
+      const auto end_mpi = []
+      {
+        int ended = 0;
+        MPI_Finalized(&ended);
+        if(!ended)
+          MPI_Finalize();
+      };
+      std::atexit(end_mpi);
+      // The runs of a matrix are processes of their own, which end quickly.
+      std::at_quick_exit(end_mpi);
     }
 
     class KrylovSolver : public LinearSolver
     {
     public:
-      KrylovSolver(const ConductionMatrix &conduction, Preconditioner preconditioner,
-                   int threads);
+      KrylovSolver(const ConductionMatrix &conduction, Preconditioner preconditioner);
 
       std::string description() const override;
 
@@ -67,11 +67,10 @@ namespace meltfront::reference_fem
     };
 
     KrylovSolver::KrylovSolver(const ConductionMatrix &conduction,
-                               Preconditioner preconditioner, int threads)
+                               Preconditioner preconditioner)
       : conduction(conduction)
       , preconditioner(preconditioner)
     {
-      dealii::MultithreadInfo::set_thread_limit(std::max(1, threads));
       const std::size_t n = conduction.size();
       std::vector<unsigned int> row_lengths(n);
       for(std::size_t i = 0; i < n; ++i)
@@ -204,9 +203,8 @@ namespace meltfront::reference_fem
   } // namespace
 
   std::unique_ptr<LinearSolver> make_krylov_solver(const ConductionMatrix &matrix,
-                                                   Preconditioner preconditioner,
-                                                   int threads)
+                                                   Preconditioner preconditioner)
   {
-    return std::make_unique<KrylovSolver>(matrix, preconditioner, threads);
+    return std::make_unique<KrylovSolver>(matrix, preconditioner);
   }
 } // namespace meltfront::reference_fem

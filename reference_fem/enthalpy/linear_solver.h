@@ -54,13 +54,9 @@ namespace meltfront::reference_fem
     amg ///< smoothed aggregation of Trilinos ML
   };
 
-  /**
-   * Conjugate gradients for two and three dimensions.
-   * @param threads that deal.II may use; the result does not depend on it
-   */
+  /** Conjugate gradients for two and three dimensions, on one thread. */
   std::unique_ptr<LinearSolver> make_krylov_solver(const ConductionMatrix &matrix,
-                                                   Preconditioner preconditioner,
-                                                   int threads);
+                                                   Preconditioner preconditioner);
 } // namespace meltfront::reference_fem
 
 #endif

@@ -3,6 +3,7 @@
 #include <cases/error.h>
 #include <reference_fem/enthalpy/shaped_triangulation.h>
 
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -368,6 +369,9 @@ namespace meltfront::reference_fem
 
   std::unique_ptr<Mesh> make_mesh(const cases::Scene &scene, int dimension, int n)
   {
+    // With threads, deal.II rounds its integrals over cells and its sums over vectors
+    // differently.
+    dealii::MultithreadInfo::set_thread_limit(1);
     switch(dimension)
     {
     case 1:

@@ -54,10 +54,10 @@ namespace meltfront::reference_fem
     if(effects.contains(Effect::wall_temperature))
       walls.emplace(scene, mesh).mark(free);
 
-    auto linear_solver = options.dimension == 1
-                             ? make_tridiagonal_solver(mesh.conduction)
-                             : make_krylov_solver(mesh.conduction, options.preconditioner,
-                                                  resolution.threads);
+    auto linear_solver
+        = options.dimension == 1
+              ? make_tridiagonal_solver(mesh.conduction)
+              : make_krylov_solver(mesh.conduction, options.preconditioner);
     linear_solver_in_words = linear_solver->description();
     solver = make_nonlinear_solver({mesh.conduction, mesh.volume, free}, scene.material,
                                    effects, std::move(linear_solver));

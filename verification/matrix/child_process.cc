@@ -11,6 +11,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -55,7 +56,7 @@ namespace meltfront::verification
       std::cout.flush();
       std::fflush(nullptr);
       // Not exit(): what the parent registered to do at its end is the parent's.
-      _exit(status);
+      std::quick_exit(status);
     }
   } // namespace
 

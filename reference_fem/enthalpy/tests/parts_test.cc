@@ -149,7 +149,7 @@ namespace meltfront::reference_fem
           solvers.push_back(make_tridiagonal_solver(mesh.conduction));
         else
           for(const auto kind : {Preconditioner::ssor, Preconditioner::amg})
-            solvers.push_back(make_krylov_solver(mesh.conduction, kind, 1));
+            solvers.push_back(make_krylov_solver(mesh.conduction, kind));
         for(const auto &solver : solvers)
         {
           solver->solve(system, 1e-12, x);
