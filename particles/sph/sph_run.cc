@@ -1,9 +1,9 @@
 #include <cases/scene.h>
+#include <cases/stopwatch.h>
 #include <particles/sph/careful_sum.h>
 #include <particles/sph/heat_flow.h>
 #include <particles/sph/initial_state.h>
 #include <particles/sph/sph_run.h>
-#include <particles/sph/stopwatch.h>
 #include <particles/sph/time_stepping.h>
 
 #include <fmt/format.h>
@@ -48,26 +48,21 @@ namespace meltfront::particles
         initial_heat = heat_content();
       }
 
-      cases::Cost run(cases::Observer &observer, Stopwatch &setup)
+      cases::Cost run(cases::Observer &observer, const cases::Stopwatch &watch)
       {
-        setup.pause();
+        const cases::Stopwatch::Seconds setup = watch.elapsed();
         observer.begin(describe());
         observer.observe(snapshot(0, scene.start_time));
-        Stopwatch stepping;
+        cases::Stopwatch stepping;
         for(long step = 1; step <= plan.steps; ++step)
         {
           const double end = time_of(step);
           advance(step, time_of(step - 1), end);
           check(step, end);
           if(observer.wants(step, end) || step == plan.steps)
-          {
-            stepping.pause();
-            observer.observe(snapshot(step, end));
-            stepping.resume();
-          }
+            stepping.without([&] { observer.observe(snapshot(step, end)); });
         }
-        stepping.pause();
-        return cost(setup, stepping);
+        return cost(setup, stepping.elapsed());
       }
 
     private:
@@ -270,13 +265,14 @@ namespace meltfront::particles
         return description;
       }
 
-      cases::Cost cost(const Stopwatch &setup, const Stopwatch &stepping) const
+      cases::Cost cost(const cases::Stopwatch::Seconds &setup,
+                       const cases::Stopwatch::Seconds &stepping) const
       {
         cases::Cost result;
-        result.setup_wall = setup.wall();
-        result.setup_cpu = setup.cpu();
-        result.stepping_wall = stepping.wall();
-        result.stepping_cpu = stepping.cpu();
+        result.setup_wall = setup.wall;
+        result.setup_cpu = setup.cpu;
+        result.stepping_wall = stepping.wall;
+        result.stepping_cpu = stepping.cpu;
         result.steps = plan.steps;
         result.unknowns = unknowns();
         result.work = heat_flow.work();
@@ -312,7 +308,7 @@ namespace meltfront::particles
                       const cases::EffectSet &effects,
                       const cases::Resolution &resolution, cases::Observer &observer)
   {
-    Stopwatch setup;
+    const cases::Stopwatch setup;
     SphRun run(policy, scene, effects, resolution);
     return run.run(observer, setup);
   }

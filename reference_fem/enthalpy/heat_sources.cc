@@ -1,6 +1,6 @@
 #include <cases/error.h>
+#include <cases/stopwatch.h>
 #include <reference_fem/enthalpy/heat_sources.h>
-#include <reference_fem/enthalpy/stopwatch.h>
 
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace meltfront::reference_fem
   HeatSources::HeatSources(const cases::Scene &scene, const Mesh &mesh,
                            const Discretization &discretization)
   {
-    const ScopedTimer timer(effect_cost.seconds);
+    const cases::ScopedTimer timer(effect_cost.seconds);
     for(const cases::PointSource &source : scene.sources)
     {
       if(scene.domain.shape == cases::DomainShape::slab && discretization.dimension > 1)
@@ -29,7 +29,7 @@ namespace meltfront::reference_fem
 
   void HeatSources::add_load(const StepFormula &step, std::vector<double> &load)
   {
-    const ScopedTimer timer(effect_cost.seconds);
+    const cases::ScopedTimer timer(effect_cost.seconds);
     ++effect_cost.calls;
     for(const Source &source : sources)
     {

@@ -207,7 +207,7 @@ namespace meltfront::reference_fem
   cases::Cost EnthalpyRun::run(cases::Observer &observer, StepStatistics &statistics)
   {
     cases::Cost cost;
-    const Stopwatch::Seconds setup = watch.elapsed();
+    const cases::Stopwatch::Seconds setup = watch.elapsed();
     const cases::RunDescription run_description = description();
     observer.begin(run_description);
     watch.restart();
@@ -242,7 +242,7 @@ namespace meltfront::reference_fem
         ++statistics.halvings;
       }
     }
-    const Stopwatch::Seconds stepping = watch.elapsed();
+    const cases::Stopwatch::Seconds stepping = watch.elapsed();
     cost.setup_wall = setup.wall;
     cost.setup_cpu = setup.cpu;
     cost.stepping_wall = stepping.wall;

@@ -1,11 +1,11 @@
 #ifndef meltfront_reference_fem_enthalpy_run_h
 #define meltfront_reference_fem_enthalpy_run_h
 
+#include <cases/stopwatch.h>
 #include <reference_fem/enthalpy/heat_sources.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/options.h>
 #include <reference_fem/enthalpy/solver.h>
-#include <reference_fem/enthalpy/stopwatch.h>
 #include <reference_fem/enthalpy/time_scheme.h>
 #include <reference_fem/enthalpy/truncated_newton.h>
 #include <reference_fem/enthalpy/wall_flux.h>
@@ -55,7 +55,7 @@ namespace meltfront::reference_fem
     const cases::Scene &scene;
     const cases::EffectSet &effects;
     const cases::Resolution &resolution;
-    Stopwatch watch;
+    cases::Stopwatch watch;
     RunOptions options;
 
     Discretization mesh;

@@ -1,5 +1,5 @@
+#include <cases/stopwatch.h>
 #include <reference_fem/enthalpy/graph.h>
-#include <reference_fem/enthalpy/stopwatch.h>
 #include <reference_fem/enthalpy/truncated_newton.h>
 
 #include <algorithm>
@@ -298,7 +298,7 @@ namespace meltfront::reference_fem
         if constexpr(Graph::jumps)
           if(!state.settled)
           {
-            const ScopedTimer timer(cost.seconds);
+            const cases::ScopedTimer timer(cost.seconds);
             for(int sweeps = 0; sweeps < most_sweeps && sweep(c, rhs, u);)
               ++sweeps;
             recover_heat(c, rhs, u, heat);

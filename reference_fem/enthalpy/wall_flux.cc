@@ -1,11 +1,11 @@
-#include <reference_fem/enthalpy/stopwatch.h>
+#include <cases/stopwatch.h>
 #include <reference_fem/enthalpy/wall_flux.h>
 
 namespace meltfront::reference_fem
 {
   WallFlux::WallFlux(const cases::Scene &scene, const Discretization &discretization)
   {
-    const ScopedTimer timer(effect_cost.seconds);
+    const cases::ScopedTimer timer(effect_cost.seconds);
     for(const cases::Side side : scene.sides())
     {
       const cases::Boundary &boundary = scene.boundary(side);
@@ -20,7 +20,7 @@ namespace meltfront::reference_fem
 
   double WallFlux::add_load(const StepFormula &step, std::vector<double> &load)
   {
-    const ScopedTimer timer(effect_cost.seconds);
+    const cases::ScopedTimer timer(effect_cost.seconds);
     ++effect_cost.calls;
     double sum = 0;
     for(const Wall &wall : walls)

@@ -1,4 +1,4 @@
-#include <reference_fem/enthalpy/stopwatch.h>
+#include <cases/stopwatch.h>
 #include <reference_fem/enthalpy/wall_temperature.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace meltfront::reference_fem
                                    const Discretization &discretization)
     : melting_temperature(scene.material.melting_temperature)
   {
-    const ScopedTimer timer(effect_cost.seconds);
+    const cases::ScopedTimer timer(effect_cost.seconds);
     std::vector<char> taken(discretization.volume.size());
     for(const cases::Side side : scene.sides())
     {
@@ -37,7 +37,7 @@ namespace meltfront::reference_fem
   void WallTemperature::prescribe(double time, const NonlinearSolver &solver,
                                   CompensatedVector &u)
   {
-    const ScopedTimer timer(effect_cost.seconds);
+    const cases::ScopedTimer timer(effect_cost.seconds);
     ++effect_cost.calls;
     for(Node &node : nodes)
     {
@@ -52,7 +52,7 @@ namespace meltfront::reference_fem
                                 const std::vector<double> &rhs,
                                 std::vector<double> &enthalpy)
   {
-    const ScopedTimer timer(effect_cost.seconds);
+    const cases::ScopedTimer timer(effect_cost.seconds);
     // Heat may pass in through one wall and out through another many times over what is
     // stored: the sum is that of the balance, which must hold to round-off of the stored.
     long double sum = 0;

@@ -1,10 +1,10 @@
-#ifndef meltfront_reference_fem_enthalpy_stopwatch_h
-#define meltfront_reference_fem_enthalpy_stopwatch_h
+#ifndef meltfront_cases_stopwatch_h
+#define meltfront_cases_stopwatch_h
 
 #include <chrono>
 #include <ctime>
 
-namespace meltfront::reference_fem
+namespace meltfront::cases
 {
   /** Adds the wall time of a scope to a sum of seconds. */
   class ScopedTimer
@@ -97,6 +97,6 @@ namespace meltfront::reference_fem
 
     Seconds started, paused;
   };
-} // namespace meltfront::reference_fem
+} // namespace meltfront::cases
 
 #endif
