@@ -70,7 +70,7 @@ namespace meltfront::cases
     }
   }
 
-  std::string placeholder(const PrmEntry &entry)
+  std::string acceptable_text(const PrmEntry &entry)
   {
     if(!entry.default_value.empty() || entry.kind == PrmKind::text)
       return entry.default_value;

@@ -18,7 +18,7 @@ namespace meltfront::cases
 
   /** A value that the key's pattern accepts: what stands in the handler until it is set.
    */
-  std::string placeholder(const PrmEntry &entry);
+  std::string acceptable_text(const PrmEntry &entry);
 } // namespace meltfront::cases
 
 #endif

@@ -83,7 +83,7 @@ namespace meltfront::cases
   void PrmFile::declare(const std::string &subsection, const PrmEntry &entry)
   {
     const InSubsection here(*handler, subsection);
-    handler->declare_entry(entry.key, placeholder(entry), *pattern(entry),
+    handler->declare_entry(entry.key, acceptable_text(entry), *pattern(entry),
                            entry.description);
     declared.push_back({subsection, entry});
     keys.push_back({subsection, entry});
@@ -97,7 +97,7 @@ namespace meltfront::cases
     {
       PrmEntry numbered = entry;
       numbered.key = fmt::format("{} {}", entry.key, i);
-      handler->declare_entry(numbered.key, placeholder(entry), *pattern(entry),
+      handler->declare_entry(numbered.key, acceptable_text(entry), *pattern(entry),
                              entry.description);
       keys.push_back({subsection, numbered});
     }

@@ -10,8 +10,7 @@ using namespace meltfront::cases;
 namespace
 {
   /** A slab of one substance without sources, all walls insulated, no latent heat. */
-  Scene
-  bare_scene()
+  Scene bare_scene()
   {
     Scene scene;
     scene.symmetry = Symmetry::planar;
@@ -24,8 +23,7 @@ namespace
   }
 
   /** A scene that calls for every effect. */
-  Scene
-  full_scene()
+  Scene full_scene()
   {
     Scene scene = bare_scene();
     scene.material.latent_heat = 3;
@@ -36,8 +34,7 @@ namespace
     return scene;
   }
 
-  const EffectDecision &
-  decision(const EffectSet &effects, Effect effect)
+  const EffectDecision &decision(const EffectSet &effects, Effect effect)
   {
     return effects.decisions().at(static_cast<std::size_t>(effect));
   }

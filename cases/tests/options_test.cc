@@ -7,8 +7,7 @@ using namespace meltfront::cases;
 
 namespace
 {
-  Options
-  sample_options()
+  Options sample_options()
   {
     return Options({{"step_factor", "1", 0.5, "Share of the limit.", 0, 2},
                     {"stages", "1", 8l, "Stages of a super step.", 1, 64},
@@ -23,8 +22,7 @@ namespace
   }
 
   /** The message of the InputError that setting an option raises. */
-  std::string
-  complaint(const std::string &key, const std::string &text)
+  std::string complaint(const std::string &key, const std::string &text)
   {
     Options options = sample_options();
     try

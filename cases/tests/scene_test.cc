@@ -10,14 +10,12 @@ using namespace meltfront::cases;
 
 namespace
 {
-  Boundary
-  fixed(std::function<double(const Position &, double)> temperature)
+  Boundary fixed(std::function<double(const Position &, double)> temperature)
   {
     return {BoundaryKind::fixed_temperature, {"an expression", std::move(temperature)}};
   }
 
-  Scene
-  box_scene(int dimension)
+  Scene box_scene(int dimension)
   {
     Scene scene;
     scene.domain.shape = DomainShape::box;

@@ -41,8 +41,7 @@ namespace meltfront::particles
       const LatticeDirection side{0, 1, LatticeLayout::cell_centred};
       const LatticeDirection odd{0, 0.55, LatticeLayout::cell_centred};
       EXPECT_THROW(arrange_in_box(2, {side, odd}, 0.1), cases::InputError);
-      EXPECT_THROW(lattice_spacing(1, 3, LatticeLayout::cell_centred),
-                   cases::InputError);
+      EXPECT_THROW(lattice_spacing(1, 3, LatticeLayout::cell_centred), cases::InputError);
       EXPECT_THROW(lattice_spacing(1, 4, LatticeLayout::on_edge), cases::InputError);
     }
 
@@ -51,8 +50,8 @@ namespace meltfront::particles
       for(int dimension = 2; dimension <= 3; ++dimension)
       {
         const double spacing = 0.02;
-        const auto particles = arrange_in_shell(dimension, 0, 0.5, spacing,
-                                                LatticeLayout::cell_centred);
+        const auto particles
+            = arrange_in_shell(dimension, 0, 0.5, spacing, LatticeLayout::cell_centred);
         const auto ghosts = arrange_in_shell(dimension, 0.5, 0.54, spacing,
                                              LatticeLayout::cell_centred);
         const double volume = particles.size() * std::pow(spacing, dimension);
@@ -69,8 +68,8 @@ namespace meltfront::particles
           EXPECT_GE(std::hypot(p[0], p[1], p[2]), 0.5 - 1e-12);
         }
         // Together they are the lattice of a larger ball.
-        const auto all = arrange_in_shell(dimension, 0, 0.54, spacing,
-                                          LatticeLayout::cell_centred);
+        const auto all
+            = arrange_in_shell(dimension, 0, 0.54, spacing, LatticeLayout::cell_centred);
         EXPECT_EQ(all.size(), particles.size() + ghosts.size());
       }
     }

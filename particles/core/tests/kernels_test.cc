@@ -15,8 +15,7 @@ namespace meltfront::particles
            KernelShape::wendland_c2, KernelShape::wendland_c4, KernelShape::wendland_c6};
 
     /** Integral of W over space by Simpson's rule between the splines' knots. */
-    double
-    integral(const SmoothingKernel &kernel)
+    double integral(const SmoothingKernel &kernel)
     {
       const double surface[] = {2, 2 * std::numbers::pi, 4 * std::numbers::pi};
       const int d = kernel.dimension();

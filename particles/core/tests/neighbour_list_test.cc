@@ -17,8 +17,8 @@ namespace meltfront::particles
       clustered
     };
 
-    ParticleStorage
-    make_particles(int dimension, Arrangement arrangement, std::uint64_t seed)
+    ParticleStorage make_particles(int dimension, Arrangement arrangement,
+                                   std::uint64_t seed)
     {
       ParticleStorage particles{dimension, {}};
       if(arrangement == Arrangement::lattice)
@@ -36,10 +36,10 @@ namespace meltfront::particles
       return particles;
     }
 
-    std::vector<std::uint32_t>
-    by_brute_force(const ParticleStorage &particles, const ParticleStorage &others,
-                   std::size_t a, double radius, const Periodicity &periodicity,
-                   bool same)
+    std::vector<std::uint32_t> by_brute_force(const ParticleStorage &particles,
+                                              const ParticleStorage &others,
+                                              std::size_t a, double radius,
+                                              const Periodicity &periodicity, bool same)
     {
       std::vector<std::uint32_t> found;
       for(std::size_t b = 0; b < others.size(); ++b)
@@ -61,8 +61,7 @@ namespace meltfront::particles
       return found;
     }
 
-    std::vector<std::uint32_t>
-    row(const NeighbourList &list, std::size_t a)
+    std::vector<std::uint32_t> row(const NeighbourList &list, std::size_t a)
     {
       return {list[a].begin(), list[a].end()};
     }

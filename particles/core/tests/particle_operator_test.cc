@@ -19,7 +19,7 @@ namespace meltfront::particles
       std::vector<double> value, result;
 
       explicit Example(const ParticleStorage &particles, double radius)
-          : neighbours(particles, radius)
+        : neighbours(particles, radius)
       {
         for(std::size_t a = 0; a < neighbours.rows(); ++a)
           for(const std::size_t b : neighbours[a])
@@ -32,8 +32,7 @@ namespace meltfront::particles
         result.assign(rows.padded_rows(), -1);
       }
 
-      double
-      by_hand(std::size_t a) const
+      double by_hand(std::size_t a) const
       {
         double sum = 0;
         for(std::size_t i = 0; i < neighbours[a].size(); ++i)
@@ -43,8 +42,7 @@ namespace meltfront::particles
       }
     };
 
-    Example
-    square(double radius = 0.25, double spacing = 1. / 13)
+    Example square(double radius = 0.25, double spacing = 1. / 13)
     {
       return Example(arrange_in_box(2, {}, spacing), radius);
     }

@@ -37,8 +37,7 @@ namespace meltfront::particles
       }
     }
 
-    double
-    mean_step(const ParticleStorage &particles)
+    double mean_step(const ParticleStorage &particles)
     {
       double sum = 0;
       for(std::size_t i = 1; i < particles.size(); ++i)

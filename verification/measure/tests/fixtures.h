@@ -15,42 +15,37 @@ namespace meltfront::verification::tests
   {
   public:
     explicit LinearProfile(cases::Symmetry symmetry, bool solid_inside = true)
-        : kind(symmetry), solid_inside(solid_inside)
+      : kind(symmetry)
+      , solid_inside(solid_inside)
     {
     }
 
-    std::string
-    description() const override
+    std::string description() const override
     {
       return "a linear temperature profile";
     }
 
-    cases::Symmetry
-    symmetry() const override
+    cases::Symmetry symmetry() const override
     {
       return kind;
     }
 
-    double
-    temperature(double coordinate, double time) const override
+    double temperature(double coordinate, double time) const override
     {
       return (solid_inside ? 1 : -1) * (coordinate - front(time));
     }
 
-    double
-    front(double time) const override
+    double front(double time) const override
     {
       return 0.5 * std::sqrt(time);
     }
 
-    double
-    heat_content(double, double, double) const override
+    double heat_content(double, double, double) const override
     {
       return 0;
     }
 
-    bool
-    solid_at_origin() const override
+    bool solid_at_origin() const override
     {
       return solid_inside;
     }
@@ -67,8 +62,7 @@ namespace meltfront::verification::tests
     std::array<std::vector<double>, 3> positions;
     std::vector<double> weights, temperature, solid_fraction;
 
-    const cases::Snapshot &
-    view(int dimension, double time)
+    const cases::Snapshot &view(int dimension, double time)
     {
       snapshot.dimension = dimension;
       snapshot.time = time;
@@ -82,8 +76,8 @@ namespace meltfront::verification::tests
   };
 
   /** A slab of unit length, or a box or ball centred on the origin. */
-  inline cases::Scene
-  scene_of(cases::DomainShape shape, int dimension, cases::Symmetry symmetry)
+  inline cases::Scene scene_of(cases::DomainShape shape, int dimension,
+                               cases::Symmetry symmetry)
   {
     cases::Scene scene;
     scene.symmetry = symmetry;

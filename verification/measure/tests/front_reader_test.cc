@@ -18,8 +18,7 @@ namespace meltfront::verification
 
     /** n cells between 0 and 1; the cell that holds the front is partly frozen and at
      * T_m. */
-    State
-    frozen_slab(int n, double front, double melting_temperature = 0)
+    State frozen_slab(int n, double front, double melting_temperature = 0)
     {
       State state;
       for(int i = 0; i < n; ++i)
@@ -111,8 +110,7 @@ namespace meltfront::verification
     }
 
     /** Particles on a lattice in a box about the origin, solid inside a radius. */
-    State
-    frozen_lattice(int dimension, int n, double radius)
+    State frozen_lattice(int dimension, int n, double radius)
     {
       State state;
       const double spacing = 1. / n;

@@ -11,8 +11,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    double
-    value_at(double h, double order)
+    double value_at(double h, double order)
     {
       return 0.3 - 2 * std::pow(h, order);
     }

@@ -12,8 +12,8 @@ namespace meltfront::verification
   {
     const std::vector<double> halving{1. / 20, 1. / 40, 1. / 80, 1. / 160, 1. / 320};
 
-    std::vector<double>
-    errors_of_order(double order, double factor, std::vector<double> disturbance = {})
+    std::vector<double> errors_of_order(double order, double factor,
+                                        std::vector<double> disturbance = {})
     {
       std::vector<double> errors;
       for(std::size_t i = 0; i < halving.size(); ++i)

@@ -10,8 +10,7 @@ namespace meltfront::verification
     using tests::State;
 
     /** Exact temperature x - 0.5 at t = 1. */
-    State
-    exact_state()
+    State exact_state()
     {
       State state;
       for(const double x : {0.1, 0.3, 0.9})
@@ -26,8 +25,8 @@ namespace meltfront::verification
 
     const tests::LinearProfile profile(cases::Symmetry::planar);
 
-    TemperatureError
-    error_of(State &state, double from = 0, double to = 1, double melting_temperature = 0)
+    TemperatureError error_of(State &state, double from = 0, double to = 1,
+                              double melting_temperature = 0)
     {
       return temperature_error(state.view(1, 1), state.positions[0], profile,
                                melting_temperature, from, to);
