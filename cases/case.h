@@ -23,8 +23,8 @@ namespace meltfront::cases
   /** A bound that a result must keep: an acceptance criterion of a case. */
   struct Criterion
   {
-    std::string text; ///< as written in the case file
-    std::string method;
+    std::string text;     ///< as written in the case file
+    std::string method;   ///< or a label, `fem-fitted[degree=2]`
     std::string quantity; ///< a column of the convergence table, e.g. `front_rms`
     Statistic statistic = Statistic::value;
     int n = 0;      ///< for Statistic::value
@@ -35,6 +35,13 @@ namespace meltfront::cases
     /** Why it is not met and by how much, measured; empty when it is met. Does not make
      * it pass. */
     std::string known_shortfall;
+  };
+
+  /** The run that others are held against where no exact solution exists. */
+  struct Reference
+  {
+    std::string label; ///< of the method, with its options in brackets, as in tables
+    int n = 0;
   };
 
   /** A number printed in a paper that a table restates. */
@@ -58,6 +65,14 @@ namespace meltfront::cases
     double front_floor
         = 0; ///< error of the exact solution itself in this domain (m); 0: exact
     bool monotone_front = true; ///< physics says that the front never turns back
+    /**
+     * m > 0: the amplitude of cos(m phi) in a perturbed circular front is measured, from
+     * the solid's moment of that angle.
+     */
+    int front_mode = 0;
+    /** Times at which the volume that is solid is measured, at most four (s), ascending;
+     * the end beside them. */
+    std::vector<double> marks;
   };
 
   /** A scene, what is known of its solution, what to measure and what to accept. */
@@ -69,6 +84,7 @@ namespace meltfront::cases
     std::vector<std::string> tags;
     std::vector<std::string> limits; ///< sentences for `limits and omissions`
     std::shared_ptr<const ExactSolution> exact;
+    std::optional<Reference> reference; ///< where there is no exact solution
     Measurement measurement;
     std::vector<Criterion> criteria;
     std::vector<PrintedValue> printed;

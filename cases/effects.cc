@@ -97,6 +97,19 @@ namespace meltfront::cases
           fmt::format("both phases have the density {:.6g} kg/m^3", solid));
     }
 
+    /**
+     * The initial front, where the scene states one, leaves solid or liquid on the wrong
+     * side of the melting temperature. Sampled; the temperature of a similarity solution
+     * that keeps one phase at the melting point may miss it by round-off.
+     */
+    EffectDecision metastable_phase(const Scene &scene)
+    {
+      const char *phase = metastable_initial_phase(scene);
+      return decide(Effect::metastable_phase, phase != nullptr,
+                    fmt::format("{} at the start", phase ? phase : ""),
+                    "no phase is beyond the melting temperature at the start");
+    }
+
     constexpr Rule rules[] = {
         {Effect::phase_change, "phase_change", "Latent heat is exchanged at the front.",
          phase_change},
@@ -111,7 +124,11 @@ namespace meltfront::cases
         {Effect::wall_flux, "wall_flux", "Walls with a prescribed heat flux.", wall_flux},
         {Effect::liquid_motion, "liquid_motion",
          "Freezing displaces liquid because the phases' densities differ.",
-         liquid_motion}};
+         liquid_motion},
+        {Effect::metastable_phase, "metastable_phase",
+         "A phase lies beyond the melting temperature: undercooled liquid or superheated "
+         "solid, which only a tracked front can hold.",
+         metastable_phase}};
     static_assert(std::size(rules) == n_effects);
 
     const Rule &rule(Effect effect)

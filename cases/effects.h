@@ -18,9 +18,10 @@ namespace meltfront::cases
     heat_sources,        ///< point or line sources and sinks
     wall_temperature,    ///< a wall with a prescribed temperature
     wall_flux,           ///< a wall with a prescribed heat flux
-    liquid_motion        ///< freezing displaces liquid because the densities differ
+    liquid_motion,       ///< freezing displaces liquid because the densities differ
+    metastable_phase     ///< a phase lies beyond the melting temperature
   };
-  inline constexpr std::size_t n_effects = 7;
+  inline constexpr std::size_t n_effects = 8;
 
   /** The word for an effect in case files and tables, `phase_change` and so on. */
   const char *to_string(Effect effect);

@@ -85,6 +85,7 @@ namespace meltfront::cases
     long work = 0; ///< interactions or matrix entries touched; deterministic
     long solver_iterations
         = 0; ///< nonlinear or linear iterations, as the method's README says
+    long most_iterations = 0;        ///< nonlinear iterations of the step with the most
     long capped_steps = 0;           ///< steps whose solver met its iteration limit
     std::vector<EffectCost> effects; ///< of the effects that are on
   };

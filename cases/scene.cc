@@ -16,13 +16,18 @@ namespace meltfront::cases
 
   double Domain::side() const
   {
-    return shape == DomainShape::ball ? 2 * radius : upper[0] - lower[0];
+    return round() ? 2 * radius : upper[0] - lower[0];
+  }
+
+  bool Domain::round() const
+  {
+    return shape == DomainShape::ball || shape == DomainShape::shell;
   }
 
   const char *to_string(Side side)
   {
     constexpr const char *names[]
-        = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "outer"};
+        = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "outer", "inner"};
     static_assert(std::size(names) == n_sides);
     return names[static_cast<std::size_t>(side)];
   }
@@ -58,7 +63,7 @@ namespace meltfront::cases
     template <typename Visit>
     void visit_points(const Domain &domain, const Visit &visit)
     {
-      const bool ball = domain.shape == DomainShape::ball;
+      const bool ball = domain.round();
       std::array<int, 3> count{1, 1, 1};
       for(int d = 0; d < domain.dimension; ++d)
         count[d] = samples_across;
@@ -76,7 +81,9 @@ namespace meltfront::cases
               p[d] = lower + (upper - lower) * index[d] / (samples_across - 1);
               squared += p[d] * p[d];
             }
-            if(!ball || squared <= domain.radius * domain.radius * (1 + 1e-12))
+            if(!ball
+               || (squared <= domain.radius * domain.radius * (1 + 1e-12)
+                   && squared >= domain.inner_radius * domain.inner_radius * (1 - 1e-12)))
               visit(p);
           }
     }
@@ -84,10 +91,12 @@ namespace meltfront::cases
     bool on_side(const Domain &domain, Side side, const Position &p)
     {
       const double tolerance = 1e-9 * domain.side();
+      const double distance = coordinate(
+          domain.dimension == 2 ? Symmetry::cylindrical : Symmetry::spherical, p);
       if(side == Side::outer)
-        return coordinate(
-                   domain.dimension == 2 ? Symmetry::cylindrical : Symmetry::spherical, p)
-               > domain.radius * (1 - 2. / samples_across);
+        return distance > domain.radius * (1 - 2. / samples_across);
+      if(side == Side::inner)
+        return distance < domain.inner_radius + domain.radius * 2. / samples_across;
       const int d = static_cast<int>(side) / 2;
       const bool upper = static_cast<int>(side) % 2 == 1;
       return std::abs(p[d] - (upper ? domain.upper[d] : domain.lower[d])) < tolerance;
@@ -159,6 +168,31 @@ namespace meltfront::cases
     const double slack
         = varying && std::isfinite(upper - lower) ? 1e-3 * (upper - lower) : 0;
     return {lower - slack, upper + slack};
+  }
+
+  const char *metastable_initial_phase(const Scene &scene)
+  {
+    if(!scene.initial.front)
+      return nullptr;
+    const double melting = scene.material.melting_temperature;
+    double coldest_liquid = 0, warmest_solid = 0, span = 0;
+    visit_points(scene.domain,
+                 [&](const Position &p)
+                 {
+                   const double excess
+                       = scene.initial.temperature(p, scene.start_time) - melting;
+                   const double distance = (*scene.initial.front)(p, scene.start_time);
+                   if(std::isfinite(excess))
+                     span = std::max(span, std::abs(excess));
+                   if(distance > 0)
+                     coldest_liquid = std::min(coldest_liquid, excess);
+                   if(distance < 0)
+                     warmest_solid = std::max(warmest_solid, excess);
+                 });
+    const double round_off = 1e-9 * span;
+    if(coldest_liquid < -round_off)
+      return "liquid is undercooled";
+    return warmest_solid > round_off ? "solid is superheated" : nullptr;
   }
 
   void check_temperature(const TemperatureBounds &bounds, double lowest, double highest,

@@ -37,18 +37,23 @@ namespace meltfront::cases
   {
     slab, ///< planar: 0 <= x <= length, unbounded (periodic) across
     box,  ///< lower <= (x, y, z) <= upper in `dimension` dimensions
-    ball  ///< distance from the origin <= radius: a disk in 2D, a ball in 3D
+    ball, ///< distance from the origin <= radius: a disk in 2D, a ball in 3D
+    shell ///< inner radius <= distance from the origin <= radius: an annulus in 2D
   };
 
   struct Domain
   {
     DomainShape shape = DomainShape::slab;
-    int dimension = 1; ///< of the shape: 1 for a slab, 2 or 3 for box and ball
-    Position lower{};  ///< corner of a box; (0, 0, 0) for a slab (m)
-    Position upper{};  ///< opposite corner of a box; (length, 0, 0) for a slab (m)
-    double radius = 0; ///< of a ball (m)
+    int dimension = 1;       ///< of the shape: 1 for a slab, 2 or 3 for the others
+    Position lower{};        ///< corner of a box; (0, 0, 0) for a slab (m)
+    Position upper{};        ///< opposite corner of a box; (length, 0, 0) for a slab (m)
+    double radius = 0;       ///< of a ball or a shell (m)
+    double inner_radius = 0; ///< of a shell (m)
 
-    /** The length that a resolution n divides: slab length, box side along x, or ball
+    /** A ball or a shell. */
+    bool round() const;
+
+    /** The length that a resolution n divides: slab length, box side along x, or outer
      * diameter (m). */
     double side() const;
   };
@@ -69,7 +74,8 @@ namespace meltfront::cases
     bool exact = false; ///< the temperature is taken from the exact solution
   };
 
-  /** Names of the sides of a slab or a box; a ball has the one side `outer`. */
+  /** Names of the sides of a slab or a box; a ball has the one side `outer`, a shell
+   * `inner` and `outer`. */
   enum class Side
   {
     x_min,
@@ -78,9 +84,10 @@ namespace meltfront::cases
     y_max,
     z_min,
     z_max,
-    outer
+    outer,
+    inner
   };
-  inline constexpr std::size_t n_sides = 7;
+  inline constexpr std::size_t n_sides = 8;
   const char *to_string(Side side);
 
   /** A source of heat at a point: a point in 3D, a line across the plane in 2D; a sink is
@@ -104,6 +111,13 @@ namespace meltfront::cases
      * exact cell averages (heat_content) instead of point values.
      */
     std::shared_ptr<const ExactSolution> exact;
+    /**
+     * Where the front is at the start, as a level set: negative in solid, zero on the
+     * front (m, but only its sign and its zeros matter). Absent: solid is where the
+     * temperature is below the melting point. Present, it may leave a phase on the wrong
+     * side of the melting temperature (undercooled liquid, superheated solid).
+     */
+    std::optional<Field> front;
   };
 
   /** Physics to simulate: no parameter of any method stands here. SI units, or as `units`
@@ -143,6 +157,10 @@ namespace meltfront::cases
    * lower bound, a source the upper one, an inward (outward) flux the upper (lower) one.
    */
   TemperatureBounds temperature_bounds(const Scene &scene);
+
+  /** `liquid is undercooled` or `solid is superheated` where the scene's initial front
+   * says so, else null; sampled over the domain. */
+  const char *metastable_initial_phase(const Scene &scene);
 
   /**
    * Throw NumericalError unless lowest and highest are finite and within the bounds,

@@ -55,6 +55,10 @@ namespace meltfront::cases
      */
     std::span<const unsigned int> cells;
 
+    /** Points on the front (m), one array per dimension, of a method that tracks it;
+     * empty for one that does not. */
+    std::array<std::span<const double>, 3> front{};
+
     HeatBudget heat;
   };
 } // namespace meltfront::cases
