@@ -1,4 +1,5 @@
 #include <verification/measure/front_reader.h>
+#include <verification/measure/front_shape.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +35,37 @@ namespace meltfront::verification
       return isotherm_crossing(sorted, excess);
     }
 
+    /** The point of the domain with the least coordinate. */
+    cases::Position start_of_coordinate(const cases::Scene &scene)
+    {
+      if(scene.domain.shape == cases::DomainShape::shell)
+        return {scene.domain.inner_radius, 0, 0};
+      return measured_symmetry(scene, nullptr) == cases::Symmetry::planar
+                 ? scene.domain.lower
+                 : cases::Position{};
+    }
+
+    /** Whether the wall where the coordinate starts freezes (true) or melts (false);
+     * nothing if there is none or it does neither. */
+    std::optional<bool> first_wall_freezes(const cases::Scene &scene,
+                                           const cases::Position &start)
+    {
+      const bool shell = scene.domain.shape == cases::DomainShape::shell;
+      if(!shell && measured_symmetry(scene, nullptr) != cases::Symmetry::planar)
+        return {};
+      const cases::Side side = shell ? cases::Side::inner : cases::Side::x_min;
+      const auto &wall = scene.boundaries[static_cast<std::size_t>(side)];
+      if(!wall || !wall->value.value)
+        return {};
+      const double at_wall = wall->value(start, scene.start_time);
+      const double melting = scene.material.melting_temperature;
+      if(wall->kind == cases::BoundaryKind::fixed_temperature && at_wall != melting)
+        return at_wall < melting;
+      if(wall->kind == cases::BoundaryKind::flux && at_wall != 0)
+        return at_wall < 0;
+      return {};
+    }
+
     int sign(double value, double tolerance)
     {
       return value > tolerance ? 1 : value < -tolerance ? -1 : 0;
@@ -62,25 +94,18 @@ namespace meltfront::verification
   {
     if(exact)
       return exact->solid_at_origin();
+    const cases::Position start = start_of_coordinate(scene);
     double heat = 0;
     for(const cases::PointSource &source : scene.sources)
       heat += source.energy(scene.end_time);
+    if(scene.initial.front && (scene.symmetry != cases::Symmetry::none || heat == 0))
+      return (*scene.initial.front)(start, scene.start_time) < 0;
     if(heat != 0)
       return heat < 0;
-    const double melting = scene.material.melting_temperature;
-    const auto &wall = scene.boundaries[static_cast<std::size_t>(cases::Side::x_min)];
-    if(wall && measured_symmetry(scene, exact) == cases::Symmetry::planar)
-    {
-      const double at_wall
-          = wall->value.value ? wall->value(scene.domain.lower, scene.start_time) : nan;
-      if(wall->kind == cases::BoundaryKind::fixed_temperature && at_wall != melting)
-        return at_wall < melting;
-      if(wall->kind == cases::BoundaryKind::flux && at_wall != 0)
-        return at_wall < 0;
-    }
-    const bool planar = measured_symmetry(scene, exact) == cases::Symmetry::planar;
-    const cases::Position start = planar ? scene.domain.lower : cases::Position{};
-    return scene.initial.temperature(start, scene.start_time) <= melting;
+    if(const auto freezes = first_wall_freezes(scene, start))
+      return *freezes;
+    return scene.initial.temperature(start, scene.start_time)
+           <= scene.material.melting_temperature;
   }
 
   double isotherm_crossing(std::span<const double> coordinate,
@@ -123,6 +148,7 @@ namespace meltfront::verification
     , smoothing_length(smoothing_length)
     , site_coordinates(symmetry)
   {
+    hole = hole_volume(symmetry, scene.domain);
     if(symmetry != cases::Symmetry::planar)
       return;
     origin = scene.domain.lower[0];
@@ -143,7 +169,8 @@ namespace meltfront::verification
       volume += snapshot.weights[i]
                 * (solid_at_origin ? snapshot.solid_fraction[i]
                                    : 1 - snapshot.solid_fraction[i]);
-    return origin + cases::enclosing_coordinate(symmetry, volume / cross_section);
+    return origin
+           + cases::enclosing_coordinate(symmetry, (volume + hole) / cross_section);
   }
 
   Shells::Shells(const std::vector<double> &coordinates, double width)

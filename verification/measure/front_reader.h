@@ -18,7 +18,7 @@ namespace meltfront::verification
   struct FrontReading
   {
     double latent_heat; ///< encloses the volume that is solid: sum of weight x solid
-                        ///< fraction
+                        ///< fraction, and the hole of a shell
     double isotherm;    ///< where T = T_m
     /** Largest coordinate of a fully frozen site plus half the smoothing length (Error-1
      * of Monaghan, Huppert and Worster 2005, Table 1). */
@@ -34,9 +34,11 @@ namespace meltfront::verification
                                     const cases::ExactSolution *exact);
 
   /**
-   * Whether solid holds the origin of the coordinate. The exact solution says so; without
-   * one, the source that acts (a sink freezes), the wall x_min of a planar scene (below
-   * the melting point, or cooling), or the initial temperature at the origin.
+   * Whether solid holds the origin of the coordinate, or what lies next to the hole of a
+   * shell. The exact solution says so; without one, the initial front of a symmetric
+   * scene, the source that acts (a sink freezes), the initial front of a scene without
+   * symmetry, the wall at the origin (x_min of a planar scene, the inner one of a shell:
+   * below the melting point, or cooling), or the initial temperature there.
    */
   bool solid_holds_origin(const cases::Scene &scene, const cases::ExactSolution *exact);
 
@@ -100,6 +102,7 @@ namespace meltfront::verification
     bool solid_at_origin;
     double origin = 0;        ///< of the coordinate in a planar scene (m)
     double cross_section = 1; ///< by which a box's volume is divided to give a length
+    double hole = 0;          ///< of a shell, in the measure of the scene
     double melting_temperature;
     double spacing;
     double smoothing_length;
