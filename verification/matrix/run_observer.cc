@@ -1,6 +1,8 @@
 #include <cases/error.h>
 #include <verification/matrix/end_profile.h>
+#include <verification/matrix/front_frame.h>
 #include <verification/matrix/run_observer.h>
+#include <verification/measure/front_shape.h>
 #include <verification/measure/temperature_error.h>
 
 #include <fmt/format.h>
@@ -36,54 +38,6 @@ namespace meltfront::verification
     }
   } // namespace
 
-  void ErrorStatistics::add(double error)
-  {
-    if(std::isnan(error))
-      return;
-    ++count;
-    squares += error * error;
-    maximum = std::max(maximum, std::abs(error));
-  }
-
-  double ErrorStatistics::root_mean_square() const
-  {
-    return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : nan;
-  }
-
-  long ErrorStatistics::samples() const
-  {
-    return count;
-  }
-
-  double ErrorStatistics::largest() const
-  {
-    return count > 0 ? maximum : nan;
-  }
-
-  void FrontCourse::add(double position)
-  {
-    if(!any)
-      first = highest = lowest = position;
-    any = true;
-    last = position;
-    highest = std::max(highest, position);
-    lowest = std::min(lowest, position);
-    largest_fall = std::max(largest_fall, highest - position);
-    largest_rise = std::max(largest_rise, position - lowest);
-  }
-
-  double FrontCourse::net_advance() const
-  {
-    return any ? last - first : nan;
-  }
-
-  double FrontCourse::largest_backstep(bool retreats) const
-  {
-    if(!any)
-      return nan;
-    return retreats ? largest_rise : largest_fall;
-  }
-
   RunObserver::RunObserver(const cases::Case &c, const cases::Scene &simulated,
                            const std::string &method, cases::Observer *second)
     : the_case(c)
@@ -94,6 +48,8 @@ namespace meltfront::verification
     , bounds(cases::temperature_bounds(simulated))
     , samples(c.measurement.samples == 0 ? samples_of_every_step : c.measurement.samples)
     , last_time(nan)
+    , farthest_point(nan)
+    , marks(c.measurement.marks)
     , worst_defect(nan)
   {
     if(!(scene.end_time > scene.start_time))
@@ -131,11 +87,13 @@ namespace meltfront::verification
 
   bool RunObserver::wants_itself(long step, double time) const
   {
-    return the_case.measurement.samples == 0 || sample_is_due(step, time);
+    return the_case.measurement.samples == 0 || sample_is_due(step, time)
+           || marks.near_mark();
   }
 
   bool RunObserver::wants(long step, double time)
   {
+    marks.pass(step, time);
     const bool second_wants = second && second->wants(step, time);
     return wants_itself(step, time) || second_wants;
   }
@@ -144,9 +102,11 @@ namespace meltfront::verification
   {
     if(snapshot.step == last_step)
       return;
+    marks.pass(snapshot.step, snapshot.time);
     const bool at_the_end = clock(snapshot.time) >= 1 - time_tolerance;
+    const bool keep = at_the_end || sample_is_due(snapshot.step, snapshot.time);
     if(wants_itself(snapshot.step, snapshot.time) || at_the_end)
-      measure(snapshot, at_the_end || sample_is_due(snapshot.step, snapshot.time));
+      measure(snapshot, keep);
     if(at_the_end)
       measure_end(snapshot);
     if(second
@@ -178,13 +138,38 @@ namespace meltfront::verification
   {
     const auto [lowest, highest] = std::ranges::minmax(snapshot.temperature);
     judge(snapshot, lowest, highest);
+    volume_times.push_back(snapshot.time);
+    volumes.push_back(solid_volume(snapshot));
+    volume_course.add(volumes.back());
+    keep_frame(snapshot);
     const FrontReading reading = reader->read(snapshot);
     course.add(reading.latent_heat);
     worst_defect = std::fmax(worst_defect, snapshot.heat.defect());
-    if(exact)
+    // Steps that are wanted for a mark only would weigh its neighbourhood.
+    if(exact && (keep || the_case.measurement.samples == 0))
       compare_fronts(snapshot, reading);
     if(keep)
       add_to_series(snapshot, reading, lowest, highest);
+  }
+
+  bool RunObserver::round_front() const
+  {
+    const cases::Symmetry symmetry = exact ? exact->symmetry() : scene.symmetry;
+    return symmetry == cases::Symmetry::cylindrical
+           || symmetry == cases::Symmetry::spherical;
+  }
+
+  void RunObserver::keep_frame(const cases::Snapshot &snapshot)
+  {
+    const std::vector<double> &times = the_case.measurement.marks;
+    const double tolerance = time_tolerance * (scene.end_time - scene.start_time);
+    // Marks before the first snapshot with points are not drawn late.
+    while(next_mark < times.size() && snapshot.time >= times[next_mark] - tolerance)
+    {
+      ++next_mark;
+      if(next_mark == times.size() || snapshot.time < times[next_mark] - tolerance)
+        add_front_frame(snapshot, run_description.spacing, front_frames);
+    }
   }
 
   void RunObserver::add_to_series(const cases::Snapshot &snapshot,
@@ -195,6 +180,7 @@ namespace meltfront::verification
     run_series.time.push_back(snapshot.time);
     run_series.front.push_back(reading.latent_heat);
     run_series.front_isotherm.push_back(reading.isotherm);
+    run_series.solid_volume.push_back(volumes.back());
     run_series.budget_defect.push_back(snapshot.heat.defect());
     run_series.temperature_min.push_back(lowest);
     run_series.temperature_max.push_back(highest);
@@ -217,6 +203,11 @@ namespace meltfront::verification
     if(snapshot.time >= (scene.start_time + scene.end_time) / 2)
       late_front.add(reading.latent_heat - expected);
     isotherm.add(reading.isotherm - expected);
+    if(const auto distance = front_distance(snapshot, *exact))
+    {
+      front_points.add(distance->root_mean_square);
+      farthest_point = std::fmax(farthest_point, distance->largest);
+    }
     if(std::isnan(reading.max_ice))
       return;
     max_ice.add(reading.max_ice - expected);
@@ -229,6 +220,15 @@ namespace meltfront::verification
     end_profile = make_end_profile(snapshot, coordinates, exact, run_description.spacing);
     at_end["front_end_position"] = run_series.front.back();
     at_end["front_row_solid_fraction"] = partly_frozen_fraction(snapshot);
+    at_end["solid_volume_end"] = volumes.back();
+    const int mode = the_case.measurement.front_mode;
+    if(mode > 0)
+      at_end["front_mode_end"] = front_mode_amplitude(
+          snapshot, scene.domain, solid_holds_origin(scene, exact), mode);
+    if(round_front())
+      at_end["roundness_end"] = roundness(snapshot);
+    if(front_frames.empty() || front_frames.back().time < snapshot.time)
+      add_front_frame(snapshot, run_description.spacing, front_frames);
     if(!exact)
       return;
     at_end["front_end"]
@@ -264,6 +264,11 @@ namespace meltfront::verification
     return end_profile;
   }
 
+  const std::vector<FrontFrame> &RunObserver::frames() const
+  {
+    return front_frames;
+  }
+
   const std::vector<std::string> &RunObserver::quantity_names()
   {
     static const std::vector<std::string> names{"front_rms",
@@ -276,14 +281,37 @@ namespace meltfront::verification
                                                 "front_isotherm_rms",
                                                 "front_max_ice_rms",
                                                 "front_heat_loss_rms",
+                                                "front_points_rms",
+                                                "front_points_max",
+                                                "roundness_end",
                                                 "front_row_solid_fraction",
                                                 "front_backsteps",
+                                                "front_mode_end",
                                                 "front_floor",
+                                                "solid_volume_end",
+                                                "solid_volume_1",
+                                                "solid_volume_2",
+                                                "solid_volume_3",
+                                                "solid_volume_4",
+                                                "solid_volume_backsteps",
                                                 "temperature_l2",
                                                 "temperature_max",
                                                 "temperature_rmse",
                                                 "budget_defect"};
     return names;
+  }
+
+  void RunObserver::add_volumes(std::map<std::string, double> &values) const
+  {
+    const std::vector<double> &times = the_case.measurement.marks;
+    const double tolerance = time_tolerance * (scene.end_time - scene.start_time);
+    for(std::size_t i = 0; i < times.size(); ++i)
+      values[fmt::format("solid_volume_{}", i + 1)]
+          = interpolated(volume_times, volumes, times[i], tolerance);
+    const double net = volume_course.net_advance();
+    if(net != 0)
+      values["solid_volume_backsteps"]
+          = volume_course.largest_backstep(net < 0) / std::abs(net);
   }
 
   std::map<std::string, double> RunObserver::quantities() const
@@ -304,6 +332,10 @@ namespace meltfront::verification
     values["front_isotherm_rms"] = isotherm.root_mean_square();
     values["front_max_ice_rms"] = max_ice.root_mean_square();
     values["front_heat_loss_rms"] = heat_loss.root_mean_square();
+    if(front_points.samples() >= fewest_samples)
+      values["front_points_rms"] = front_points.root_mean_square();
+    values["front_points_max"] = farthest_point;
+    add_volumes(values);
     const double advance
         = exact ? exact->front(scene.end_time) - exact->front(scene.start_time)
                 : course.net_advance();

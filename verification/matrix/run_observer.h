@@ -4,6 +4,7 @@
 #include <cases/case.h>
 #include <cases/method.h>
 #include <verification/matrix/run_record.h>
+#include <verification/matrix/run_statistics.h>
 #include <verification/measure/front_reader.h>
 
 #include <map>
@@ -13,56 +14,14 @@
 
 namespace meltfront::verification
 {
-  /** Errors gathered one by one; NaN is passed over. */
-  class ErrorStatistics
-  {
-  public:
-    void add(double error);
-
-    /** Root mean square; NaN for no error at all. */
-    double root_mean_square() const;
-
-    /** Largest magnitude; NaN for no error at all. */
-    double largest() const;
-
-    /** Errors gathered, NaN left out. */
-    long samples() const;
-
-  private:
-    long count = 0;
-    double squares = 0;
-    double maximum = 0;
-  };
-
-  /** How far a front fell back behind where it had been. */
-  class FrontCourse
-  {
-  public:
-    void add(double position);
-
-    /** Last position less the first; NaN for no position at all. */
-    double net_advance() const;
-
-    /**
-     * NaN for no position at all.
-     * @param retreats whether physics says that the coordinate of the front falls
-     */
-    double largest_backstep(bool retreats) const;
-
-  private:
-    bool any = false;
-    double first = 0, last = 0, highest = 0, lowest = 0;
-    double largest_fall = 0, largest_rise = 0; ///< below the highest, above the lowest
-  };
-
   /**
    * Measures a run while it goes on: reads fronts and budgets from each snapshot, holds
    * them against the case's exact solution, keeps the profile of the end.
    *
    * Snapshots are taken of the initial state, of the first step at or after each of
-   * Measurement::samples times equidistant in t or sqrt(t), and of the end. Each is
-   * judged: a state that is not finite or breaks the maximum principle ends the run with
-   * a NumericalError.
+   * Measurement::samples times equidistant in t or sqrt(t), of the end, and of the steps
+   * around each of Measurement::marks. Each is judged: a state that is not finite or
+   * breaks the maximum principle ends the run with a NumericalError.
    */
   class RunObserver : public cases::Observer
   {
@@ -89,6 +48,9 @@ namespace meltfront::verification
     const RunSeries &series() const;
     const RunProfile &profile() const;
 
+    /** Tracked points on the front at the marks and at the end. */
+    const std::vector<FrontFrame> &frames() const;
+
     /**
      * Results by name, NaN where not defined; errors of the front are found - exact, in
      * m:
@@ -101,10 +63,17 @@ namespace meltfront::verification
      * front_isotherm_rms: of the front read from T = T_m;
      * front_max_ice_rms, front_heat_loss_rms: of the readings of the same names, over
      * snapshots with at least one fully frozen site;
+     * front_points_rms, front_points_max: of the signed distance of tracked front points
+     * from the exact front, over the same snapshots as front_rms;
+     * roundness_end: roundness() of tracked points at the end, of a round front;
      * front_row_solid_fraction: mean solid fraction of the partly frozen sites at the
      * end; front_backsteps: farthest that the front fell back behind where it had been
      * on its way (the exact front's, or without one its own net way);
+     * front_mode_end: front_mode_amplitude() at the end of Measurement::front_mode;
      * front_floor: Measurement::front_floor, where it is not zero;
+     * solid_volume_end: at the end (m, m^2, m^3 in the measure of the scene);
+     * solid_volume_1 to _4: at Measurement::marks, interpolated() between steps;
+     * solid_volume_backsteps: farthest that it fell back, over its net change;
      * temperature_l2, temperature_max, temperature_rmse: TemperatureError at the end;
      * budget_defect: largest of any snapshot.
      */
@@ -117,12 +86,15 @@ namespace meltfront::verification
     double clock(double time) const;
     bool sample_is_due(long step, double time) const;
     bool wants_itself(long step, double time) const;
+    bool round_front() const;
     void judge(const cases::Snapshot &snapshot, double lowest, double highest) const;
     void measure(const cases::Snapshot &snapshot, bool keep);
     void add_to_series(const cases::Snapshot &snapshot, const FrontReading &reading,
                        double lowest, double highest);
     double exact_front(double time) const; ///< NaN before the solution's start
     void compare_fronts(const cases::Snapshot &snapshot, const FrontReading &reading);
+    void keep_frame(const cases::Snapshot &snapshot);
+    void add_volumes(std::map<std::string, double> &values) const;
     void measure_end(const cases::Snapshot &snapshot);
 
     const cases::Case &the_case;
@@ -140,8 +112,13 @@ namespace meltfront::verification
     double last_time;
     RunSeries run_series;
     RunProfile end_profile;
-    FrontCourse course;
-    ErrorStatistics front, late_front, isotherm, max_ice, heat_loss;
+    std::vector<FrontFrame> front_frames;
+    FrontCourse course, volume_course;
+    ErrorStatistics front, late_front, isotherm, max_ice, heat_loss, front_points;
+    double farthest_point; ///< NaN as long as no point was tracked
+    MarkWatch marks;
+    std::size_t next_mark = 0; ///< of Measurement::marks, whose frame is to be kept
+    std::vector<double> volume_times, volumes; ///< of all snapshots
     double worst_defect;
     std::map<std::string, double> at_end;
   };

@@ -97,6 +97,7 @@ namespace meltfront::verification
       }
       keep_course();
       record.profile = observer.profile();
+      record.frames = observer.frames();
       record.quantities = observer.quantities();
       record.status = RunStatus::finished;
       repeat(method, scene, effects, resolution, policy, record);

@@ -88,6 +88,7 @@ namespace meltfront::verification
               {"unknowns", cost.unknowns},
               {"work", cost.work},
               {"solver_iterations", cost.solver_iterations},
+              {"most_iterations", cost.most_iterations},
               {"capped_steps", cost.capped_steps},
               {"effects", effects}};
     }
@@ -103,11 +104,37 @@ namespace meltfront::verification
       cost.unknowns = json.at("unknowns");
       cost.work = json.at("work");
       cost.solver_iterations = json.at("solver_iterations");
+      cost.most_iterations = json.value("most_iterations", 0L);
       cost.capped_steps = json.at("capped_steps");
       for(const auto &effect : json.at("effects"))
         cost.effects.push_back({effect_named(effect.at("effect")), effect.at("calls"),
                                 effect.at("bytes"), number_in(effect.at("seconds"))});
       return cost;
+    }
+
+    json json_of(const std::vector<FrontFrame> &frames)
+    {
+      json list = json::array();
+      for(const FrontFrame &frame : frames)
+        list.push_back({{"time", json_of(frame.time)},
+                        {"x", json_of(frame.x)},
+                        {"y", json_of(frame.y)}});
+      return list;
+    }
+
+    std::vector<FrontFrame> frames_in(const json &json)
+    {
+      std::vector<FrontFrame> frames;
+      for(const auto &frame : json)
+        frames.push_back({number_in(frame.at("time")), numbers_in(frame.at("x")),
+                          numbers_in(frame.at("y"))});
+      return frames;
+    }
+
+    /** A list that records of runs made before it was kept lack. */
+    json list_in(const json &json, const char *name)
+    {
+      return json.value(name, json::array());
     }
 
     /** Calls visit(name, member) for each member of the series or the profile. */
@@ -118,6 +145,7 @@ namespace meltfront::verification
       visit("front", series.front);
       visit("front_isotherm", series.front_isotherm);
       visit("front_exact", series.front_exact);
+      visit("solid_volume", series.solid_volume);
       visit("budget_defect", series.budget_defect);
       visit("temperature_min", series.temperature_min);
       visit("temperature_max", series.temperature_max);
@@ -191,6 +219,7 @@ namespace meltfront::verification
     profile["time"] = json_of(record.profile.time);
     visit_profile(record.profile, [&](const char *name, const std::vector<double> &values)
                   { profile[name] = json_of(values); });
+    json["frames"] = json_of(record.frames);
     json["provenance"] = record.provenance;
   }
 
@@ -213,10 +242,11 @@ namespace meltfront::verification
     record.repeats = json.at("repeats");
     record.quantities = named_numbers_in(json.at("quantities"));
     visit_series(record.series, [&](const char *name, std::vector<double> &values)
-                 { values = numbers_in(json.at("series").at(name)); });
+                 { values = numbers_in(list_in(json.at("series"), name)); });
     record.profile.time = number_in(json.at("profile").at("time"));
     visit_profile(record.profile, [&](const char *name, std::vector<double> &values)
                   { values = numbers_in(json.at("profile").at(name)); });
+    record.frames = frames_in(list_in(json, "frames"));
     json.at("provenance").get_to(record.provenance);
   }
 } // namespace meltfront::verification

@@ -26,6 +26,7 @@ namespace meltfront::verification
     std::vector<double> front;          ///< by latent heat (m)
     std::vector<double> front_isotherm; ///< by T = T_m (m); NaN where there is none
     std::vector<double> front_exact;    ///< empty without an exact solution
+    std::vector<double> solid_volume;   ///< in the measure of the scene (m, m^2, m^3)
     std::vector<double> budget_defect;  ///< relative
     std::vector<double> temperature_min;
     std::vector<double> temperature_max;
@@ -42,6 +43,14 @@ namespace meltfront::verification
     /** Sites in the plane for a picture (2D sites, or the slice nearest z = 0), at most
      * 6000. */
     std::vector<double> picture_x, picture_y, picture_solid_fraction, picture_temperature;
+  };
+
+  /** Points that a method tracked on the front at a time (m), in the plane z = 0 or the
+   * layer nearest to it. */
+  struct FrontFrame
+  {
+    double time = 0;
+    std::vector<double> x, y;
   };
 
   /** Everything needed to repeat a run, and everything that is reported of it. */
@@ -74,6 +83,7 @@ namespace meltfront::verification
     std::map<std::string, double> quantities;
     RunSeries series;
     RunProfile profile;
+    std::vector<FrontFrame> frames; ///< at Measurement::marks and at the end
 
     /** case_text, case_hash, program_version, compiler, flags, cpu, packages, date,
      * command_line. */
