@@ -6,6 +6,7 @@
 #include <verification/app/methods.h>
 #include <verification/matrix/criteria.h>
 #include <verification/matrix/json_values.h>
+#include <verification/matrix/label.h>
 #include <verification/matrix/matrix_file.h>
 #include <verification/matrix/matrix_files.h>
 #include <verification/matrix/run_one.h>
@@ -62,14 +63,28 @@ namespace meltfront::verification
       return result.passed ? all_well : criterion_failed;
     }
 
-    /** Load a case and hold the names in its criteria against what there is. */
+    /** Load a case and hold the names in its criteria and its reference against what
+     * there is. */
     cases::Case load_checked_case(const std::string &name)
     {
       cases::Case c = cases::load_case(name);
       const std::vector<std::string> quantities = table_value_names();
+      const auto check = [&c](const std::string &label, const std::string &where)
+      {
+        try
+        {
+          check_label(label, method_named);
+        }
+        catch(const cases::InputError &error)
+        {
+          throw cases::InputError(fmt::format("{}: {}: {}", c.file, where, error.what()));
+        }
+      };
+      if(c.reference)
+        check(c.reference->label, "reference");
       for(const cases::Criterion &criterion : c.criteria)
       {
-        method_named(criterion.method);
+        check(criterion.method, fmt::format("criterion '{}'", criterion.text));
         if(std::find(quantities.begin(), quantities.end(), criterion.quantity)
            == quantities.end())
           throw cases::InputError(fmt::format(

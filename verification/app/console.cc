@@ -1,6 +1,7 @@
 #include <verification/app/console.h>
 #include <verification/matrix/criteria.h>
-#include <verification/measure/order_fit.h>
+#include <verification/matrix/reference.h>
+#include <verification/matrix/refinement.h>
 
 #include <fmt/format.h>
 
@@ -24,36 +25,70 @@ namespace meltfront::verification
       return labels;
     }
 
-    std::string convergence_line(const MatrixResult &result, const std::string &case_name,
+    /** What a table shows first of a case: the front's error, or the solid's from the
+     * reference. */
+    struct FirstColumn
+    {
+      const char *name;
+      const char *words;
+    };
+
+    FirstColumn first_column(const CaseRecord &record)
+    {
+      if(record.exact.empty() && record.reference)
+        return {"solid_volume_end_error", "solid, end"};
+      return {"front_rms", "front rms"};
+    }
+
+    std::string measured_text(const CaseRecord &record,
+                              const std::vector<const RunRecord *> &finished,
+                              const RunRecord &finest)
+    {
+      const FirstColumn column = first_column(record);
+      if(is_reference(record, finest))
+        return "the reference";
+      const double error = table_value(finest, column.name);
+      if(std::isnan(error))
+        return record.exact.empty() ? "no exact solution" : "no error";
+      const Refinement refinement(finished);
+      ErrorLevels levels;
+      for(const RunRecord *run : finished)
+        if(!is_reference(record, *run))
+        {
+          levels.abscissa.push_back(refinement.of(*run));
+          levels.error.push_back(table_value(*run, column.name));
+        }
+      return fmt::format("{} {:9.2e}   {}", column.words, error,
+                         levels.error.size() > 1
+                             ? fit_levels(levels, record, column.name, finest, refinement)
+                                   .text(refinement.symbol())
+                             : "");
+    }
+
+    std::string convergence_line(const MatrixResult &result, const CaseRecord &record,
                                  const std::string &label)
     {
-      std::vector<double> h, errors;
+      std::vector<const RunRecord *> finished;
       const RunRecord *finest = nullptr;
       std::string message;
       for(const RunRecord &run : result.runs)
       {
-        if(run.case_name != case_name || run.label != label)
+        if(run.case_name != record.name || run.label != label)
           continue;
         if(run.status != RunStatus::finished)
         {
           message = run.message;
           continue;
         }
-        h.push_back(run.description.spacing);
-        errors.push_back(table_value(run, "front_rms"));
+        finished.push_back(&run);
         if(finest == nullptr || run.n > finest->n)
           finest = &run;
       }
       if(finest == nullptr)
         return fmt::format("  {:22} no result: {}\n", label, message);
-      const double error = table_value(*finest, "front_rms");
-      const std::string measured
-          = std::isnan(error)
-                ? "no exact solution"
-                : fmt::format("front rms {:9.2e}   {}", error,
-                              h.size() > 1 ? fit_order(h, errors).text() : "");
       return fmt::format("  {:28} n = {:<5} {:50} {:8.2f} s CPU\n", label, finest->n,
-                         measured, table_value(*finest, "cpu_seconds"));
+                         measured_text(record, finished, *finest),
+                         table_value(*finest, "cpu_seconds"));
     }
 
     std::string bound_text(const CriterionResult &criterion)
@@ -101,7 +136,7 @@ namespace meltfront::verification
     {
       text += fmt::format("{}\n", c.name);
       for(const std::string &label : labels_of(result, c.name))
-        text += convergence_line(result, c.name, label);
+        text += convergence_line(result, c, label);
     }
     if(result.hard_cases)
       text += stability_text(result);

@@ -35,6 +35,8 @@ namespace meltfront::verification
         return "slab";
       case cases::DomainShape::box:
         return "box";
+      case cases::DomainShape::shell:
+        return "shell";
       default:
         return "ball";
       }
@@ -98,6 +100,8 @@ namespace meltfront::verification
       if(state.exact)
         return "the exact solution at the start time";
       std::string result = "temperature " + state.temperature.expression;
+      if(state.front)
+        result += fmt::format("; solid where {} < 0", state.front->expression);
       if(state.solid_fraction_at_melting != 0)
         result += fmt::format("; solid fraction {} where it is the melting point",
                               state.solid_fraction_at_melting);
@@ -140,17 +144,21 @@ namespace meltfront::verification
               {"temperature_from", json_of(m.temperature_from)},
               {"temperature_to", json_of(m.temperature_to)},
               {"front_floor", json_of(m.front_floor)},
-              {"monotone_front", m.monotone_front}};
+              {"monotone_front", m.monotone_front},
+              {"front_mode", m.front_mode},
+              {"marks", json_of(m.marks)}};
     }
 
-    cases::Measurement measurement_in(const json &json)
+    cases::Measurement measurement_in(const json &stored)
     {
-      return {json.at("samples"),
-              json.at("square_root_clock"),
-              number_in(json.at("temperature_from")),
-              number_in(json.at("temperature_to")),
-              number_in(json.at("front_floor")),
-              json.at("monotone_front")};
+      return {stored.at("samples"),
+              stored.at("square_root_clock"),
+              number_in(stored.at("temperature_from")),
+              number_in(stored.at("temperature_to")),
+              number_in(stored.at("front_floor")),
+              stored.at("monotone_front"),
+              stored.value("front_mode", 0),
+              numbers_in(stored.value("marks", json::array()))};
     }
 
     json json_of(const cases::Criterion &c)
@@ -236,6 +244,7 @@ namespace meltfront::verification
     record.lower = scene.domain.lower;
     record.upper = scene.domain.upper;
     record.radius = scene.domain.radius;
+    record.inner_radius = scene.domain.inner_radius;
     record.material = scene.material;
     record.initial_state = words(scene.initial);
     for(const cases::Side side : scene.sides())
@@ -251,6 +260,7 @@ namespace meltfront::verification
     record.exact = c.exact ? c.exact->description() : "";
     record.front_exact_end = c.exact ? c.exact->front(scene.end_time)
                                      : std::numeric_limits<double>::quiet_NaN();
+    record.reference = c.reference;
     record.measurement = c.measurement;
     record.criteria = c.criteria;
     record.printed = c.printed;
@@ -266,6 +276,10 @@ namespace meltfront::verification
     json["lower"] = json_of(record.lower);
     json["upper"] = json_of(record.upper);
     json["radius"] = json_of(record.radius);
+    json["inner_radius"] = json_of(record.inner_radius);
+    if(record.reference)
+      json["reference"]
+          = {{"label", record.reference->label}, {"n", record.reference->n}};
     json["material"] = json_of(record.material);
     json["start_time"] = json_of(record.start_time);
     json["end_time"] = json_of(record.end_time);
@@ -289,6 +303,12 @@ namespace meltfront::verification
     record.lower = position_in(json.at("lower"));
     record.upper = position_in(json.at("upper"));
     record.radius = number_in(json.at("radius"));
+    record.inner_radius = json.contains("inner_radius") // older records lack it
+                              ? number_in(json.at("inner_radius"))
+                              : 0;
+    if(json.contains("reference"))
+      record.reference = cases::Reference{json.at("reference").at("label"),
+                                          json.at("reference").at("n")};
     record.material = material_in(json.at("material"));
     record.start_time = number_in(json.at("start_time"));
     record.end_time = number_in(json.at("end_time"));

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,11 @@ namespace meltfront::verification
     std::vector<std::string> limits;
     std::string units;    ///< `SI` or `normalised`
     std::string symmetry; ///< planar, cylindrical, spherical, none
-    std::string shape;    ///< slab, box, ball
+    std::string shape;    ///< slab, box, ball, shell
     int dimension = 1;
     cases::Position lower{}, upper{};
     double radius = 0;
+    double inner_radius = 0; ///< of a shell
     cases::Material material;
     std::string initial_state;           ///< in words and numbers
     std::vector<std::string> boundaries; ///< `x_min: fixed temperature -10`
@@ -33,6 +35,7 @@ namespace meltfront::verification
     double start_time = 0, end_time = 1;
     std::string exact;          ///< description of the exact solution; empty: none
     double front_exact_end = 0; ///< exact front at the end time (NaN: none)
+    std::optional<cases::Reference> reference; ///< where there is no exact solution
     cases::Measurement measurement;
     std::vector<cases::Criterion> criteria;
     std::vector<cases::PrintedValue> printed;

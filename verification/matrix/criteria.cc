@@ -1,6 +1,8 @@
 #include <verification/matrix/criteria.h>
+#include <verification/matrix/label.h>
+#include <verification/matrix/reference.h>
+#include <verification/matrix/refinement.h>
 #include <verification/matrix/run_observer.h>
-#include <verification/measure/order_fit.h>
 
 #include <fmt/format.h>
 
@@ -18,13 +20,16 @@ namespace meltfront::verification
     using Runs = std::vector<const RunRecord *>;
 
     /** The runs that a criterion is about. */
-    Runs runs_of(const MatrixResult &result, const std::string &case_name,
+    Runs runs_of(const MatrixResult &result, const CaseRecord &record,
                  const cases::Criterion &criterion)
     {
       Runs runs;
+      const std::string label = canonical_label(criterion.method);
       const bool at_one_n = criterion.statistic == cases::Statistic::value;
+      const bool derived = is_derived_quantity(criterion.quantity);
       for(const RunRecord &run : result.runs)
-        if(run.case_name == case_name && run.label == criterion.method
+        if(run.case_name == record.name && canonical_label(run.label) == label
+           && !(derived && is_reference(record, run))
            && (at_one_n ? run.n == criterion.n
                         : run.n >= criterion.n_from && run.n <= criterion.n_to))
           runs.push_back(&run);
@@ -64,17 +69,20 @@ namespace meltfront::verification
       return {};
     }
 
-    double order_over(const Runs &runs, const std::string &quantity)
+    double order_over(const CaseRecord &record, const Runs &runs,
+                      const std::string &quantity)
     {
-      std::vector<double> h, errors;
+      const Refinement refinement(runs);
+      ErrorLevels levels;
       for(const RunRecord *run : runs)
         if(run->status != RunStatus::refused)
         {
-          h.push_back(run->status == RunStatus::finished ? run->description.spacing
-                                                         : nan);
-          errors.push_back(table_value(*run, quantity));
+          levels.abscissa.push_back(
+              run->status == RunStatus::finished ? refinement.of(*run) : nan);
+          levels.error.push_back(table_value(*run, quantity));
         }
-      const OrderFit fit = fit_order(h, errors);
+      const OrderFit fit
+          = fit_levels(levels, record, quantity, *runs.front(), refinement);
       return fit.levels >= fewest_levels ? fit.order : nan;
     }
 
@@ -101,12 +109,13 @@ namespace meltfront::verification
       return sum / static_cast<double>(runs.size());
     }
 
-    double value_of(const Runs &runs, const cases::Criterion &criterion)
+    double value_of(const CaseRecord &record, const Runs &runs,
+                    const cases::Criterion &criterion)
     {
       switch(criterion.statistic)
       {
       case cases::Statistic::order:
-        return order_over(runs, criterion.quantity);
+        return order_over(record, runs, criterion.quantity);
       case cases::Statistic::worst:
         return worst_over(runs, criterion.quantity);
       default:
@@ -122,23 +131,25 @@ namespace meltfront::verification
     }
   } // namespace
 
-  namespace
+  std::map<std::string, double> run_columns(const RunRecord &run)
   {
-    /** What a table shows of a run beside its quantities. */
-    std::map<std::string, double> columns(const RunRecord &run)
-    {
-      const cases::Cost &cost = run.cost;
-      return {{"h", run.description.spacing},
-              {"unknowns", static_cast<double>(cost.unknowns)},
-              {"steps", static_cast<double>(cost.steps)},
-              {"work", static_cast<double>(cost.work)},
-              {"solver_iterations", static_cast<double>(cost.solver_iterations)},
-              {"capped_steps", static_cast<double>(cost.capped_steps)},
-              {"cpu_seconds", cost.setup_cpu + cost.stepping_cpu},
-              {"wall_seconds", cost.setup_wall + cost.stepping_wall},
-              {"peak_memory_mb", run.peak_memory_mb}};
-    }
-  } // namespace
+    const cases::Cost &cost = run.cost;
+    const auto number = [](auto value) { return static_cast<double>(value); };
+    const auto if_positive = [](double value) { return value > 0 ? value : nan; };
+    return {{"h", run.description.spacing},
+            {"dt", run.description.time_step},
+            {"unknowns", number(cost.unknowns)},
+            {"steps", number(cost.steps)},
+            {"work", number(cost.work)},
+            {"solver_iterations", number(cost.solver_iterations)},
+            {"iterations_per_step",
+             if_positive(number(cost.solver_iterations) / number(cost.steps))},
+            {"most_iterations", if_positive(number(cost.most_iterations))},
+            {"capped_steps", number(cost.capped_steps)},
+            {"cpu_seconds", cost.setup_cpu + cost.stepping_cpu},
+            {"wall_seconds", cost.setup_wall + cost.stepping_wall},
+            {"peak_memory_mb", run.peak_memory_mb}};
+  }
 
   double table_value(const RunRecord &run, const std::string &name)
   {
@@ -146,7 +157,7 @@ namespace meltfront::verification
       return nan;
     if(const auto found = run.quantities.find(name); found != run.quantities.end())
       return found->second;
-    const auto all = columns(run);
+    const auto all = run_columns(run);
     const auto found = all.find(name);
     return found == all.end() ? nan : found->second;
   }
@@ -154,7 +165,9 @@ namespace meltfront::verification
   std::vector<std::string> table_value_names()
   {
     std::vector<std::string> names = RunObserver::quantity_names();
-    for(const auto &[name, value] : columns(RunRecord()))
+    for(const std::string &name : derived_quantity_names())
+      names.push_back(name);
+    for(const auto &[name, value] : run_columns(RunRecord()))
       names.push_back(name);
     return names;
   }
@@ -176,7 +189,7 @@ namespace meltfront::verification
     for(const CaseRecord &record : result.cases)
       for(const cases::Criterion &criterion : record.criteria)
       {
-        const Runs runs = runs_of(result, record.name, criterion);
+        const Runs runs = runs_of(result, record, criterion);
         const std::string reason = reason_not_judged(runs, criterion);
         if(!reason.empty())
         {
@@ -185,7 +198,7 @@ namespace meltfront::verification
                                                  quantity_text(criterion), reason));
           continue;
         }
-        const double value = value_of(runs, criterion);
+        const double value = value_of(record, runs, criterion);
         const bool passed = value >= criterion.lower && value <= criterion.upper;
         result.criteria.push_back({record.name, criterion.method,
                                    quantity_text(criterion), value, criterion.lower,

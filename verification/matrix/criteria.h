@@ -3,17 +3,23 @@
 
 #include <verification/matrix/matrix_result.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
 namespace meltfront::verification
 {
   /**
-   * A number of a finished run by its column's name: a quantity, or `h`, `unknowns`,
-   * `steps`, `work`, `solver_iterations`, `capped_steps`, `cpu_seconds`, `wall_seconds`,
-   * `peak_memory_mb`. NaN for a run that did not finish and for an unknown name.
+   * A number of a finished run by its column's name: a quantity, or `h`, `dt`,
+   * `unknowns`, `steps`, `work`, `solver_iterations`, `iterations_per_step` and
+   * `most_iterations` (of a method that iterates), `capped_steps`, `cpu_seconds`,
+   * `wall_seconds`, `peak_memory_mb`. NaN for a run that did not finish and for an
+   * unknown name.
    */
   double table_value(const RunRecord &run, const std::string &name);
+
+  /** What a table shows of a run beside its quantities, by name. */
+  std::map<std::string, double> run_columns(const RunRecord &run);
 
   /** The names that table_value() knows: what a criterion may ask of. */
   std::vector<std::string> table_value_names();
@@ -22,9 +28,12 @@ namespace meltfront::verification
    * Hold the criteria of every case of a matrix against its runs; fills `criteria` and
    * `passed`, and appends to `omissions`.
    *
-   * A criterion concerns the runs whose label is its method, which is to say with no
-   * option set by the matrix. Runs of several seeds count with their mean (`worst`: the
-   * largest). Refused runs are no part of an order or a worst value. A criterion is not
+   * A criterion concerns the runs whose label is its method, options in brackets in any
+   * order; without brackets, those with no option set by the matrix. Orders are over h,
+   * or over dt where the runs refine that (Refinement), without levels at round-off
+   * (round_off_floor()). Runs of several seeds count with their mean (`worst`: the
+   * largest). Refused runs are no part of an order or a worst value, nor is a case's
+   * reference run of those of its own difference from itself. A criterion is not
    * judged, and listed as an omission, if the matrix has no such run: no run of the
    * method at its n, none at all for `worst`, fewer than four resolutions for an order.
    * A run that failed, was refused at the criterion's n or is missing makes the

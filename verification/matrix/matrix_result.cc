@@ -3,6 +3,7 @@
 #include <verification/matrix/json_values.h>
 #include <verification/matrix/matrix_files.h>
 #include <verification/matrix/provenance.h>
+#include <verification/matrix/reference.h>
 
 #include <fmt/format.h>
 
@@ -116,6 +117,7 @@ namespace meltfront::verification
                 .get<CaseRecord>());
       for(const auto &run : matrix.at("runs"))
         result.runs.push_back(read_run(directory, run));
+      compare_with_references(result);
       evaluate(result);
       return result;
     }

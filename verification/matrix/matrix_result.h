@@ -3,6 +3,7 @@
 
 #include <verification/matrix/case_record.h>
 #include <verification/matrix/run_record.h>
+#include <verification/measure/grid_convergence.h>
 
 #include <string>
 #include <vector>
@@ -32,6 +33,19 @@ namespace meltfront::verification
     std::string reason;  ///< of a refusal or failure, one sentence
   };
 
+  /** How far a value of a case's reference run can be trusted. */
+  struct ReferenceTrust
+  {
+    std::string case_name;
+    std::string label;
+    std::string quantity;
+    std::string symbol;           ///< `h`, or `dt` where the label's runs refine time
+    std::vector<int> n;           ///< finest first, at most three; so are the other two
+    std::vector<double> abscissa; ///< h (m) or dt (s)
+    std::vector<double> values;
+    GridConvergence convergence; ///< NaN for fewer than three
+  };
+
   /** A matrix that ran (or is running): what summary.json and the report are made of. */
   struct MatrixResult
   {
@@ -44,6 +58,7 @@ namespace meltfront::verification
     std::vector<CaseRecord> cases; ///< in the matrix's order
     std::vector<RunRecord> runs;   ///< in the matrix's order
     std::vector<CriterionResult> criteria;
+    std::vector<ReferenceTrust> references;  ///< of cases that name a reference run
     std::vector<StabilityVerdict> stability; ///< of a matrix of hard cases, else empty
     std::vector<std::string>
         omissions; ///< runs that failed or were left out, each with its reason

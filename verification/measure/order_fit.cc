@@ -70,6 +70,32 @@ namespace meltfront::verification
       return levels;
     }
 
+    /** The finest resolution whose error is above the floor; infinite for none. */
+    double finest_above(double floor, std::span<const double> h,
+                        std::span<const double> errors)
+    {
+      double finest = std::numeric_limits<double>::infinity();
+      for(std::size_t i = 0; i < h.size(); ++i)
+        if(errors[i] > floor)
+          finest = std::min(finest, h[i]);
+      return finest;
+    }
+
+    /** Take the levels out whose averaged error is at or below the floor. */
+    int leave_out(Levels &levels, double floor)
+    {
+      Levels kept;
+      for(std::size_t i = 0; i < levels.log_h.size(); ++i)
+        if(levels.log_error[i] > std::log(floor))
+        {
+          kept.log_h.push_back(levels.log_h[i]);
+          kept.log_error.push_back(levels.log_error[i]);
+        }
+      const auto count = static_cast<int>(levels.log_h.size() - kept.log_h.size());
+      levels = std::move(kept);
+      return count;
+    }
+
     OrderVerdict judge(const OrderFit &fit, const Levels &levels, const Line &line,
                        double plausible_order)
     {
@@ -115,20 +141,28 @@ namespace meltfront::verification
     }
   }
 
-  std::string OrderFit::text() const
+  std::string OrderFit::remarks() const
+  {
+    std::string words = verdict == OrderVerdict::clean ? "" : to_string(verdict);
+    if(left_out > 0)
+      words += fmt::format("{}{} level{} at round-off left out",
+                           words.empty() ? "" : "; ", left_out, left_out == 1 ? "" : "s");
+    return words;
+  }
+
+  std::string OrderFit::text(const std::string &base) const
   {
     if(std::isnan(order))
-      return fmt::format("none ({})", to_string(verdict));
-    std::string result = fmt::format("h^{:.2f}", order);
+      return fmt::format("none ({})", remarks());
+    std::string result = fmt::format("{}^{:.2f}", base, order);
     if(!std::isnan(standard_error))
       result += fmt::format(" +- {:.2f}", standard_error);
-    if(verdict != OrderVerdict::clean)
-      result += fmt::format(" ({})", to_string(verdict));
-    return result;
+    const std::string words = remarks();
+    return words.empty() ? result : fmt::format("{} ({})", result, words);
   }
 
   OrderFit fit_order(std::span<const double> h, std::span<const double> errors,
-                     double plausible_order)
+                     double plausible_order, double round_off_floor)
   {
     if(h.size() != errors.size())
       throw cases::InputError("an order needs one error for each resolution");
@@ -139,12 +173,16 @@ namespace meltfront::verification
         fit.verdict = OrderVerdict::not_finite;
         return fit;
       }
-    if(std::find(errors.begin(), errors.end(), 0.) != errors.end())
-    {
-      fit.verdict = OrderVerdict::zero_error;
-      return fit;
-    }
-    const Levels levels = sorted_levels(h, errors);
+    const double finest = finest_above(round_off_floor, h, errors);
+    for(std::size_t i = 0; i < h.size(); ++i)
+      if(errors[i] == 0 && (round_off_floor <= 0 || finest < h[i] || std::isinf(finest)))
+      {
+        fit.verdict = OrderVerdict::zero_error;
+        return fit;
+      }
+    Levels levels = sorted_levels(h, errors);
+    if(round_off_floor > 0)
+      fit.left_out = leave_out(levels, round_off_floor);
     fit.levels = static_cast<int>(levels.log_h.size());
     if(fit.levels < 2)
       return fit;

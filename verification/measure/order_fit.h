@@ -31,17 +31,22 @@ namespace meltfront::verification
     /** Of the order; NaN for fewer than three levels. */
     double standard_error = std::numeric_limits<double>::quiet_NaN();
     double factor = std::numeric_limits<double>::quiet_NaN(); ///< C
-    int levels = 0; ///< different resolutions that were fitted
+    int levels = 0;   ///< different resolutions that were fitted
+    int left_out = 0; ///< levels at or below the round-off floor, which were not
     /** ln(E_i/E_{i+1})/ln(h_i/h_{i+1}) between neighbouring levels, coarse to fine. A
      * detail: on a fixed grid they swing, because the front moves inside a cell. */
     std::vector<double> pairwise;
     OrderVerdict verdict = OrderVerdict::too_few_levels;
 
     /**
-     * `h^1.47 +- 0.04`, followed by the verdict in brackets unless it is clean, e.g.
+     * `h^1.47 +- 0.04`, followed in brackets by remarks(), if there are any, e.g.
      * `h^0.31 +- 0.12 (stagnating)`; `none (contains NaN)` where there is no order.
      */
-    std::string text() const;
+    std::string text(const std::string &base = "h") const;
+
+    /** The verdict unless it is clean, and how many levels were left out: `stagnating; 2
+     * levels at round-off left out`. */
+    std::string remarks() const;
   };
 
   /**
@@ -60,10 +65,15 @@ namespace meltfront::verification
    *
    * @param h resolutions, any order
    * @param errors one for each h
+   * Levels whose error is at or below the round-off floor say nothing of the scheme: they
+   * are left out and counted. An error of exactly zero is at round-off only where no
+   * finer level is above the floor; elsewhere it stays a zero_error.
+   *
    * @param plausible_order the highest order that the scheme can have
+   * @param round_off_floor in the unit of the errors
    */
   OrderFit fit_order(std::span<const double> h, std::span<const double> errors,
-                     double plausible_order = 3);
+                     double plausible_order = 3, double round_off_floor = 0);
 } // namespace meltfront::verification
 
 #endif

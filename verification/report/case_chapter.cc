@@ -4,6 +4,7 @@
 #include <verification/report/equations.h>
 #include <verification/report/scene_picture.h>
 #include <verification/report/table.h>
+#include <verification/report/tracked_front.h>
 
 #include <fmt/format.h>
 
@@ -48,17 +49,40 @@ namespace meltfront::verification
         caption += " Blue: solid; orange: liquid.";
       if(!record.source_positions.empty())
         caption += " Star: source.";
+      SceneContent content{run ? run : runs.finest(), front, {}};
+      if(const RunRecord *tracked = tracked_run(runs))
+      {
+        content.tracked = {tracked->frames.back()};
+        caption += fmt::format(" Black dots: the front that {} tracked at n = {}.",
+                               tracked->label, tracked->n);
+      }
+      return context.plots.figure(record.name + "-scene",
+                                  scene_picture_script(record, content),
+                                  "The scene of " + record.name, text(caption));
+    }
+
+    /** Tracked fronts at the marks and at the end in one picture. */
+    Markup front_frames(const ReportContext &context, const CaseRuns &runs)
+    {
+      const RunRecord *run = tracked_run(runs);
+      if(!run || run->frames.size() < 2)
+        return {};
+      const CaseRecord &record = *runs.record;
+      std::string times;
+      for(const FrontFrame &frame : run->frames)
+        times += (times.empty() ? "" : ", ") + plain_number(frame.time, 4);
+      SceneContent content;
+      content.tracked = run->frames;
       return context.plots.figure(
-          record.name + "-scene",
-          scene_picture_script(record, run ? run : runs.finest(), front),
-          "The scene of " + record.name, text(caption));
+          record.name + "-fronts", scene_picture_script(record, content),
+          "Fronts over time, " + record.name,
+          text(fmt::format("The front that {} tracked at n = {}, at t = {}{}; black: the "
+                           "last.",
+                           run->label, run->n, times, unit_of(record, " s"))));
     }
 
     Markup exact_solution(const CaseRecord &record)
     {
-      if(record.exact.empty())
-        return element("p",
-                       "There is no exact solution: errors against one cannot be given.");
       std::string sentence = record.exact + ".";
       sentence[0]
           = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
@@ -79,6 +103,19 @@ namespace meltfront::verification
       return content;
     }
 
+    /** The exact solution, or what stands in its place. */
+    Markup yardstick(const ReportContext &context, const CaseRuns &runs)
+    {
+      const CaseRecord &record = *runs.record;
+      if(!record.exact.empty())
+        return element("h3", "Exact solution") + exact_solution(record);
+      if(record.reference)
+        return element("h3", "Reference") + reference_of_case(context, runs);
+      return element("h3", "Exact solution")
+             + element("p",
+                       "There is no exact solution: errors against one cannot be given.");
+    }
+
     Markup convergence(const ReportContext &context, const CaseRuns &runs)
     {
       const CaseRecord &record = *runs.record;
@@ -87,14 +124,18 @@ namespace meltfront::verification
           = [&context](const std::string &label) { return context.styles.key(label); };
       if(table.empty())
         return element("p", "No run of this case is in the matrix.");
-      const Table rates = pairwise_table(runs);
+      const Table rates = pairwise_table(runs), orders = orders_table(runs);
+      const bool several = orders.groups.size() > 1;
       return element(
                  "p", {{"class", "nothing"}},
                  text(
                      "Orders are fitted by least squares over at least four levels, with "
-                     "their standard error. Errors of the front are root mean squares "
-                     "over the run; bold is the least of a column."))
-             + table_markup(table, key)
+                     "their standard error: in h, or in dt where only the time step was "
+                     "refined. Levels whose error is at round-off (10⁻¹³ of the domain's "
+                     "side, 10⁻¹³ where relative) are left out of the fit. Errors of the "
+                     "front are root mean squares over the run; bold is the least of a "
+                     "column."))
+             + (several ? table_markup(orders, key) : Markup()) + table_markup(table, key)
              + linked_csv(context, record.name, convergence_csv(runs))
              + (rates.empty() ? Markup()
                               : folded("Rates between neighbouring resolutions",
@@ -103,31 +144,49 @@ namespace meltfront::verification
 
     Markup error_plots(const ReportContext &context, const CaseRuns &runs)
     {
-      const std::string failed = " A cross marks a run that failed or was refused.";
-      const Plot against_spacing = error_against_spacing(runs, context.styles);
-      const std::string note = against_spacing.failed.empty() ? "" : failed;
-      return pair(context.plots.figure(
-                      runs.record->name + "-error-spacing", against_spacing,
-                      text("Front error against spacing, with fitted orders; grey: "
-                           "reference slopes."
-                           + note)),
-                  context.plots.figure(
-                      runs.record->name + "-error-cost",
-                      error_against_cost(runs, context.styles),
-                      text("Front error against CPU time: left and low is better; "
-                           "grey: reference slopes."
-                           + note)));
+      const std::string &name = runs.record->name;
+      const Plot cost = error_against_cost(runs, context.styles);
+      const std::string note
+          = cost.failed.empty() ? "" : " A cross marks a run that failed or was refused.";
+      std::vector<Markup> figures;
+      if(const Plot plot = error_against_spacing(runs, context.styles);
+         !plot.curves.empty())
+        figures.push_back(context.plots.figure(
+            name + "-error-spacing", plot,
+            text("Error against spacing, with fitted orders; grey: reference slopes."
+                 + note)));
+      if(const Plot plot = error_against_time_step(runs, context.styles);
+         !plot.curves.empty())
+        figures.push_back(context.plots.figure(
+            name + "-error-time-step", plot,
+            text("Error against time step at one spacing, with fitted orders; grey: "
+                 "reference slopes."
+                 + note)));
+      figures.push_back(context.plots.figure(
+          name + "-error-cost", cost,
+          text("Error against CPU time: left and low is better; grey: reference slopes."
+               + note)));
+      Markup content;
+      for(std::size_t i = 0; i < figures.size(); i += 2)
+        content += pair(figures[i], i + 1 < figures.size() ? figures[i + 1] : Markup());
+      return content;
     }
 
     Markup front_plots(const ReportContext &context, const CaseRuns &runs)
     {
-      return pair(
-          context.plots.figure(runs.record->name + "-front",
-                               front_against_time(runs, context.styles),
-                               text("Front against time, each method's finest run.")),
-          context.plots.figure(runs.record->name + "-front-error",
-                               front_error_against_time(runs, context.styles),
-                               text("Its error against time.")));
+      return pair(context.plots.figure(
+                      runs.record->name + "-front",
+                      front_against_time(runs, context.styles),
+                      text("Front against time, each method's finest run.")),
+                  context.plots.figure(
+                      runs.record->name + "-front-error",
+                      runs.record->exact.empty()
+                          ? solid_against_time(runs, context.styles)
+                          : front_error_against_time(runs, context.styles),
+                      text(runs.record->exact.empty()
+                               ? "Volume that is solid against time."
+                               : "Its error against time.")))
+             + front_frames(context, runs);
     }
 
     Markup profile_and_budget(const ReportContext &context, const CaseRuns &runs)
@@ -234,10 +293,10 @@ namespace meltfront::verification
     if(const Markup effects = effects_of_case(context, runs); !effects.empty())
       content += folded("Effects: on or off, because, share of time, memory", effects);
     content += folded("Schemes and their parameters", parameters(runs))
-               + element("h3", "Exact solution") + exact_solution(record)
-               + element("h3", "Convergence") + convergence(context, runs)
-               + error_plots(context, runs) + element("h3", "Front")
-               + front_plots(context, runs) + element("h3", "Temperature and heat budget")
+               + yardstick(context, runs) + element("h3", "Convergence")
+               + convergence(context, runs) + error_plots(context, runs)
+               + element("h3", "Front") + front_plots(context, runs)
+               + element("h3", "Temperature and heat budget")
                + profile_and_budget(context, runs) + printed(context, runs)
                + criteria(context, record) + limits(runs);
     return element("section", {{"id", case_anchor(record.name)}}, content) + Markup("\n");

@@ -81,47 +81,68 @@ namespace meltfront::verification
       }
     }
 
-    /** The h that a run without a description would have had. */
-    double spacing_of(const Level &level, const CaseRecord &record)
+    std::string plotted_error_label(const CaseRuns &runs)
     {
+      return main_error(*runs.record) == "front_rms"
+                 ? with_unit("front error, RMS", unit_of(*runs.record, "m"))
+                 : with_unit("solid's error, end",
+                             unit_of(*runs.record, volume_unit(*runs.record)));
+    }
+
+    /** The abscissa of a level; of a run without a description, the h that it would have
+     * had. */
+    double abscissa_of(const Level &level, const CaseRecord &record,
+                       const std::string &name)
+    {
+      if(level.finished || name != "h")
+        return level.value(name);
       const double h = level.runs.front()->description.spacing;
       return h > 0 ? h : domain_side(record) / level.n;
     }
 
+    /** The errors of one label, and marks for what did not finish. */
+    void add_errors(Plot &plot, const CaseRuns &runs, const LabelRuns &label,
+                    const LineStyle &style, const std::string &abscissa, double scale)
+    {
+      const std::string error = main_error(*runs.record);
+      Curve curve;
+      curve.label = label.label;
+      curve.style = style;
+      bool several_seeds = false;
+      for(const Level &level : label.levels)
+      {
+        const double x = abscissa_of(level, *runs.record, abscissa);
+        if(!level.finished)
+        {
+          plot.failed.push_back({x, style});
+          continue;
+        }
+        curve.x.push_back(x);
+        curve.y.push_back(level.value(error) * scale);
+        curve.spread.push_back(level.spread(error) * scale);
+        several_seeds = several_seeds || level.finished_count > 1;
+      }
+      if(!several_seeds)
+        curve.spread.clear();
+      const OrderFit fit = order_of(*runs.record, label, error);
+      if(abscissa == label.refinement.symbol() && std::isfinite(fit.order)
+         && fit.verdict != OrderVerdict::too_few_levels)
+        curve.exponent = fmt::format("{}^{:.2f}", abscissa, fit.order);
+      plot.curves.push_back(std::move(curve));
+    }
+
+    /** Errors against h or dt, of the labels that refine it; against anything else, of
+     * all. */
     Plot error_plot(const CaseRuns &runs, const MethodStyles &styles,
                     const std::string &abscissa, double scale)
     {
-      const bool against_spacing = abscissa == "h";
+      const bool resolution = abscissa == "h" || abscissa == "dt";
       Plot plot;
       plot.x.logarithmic = plot.y.logarithmic = true;
+      plot.y.label = plotted_error_label(runs);
       for(const LabelRuns &label : runs.labels)
-      {
-        Curve curve;
-        curve.label = label.label;
-        curve.style = styles.style(label.label);
-        bool several_seeds = false;
-        for(const Level &level : label.levels)
-        {
-          if(!level.finished)
-          {
-            plot.failed.push_back(
-                {against_spacing ? spacing_of(level, *runs.record) : std::nan(""),
-                 curve.style});
-            continue;
-          }
-          curve.x.push_back(level.value(abscissa));
-          curve.y.push_back(level.value("front_rms") * scale);
-          curve.spread.push_back(level.spread("front_rms") * scale);
-          several_seeds = several_seeds || level.finished_count > 1;
-        }
-        if(!several_seeds)
-          curve.spread.clear();
-        const OrderFit fit = order_of(label, "front_rms");
-        if(against_spacing && std::isfinite(fit.order)
-           && fit.verdict != OrderVerdict::too_few_levels)
-          curve.exponent = fmt::format("h^{:.2f}", fit.order);
-        plot.curves.push_back(std::move(curve));
-      }
+        if(!resolution || label.refinement.symbol() == abscissa)
+          add_errors(plot, runs, label, styles.style(label.label), abscissa, scale);
       return plot;
     }
 
@@ -135,21 +156,28 @@ namespace meltfront::verification
   Plot error_against_spacing(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot = error_plot(runs, styles, "h", 1);
-    plot.description = "Front error against spacing, " + runs.record->name;
-    const std::string unit = unit_of(*runs.record, "m");
-    plot.x.label = with_unit("spacing h", unit);
-    plot.y.label = with_unit("front error, RMS", unit);
+    plot.description = "Error against spacing, " + runs.record->name;
+    plot.x.label = with_unit("spacing h", unit_of(*runs.record, "m"));
     if(has_several_levels(runs))
       plot.guides = {{1, "h"}, {2, "h"}};
+    return plot;
+  }
+
+  Plot error_against_time_step(const CaseRuns &runs, const MethodStyles &styles)
+  {
+    Plot plot = error_plot(runs, styles, "dt", 1);
+    plot.description = "Error against time step, " + runs.record->name;
+    plot.x.label = with_unit("time step dt", unit_of(*runs.record, "s"));
+    if(has_several_levels(runs))
+      plot.guides = {{2, "dt"}, {4, "dt"}};
     return plot;
   }
 
   Plot error_against_cost(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot = error_plot(runs, styles, "cpu_seconds", 1);
-    plot.description = "Front error against CPU time, " + runs.record->name;
+    plot.description = "Error against CPU time, " + runs.record->name;
     plot.x.label = "CPU time t (s)";
-    plot.y.label = with_unit("front error, RMS", unit_of(*runs.record, "m"));
     if(has_several_levels(runs))
       plot.guides = {{-0.5, "t"}, {-1, "t"}};
     return plot;
@@ -157,13 +185,12 @@ namespace meltfront::verification
 
   Plot small_work_precision(const CaseRuns &runs, const MethodStyles &styles)
   {
-    const double front = std::abs(runs.record->front_exact_end);
-    Plot plot = error_plot(runs, styles, "cpu_seconds", 1 / front);
-    plot.description = "Relative front error against CPU time, " + runs.record->name;
+    Plot plot = error_plot(runs, styles, "cpu_seconds", 1 / main_error_scale(runs));
+    plot.description = "Relative error against CPU time, " + runs.record->name;
     plot.heading = runs.record->name;
     plot.small = true;
     plot.x.label = "CPU time (s)";
-    plot.y.label = "relative front error";
+    plot.y.label = "relative error";
     return plot;
   }
 
@@ -191,6 +218,18 @@ namespace meltfront::verification
                [](const RunSeries &series, std::size_t i) {
                  return std::abs(entry(series.front, i) - entry(series.front_exact, i));
                });
+    return plot;
+  }
+
+  Plot solid_against_time(const CaseRuns &runs, const MethodStyles &styles)
+  {
+    Plot plot;
+    plot.description = "Volume that is solid against time, " + runs.record->name;
+    plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
+    plot.y.label = with_unit("solid", unit_of(*runs.record, volume_unit(*runs.record)));
+    add_finest(plot, runs, styles,
+               [](const RunSeries &series, std::size_t i)
+               { return entry(series.solid_volume, i); });
     return plot;
   }
 

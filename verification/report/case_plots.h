@@ -6,8 +6,14 @@
 
 namespace meltfront::verification
 {
-  /** Front error (RMS) against the spacing, one line per label, with slopes 1 and 2. */
+  /** Front error (RMS) against the spacing, one line per label that refines it, with
+   * slopes 1 and 2. Where there is no exact solution, here and in the next two the error
+   * is that of the solid's volume at the end from the reference. */
   Plot error_against_spacing(const CaseRuns &runs, const MethodStyles &styles);
+
+  /** The same against the time step, of the labels that refine that, with slopes 2 and
+   * 4. */
+  Plot error_against_time_step(const CaseRuns &runs, const MethodStyles &styles);
 
   /** Front error (RMS) against CPU seconds: the work-precision diagram. */
   Plot error_against_cost(const CaseRuns &runs, const MethodStyles &styles);
@@ -20,6 +26,9 @@ namespace meltfront::verification
 
   /** |front - exact front| against time, finest runs. */
   Plot front_error_against_time(const CaseRuns &runs, const MethodStyles &styles);
+
+  /** Volume that is solid against time, finest runs. */
+  Plot solid_against_time(const CaseRuns &runs, const MethodStyles &styles);
 
   /** Temperature at the end, finest runs, and the exact one. */
   Plot temperature_profile(const CaseRuns &runs, const MethodStyles &styles);

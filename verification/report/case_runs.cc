@@ -1,3 +1,5 @@
+#include <verification/matrix/criteria.h>
+#include <verification/matrix/reference.h>
 #include <verification/report/case_runs.h>
 
 #include <fmt/format.h>
@@ -40,15 +42,17 @@ namespace meltfront::verification
     return nullptr;
   }
 
-  void LabelRuns::finite_values(const std::string &quantity, std::vector<double> &h,
-                                std::vector<double> &values) const
+  ErrorLevels LabelRuns::errors(const std::string &quantity) const
   {
+    ErrorLevels result;
+    const std::string abscissa = refinement.symbol();
     for(const Level &level : levels)
-      if(std::isfinite(level.value(quantity)) && level.value("h") > 0)
+      if(std::isfinite(level.value(quantity)) && level.value(abscissa) > 0)
       {
-        h.push_back(level.value("h"));
-        values.push_back(level.value(quantity));
+        result.abscissa.push_back(level.value(abscissa));
+        result.error.push_back(level.value(quantity));
       }
+    return result;
   }
 
   const LabelRuns *CaseRuns::find(const std::string &label) const
@@ -91,15 +95,13 @@ namespace meltfront::verification
     std::map<std::string, double> all_values(const RunRecord &run)
     {
       std::map<std::string, double> values = run.quantities;
-      const auto positive = [](double value) { return value > 0 ? value : std::nan(""); };
-      values["h"] = positive(run.description.spacing);
-      values["unknowns"] = positive(static_cast<double>(
-          run.cost.unknowns > 0 ? run.cost.unknowns : run.description.unknowns));
-      values["steps"] = static_cast<double>(run.cost.steps);
-      values["cpu_seconds"] = cpu_seconds(run);
-      values["wall_seconds"] = run.cost.setup_wall + run.cost.stepping_wall;
-      values["peak_memory_mb"] = positive(run.peak_memory_mb);
-      values["work"] = static_cast<double>(run.cost.work);
+      for(const auto &[name, value] : run_columns(run))
+        values[name] = value;
+      if(run.cost.unknowns == 0)
+        values["unknowns"] = static_cast<double>(run.description.unknowns);
+      for(const char *name : {"h", "dt", "unknowns", "peak_memory_mb"})
+        if(!(values[name] > 0))
+          values[name] = std::nan("");
       return values;
     }
 
@@ -158,8 +160,13 @@ namespace meltfront::verification
     {
       std::sort(label.levels.begin(), label.levels.end(),
                 [](const Level &a, const Level &b) { return a.n < b.n; });
+      std::vector<const RunRecord *> runs;
       for(Level &level : label.levels)
+      {
         average(level);
+        runs.insert(runs.end(), level.runs.begin(), level.runs.end());
+      }
+      label.refinement = Refinement(runs);
     }
     return collected;
   }
@@ -172,21 +179,33 @@ namespace meltfront::verification
     return all;
   }
 
-  double domain_side(const CaseRecord &record)
-  {
-    return record.shape == "ball" ? 2 * record.radius : record.upper[0] - record.lower[0];
-  }
-
-  std::string method_of(const std::string &label)
-  {
-    return label.substr(0, label.find('['));
-  }
-
   bool radial_front(const CaseRecord &record)
   {
     if(record.symmetry == "none")
       return !record.exact.empty() && !record.exact.starts_with("planar");
     return record.symmetry != "planar";
+  }
+
+  std::string main_error(const CaseRecord &record)
+  {
+    return record.exact.empty() ? "solid_volume_end_error" : "front_rms";
+  }
+
+  double main_error_scale(const CaseRuns &runs)
+  {
+    if(!runs.record->exact.empty())
+      return std::abs(runs.record->front_exact_end);
+    for(const LabelRuns &label : runs.labels)
+      for(const Level &level : label.levels)
+        if(level.finished && is_reference(*runs.record, *level.finished))
+          return std::abs(level.value("solid_volume_end"));
+    return std::nan("");
+  }
+
+  std::string volume_unit(const CaseRecord &record)
+  {
+    constexpr const char *units[] = {"m", "m²", "m³"};
+    return units[measure_dimension(record) - 1];
   }
 
   std::string unit_of(const CaseRecord &record, const std::string &unit)

@@ -2,6 +2,7 @@
 #define meltfront_verification_report_case_runs_h
 
 #include <verification/matrix/matrix_result.h>
+#include <verification/matrix/refinement.h>
 
 #include <map>
 #include <string>
@@ -23,11 +24,8 @@ namespace meltfront::verification
     std::vector<const RunRecord *> runs;
     const RunRecord *finished = nullptr; ///< the first that finished, if any
     int finished_count = 0;
-    /**
-     * Over the finished runs: all RunRecord::quantities that are finite, and `h`,
-     * `unknowns`, `steps`, `cpu_seconds` (set-up and stepping), `wall_seconds`,
-     * `peak_memory_mb`, `work`.
-     */
+    /** Over the finished runs: all RunRecord::quantities and run_columns() that are
+     * finite. */
     std::map<std::string, SeedMean> values;
 
     /** The mean of a quantity; NaN where no finished run has it. */
@@ -43,13 +41,13 @@ namespace meltfront::verification
   {
     std::string label;
     std::vector<Level> levels;
+    Refinement refinement; ///< of h or of dt
 
     /** The finished run of the largest n; null if none finished. */
     const RunRecord *finest() const;
 
-    /** A quantity at every level that has it, with the h of the level. */
-    void finite_values(const std::string &quantity, std::vector<double> &h,
-                       std::vector<double> &values) const;
+    /** A quantity at every level that has it, over h or dt. */
+    ErrorLevels errors(const std::string &quantity) const;
   };
 
   struct CaseRuns
@@ -67,6 +65,14 @@ namespace meltfront::verification
     bool has(const std::string &quantity) const;
   };
 
+  /** The error that diagrams of a case show: `front_rms`, or where there is no exact
+   * solution `solid_volume_end_error`. */
+  std::string main_error(const CaseRecord &record);
+
+  /** What it is relative to: the exact front at the end (m), or the reference's solid
+   * volume there; NaN where there is neither. */
+  double main_error_scale(const CaseRuns &runs);
+
   CaseRuns collect_runs(const MatrixResult &result, const CaseRecord &record);
 
   std::vector<CaseRuns> collect_runs(const MatrixResult &result);
@@ -74,17 +80,14 @@ namespace meltfront::verification
   /** CPU seconds of set-up and stepping. */
   double cpu_seconds(const RunRecord &run);
 
-  /** The length that n divides: slab length, box side or ball diameter (m). */
-  double domain_side(const CaseRecord &record);
-
-  /** The method of a label: what stands before the first `[`. */
-  std::string method_of(const std::string &label);
-
   /**
    * True if the front is a circle or a sphere about the origin: in a cylindrical or
    * spherical scene, and in one without symmetry whose exact solution is not planar.
    */
   bool radial_front(const CaseRecord &record);
+
+  /** The unit of the solid's volume: m, m² or m³. */
+  std::string volume_unit(const CaseRecord &record);
 
   /** A unit, or nothing for a case in normalised quantities. */
   std::string unit_of(const CaseRecord &record, const std::string &unit);

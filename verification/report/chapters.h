@@ -29,6 +29,14 @@ namespace meltfront::verification
   /** The cheapest method for wanted errors, and all work-precision diagrams. */
   Markup cost_chapter(const ReportContext &context);
 
+  /** Orders of time schemes and of elements by degree, over all cases; empty where no
+   * label refines time or sets a degree. */
+  Markup orders_chapter(const ReportContext &context);
+
+  /** The reference run of a case without exact solution and how far it can be trusted:
+   * finest three values, observed order, Richardson's limit, grid convergence index. */
+  Markup reference_of_case(const ReportContext &context, const CaseRuns &runs);
+
   /** Case by label: held, refused or failed; empty without verdicts. */
   Markup stability_chapter(const ReportContext &context);
 

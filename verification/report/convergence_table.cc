@@ -9,21 +9,50 @@ namespace meltfront::verification
 {
   const std::vector<Quantity> &table_quantities()
   {
+    // The first columns of the CSV are promised to its readers: new ones have rank 2.
+    using enum Shown;
     static const std::vector<Quantity> list = {
         {"h", "h", "m"},
+        {"dt", "dt", "s", false, false, in_time, 2},
         {"unknowns", "unknowns", "", false, true},
         {"steps", "steps", "", false, true},
         {"front_rms", "front, RMS", "m", true},
         {"front_end", "front, end", "m", true},
         {"front_isotherm_rms", "front by isotherm, RMS", "m", true},
-        {"front_max_ice_rms", "largest frozen radius, RMS", "m", true, false, true},
+        {"front_max_ice_rms", "largest frozen radius, RMS", "m", true, false, when_asked,
+         1},
         {"front_heat_loss_rms", "largest radius a quarter frozen, RMS", "m", true, false,
-         true},
-        {"front_late_max_relative", "front, late maximum", "relative", true, false, true},
-        {"front_end_relative", "front, end", "relative", true, false, true},
+         when_asked, 1},
+        {"front_late_max_relative", "front, late maximum", "relative", true, false,
+         when_asked, 1},
+        {"front_end_relative", "front, end", "relative", true, false, when_asked, 1},
+        {"front_max", "front, maximum", "m", true, false, when_asked, 2},
+        {"front_points_rms", "tracked points, RMS", "m", true, false, when_asked, 2},
+        {"front_points_max", "tracked points, maximum", "m", true, false, when_asked, 2},
+        {"roundness_end", "roundness, end", "m", true, false, when_asked, 2},
+        {"solid_volume_end", "solid, end", "volume", false, false, without_exact, 2},
+        {"solid_volume_end_error", "solid's error, end", "volume", true, false, always,
+         2},
+        {"solid_volume_end_bars", "the same in error bars", "", false, false, always, 2},
+        {"solid_volume_1_error", "solid's error, mark 1", "volume", true, false, always,
+         2},
+        {"solid_volume_2_error", "solid's error, mark 2", "volume", true, false, always,
+         2},
+        {"solid_volume_3_error", "solid's error, mark 3", "volume", true, false, always,
+         2},
+        {"solid_volume_4_error", "solid's error, mark 4", "volume", true, false, always,
+         2},
+        {"solid_volume_rms_error", "solid's error, RMS", "volume", true, false, always,
+         2},
+        {"solid_volume_backsteps", "solid's backsteps", "relative", false, false,
+         without_exact, 2},
+        {"front_mode_end", "amplitude, end", "m", false, false, always, 2},
+        {"front_mode_end_error", "amplitude's error, end", "m", true, false, always, 2},
         {"temperature_l2", "temperature, L2", "relative", true},
         {"temperature_max", "temperature, maximum", "relative", true},
         {"budget_defect", "heat budget defect", "relative"},
+        {"iterations_per_step", "iterations per step", "", false, false, always, 2},
+        {"most_iterations", "most in a step", "", false, true, always, 2},
         {"cpu_seconds", "CPU", "s"},
         {"wall_seconds", "wall", "s"},
         {"peak_memory_mb", "memory", "MB"},
@@ -39,22 +68,27 @@ namespace meltfront::verification
     return name;
   }
 
-  OrderFit order_of(const LabelRuns &runs, const std::string &quantity)
+  OrderFit order_of(const CaseRecord &record, const LabelRuns &runs,
+                    const std::string &quantity)
   {
-    std::vector<double> h, errors;
-    runs.finite_values(quantity, h, errors);
-    return fit_order(h, errors);
+    const RunRecord *finest = runs.finest();
+    if(!finest)
+      return {};
+    return fit_levels(runs.errors(quantity), record, quantity, *finest, runs.refinement);
   }
 
   Cell order_cell(const OrderFit &fit, const std::string &base)
   {
     if(fit.verdict == OrderVerdict::too_few_levels || !std::isfinite(fit.order))
+    {
+      if(fit.left_out > 0)
+        return {fit.remarks()};
       return {NumberText()};
+    }
     Power power{base, fmt::format("{:.2f}", fit.order), "", ""};
     if(std::isfinite(fit.standard_error))
       power.error = fmt::format("{:.2f}", fit.standard_error);
-    if(fit.verdict != OrderVerdict::clean)
-      power.remark = to_string(fit.verdict);
+    power.remark = fit.remarks();
     return {power};
   }
 
@@ -86,21 +120,46 @@ namespace meltfront::verification
       double best; ///< NaN: nothing is marked
     };
 
-    /** True if a criterion or a printed value of the case names the quantity. */
-    bool asked_for(const CaseRuns &runs, const Quantity &quantity)
+    bool asked_for(const CaseRecord &record, const Quantity &quantity)
     {
       const auto names_it
           = [&quantity](const auto &entry) { return entry.quantity == quantity.name; };
-      const CaseRecord &record = *runs.record;
       return std::any_of(record.criteria.begin(), record.criteria.end(), names_it)
              || std::any_of(record.printed.begin(), record.printed.end(), names_it);
+    }
+
+    bool has_column(const CaseRuns &runs, const Quantity &quantity)
+    {
+      if(!runs.has(quantity.name))
+        return false;
+      switch(quantity.shown)
+      {
+      case Shown::always:
+        return true;
+      case Shown::in_time:
+        return std::any_of(runs.labels.begin(), runs.labels.end(),
+                           [](const LabelRuns &label)
+                           { return label.refinement.in_time(); });
+      case Shown::without_exact:
+        return runs.record->exact.empty() || asked_for(*runs.record, quantity);
+      default:
+        return asked_for(*runs.record, quantity);
+      }
+    }
+
+    /** The unit of a column in the case's own measure. */
+    std::string unit_in(const CaseRecord &record, const Quantity &quantity)
+    {
+      if(quantity.unit == "volume")
+        return unit_of(record, volume_unit(record));
+      return quantity.unit == "m" ? unit_of(record, "m") : quantity.unit;
     }
 
     std::vector<FilledColumn> filled_columns(const CaseRuns &runs)
     {
       std::vector<FilledColumn> columns;
       for(const Quantity &quantity : table_quantities())
-        if(runs.has(quantity.name) && (!quantity.special || asked_for(runs, quantity)))
+        if(has_column(runs, quantity))
         {
           const auto values = column_values(runs, quantity.name);
           columns.push_back({quantity, column_notation(values),
@@ -121,13 +180,14 @@ namespace meltfront::verification
       return cell;
     }
 
-    std::vector<Cell> order_row(const LabelRuns &runs,
+    std::vector<Cell> order_row(const CaseRecord &record, const LabelRuns &runs,
                                 const std::vector<FilledColumn> &columns)
     {
       std::vector<Cell> row{{std::string("order")}};
       for(const FilledColumn &column : columns)
         row.push_back(column.quantity.error
-                          ? order_cell(order_of(runs, column.quantity.name))
+                          ? order_cell(order_of(record, runs, column.quantity.name),
+                                       runs.refinement.symbol())
                           : Cell{std::string()});
       row.push_back({std::string()});
       return row;
@@ -150,11 +210,8 @@ namespace meltfront::verification
     table.group_heading = "method";
     table.columns.push_back({"n", "", true});
     for(const FilledColumn &column : columns)
-    {
-      const std::string unit = column.quantity.unit == "m" ? unit_of(*runs.record, "m")
-                                                           : column.quantity.unit;
-      table.columns.push_back({column.quantity.heading, unit, true});
-    }
+      table.columns.push_back(
+          {column.quantity.heading, unit_in(*runs.record, column.quantity), true});
     table.columns.push_back({seeds_vary(runs) ? "runs" : "run", "", false});
     for(const LabelRuns &label : runs.labels)
     {
@@ -171,7 +228,7 @@ namespace meltfront::verification
              + (level.runs.size() > 1 ? fmt::format(" (mean of {})", level.finished_count)
                                       : "")});
       }
-      const auto orders = order_row(label, columns);
+      const auto orders = order_row(*runs.record, label, columns);
       if(std::any_of(orders.begin(), orders.end(),
                      [](const Cell &cell)
                      { return std::holds_alternative<Power>(cell.content); }))
@@ -184,8 +241,7 @@ namespace meltfront::verification
   {
     std::vector<Quantity> quantities;
     for(const Quantity &quantity : table_quantities())
-      if(quantity.error && runs.has(quantity.name)
-         && (!quantity.special || asked_for(runs, quantity)))
+      if(quantity.error && has_column(runs, quantity))
         quantities.push_back(quantity);
     Table table;
     table.group_heading = "method";
@@ -204,7 +260,8 @@ namespace meltfront::verification
         {
           const double rate
               = std::log(coarse.value(quantity.name) / fine.value(quantity.name))
-                / std::log(coarse.value("h") / fine.value("h"));
+                / std::log(coarse.value(label.refinement.symbol())
+                           / fine.value(label.refinement.symbol()));
           row.push_back({std::isfinite(rate) ? NumberText{fmt::format("{:.2f}", rate), {}}
                                              : NumberText()});
         }
@@ -230,8 +287,9 @@ namespace meltfront::verification
   {
     const bool spread = seeds_vary(runs);
     std::vector<Quantity> quantities = table_quantities();
-    std::stable_partition(quantities.begin(), quantities.end(),
-                          [](const Quantity &quantity) { return !quantity.special; });
+    std::stable_sort(quantities.begin(), quantities.end(),
+                     [](const Quantity &a, const Quantity &b)
+                     { return a.csv_rank < b.csv_rank; });
     std::string csv = "method,n";
     for(const Quantity &quantity : quantities)
       csv += "," + quantity.name;

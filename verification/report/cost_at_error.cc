@@ -37,19 +37,19 @@ namespace meltfront::verification
             {}};
   }
 
-  WorkPrecision relative_front_work_precision(const LabelRuns &runs,
-                                              const CaseRecord &record)
+  WorkPrecision relative_work_precision(const LabelRuns &label, const CaseRuns &runs)
   {
     WorkPrecision result;
-    const double front = std::abs(record.front_exact_end);
-    if(!positive(front))
+    const double scale = main_error_scale(runs);
+    if(!positive(scale))
       return result;
-    for(const Level &level : runs.levels)
+    for(const Level &level : label.levels)
     {
-      const double error = level.value("front_rms"), cost = level.value("cpu_seconds");
+      const double error = level.value(main_error(*runs.record)),
+                   cost = level.value("cpu_seconds");
       if(positive(error) && positive(cost))
       {
-        result.error.push_back(error / front);
+        result.error.push_back(error / scale);
         result.cost.push_back(cost);
       }
     }
@@ -61,8 +61,7 @@ namespace meltfront::verification
     CostAtError best;
     for(const LabelRuns &label : runs.labels)
     {
-      CostAtError found
-          = cost_at_error(relative_front_work_precision(label, *runs.record), wanted);
+      CostAtError found = cost_at_error(relative_work_precision(label, runs), wanted);
       found.label = label.label;
       if(found.reach != Reach::not_reached
          && (best.reach == Reach::not_reached || found.cost < best.cost))

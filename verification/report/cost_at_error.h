@@ -38,12 +38,11 @@ namespace meltfront::verification
    */
   CostAtError cost_at_error(const WorkPrecision &measured, double wanted);
 
-  /** front_rms over the exact front at the end, against CPU seconds. Empty without an
-   * exact front. */
-  WorkPrecision relative_front_work_precision(const LabelRuns &runs,
-                                              const CaseRecord &record);
+  /** main_error() over main_error_scale(), against CPU seconds. Empty where there is no
+   * such scale. */
+  WorkPrecision relative_work_precision(const LabelRuns &label, const CaseRuns &runs);
 
-  /** The label of least cost at which the case reaches a relative front error. */
+  /** The label of least cost at which the case reaches a relative error. */
   CostAtError cheapest(const CaseRuns &runs, double wanted);
 } // namespace meltfront::verification
 

@@ -30,6 +30,7 @@ namespace meltfront::verification
   /** Colours of scripts that inline_svg() knows, besides the palette and black. */
   namespace plot_colours
   {
+    inline constexpr const char *page = "#fefefe";
     inline constexpr const char *axis = "#8a9199";
     inline constexpr const char *grid = "#e4e7ea";
     inline constexpr const char *guide = "#a8afb6";

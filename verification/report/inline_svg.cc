@@ -32,7 +32,8 @@ namespace meltfront::verification
       for(std::size_t c = 0; c < palette().size(); ++c)
         replace_colour(svg, palette()[c].light, fmt::format("var(--series-{})", c));
       const std::pair<const char *, const char *> lines[]
-          = {{plot_colours::axis, "var(--axis)"},
+          = {{plot_colours::page, "var(--page)"},
+             {plot_colours::axis, "var(--axis)"},
              {plot_colours::grid, "var(--grid)"},
              {plot_colours::guide, "var(--guide)"},
              {"#000000", "currentColor"},

@@ -27,7 +27,10 @@ namespace meltfront::verification
             + link("cost", "Cost");
       if(!context.result.stability.empty())
         links += link("stability", "Stability");
-      links += link("effects", "Effects") + link("provenance", "Provenance");
+      links += link("effects", "Effects");
+      if(!orders_chapter(context).empty())
+        links += link("orders", "Orders");
+      links += link("provenance", "Provenance");
       if(!context.runs.empty())
         links += element("span", {{"class", "bar"}}, Markup());
       for(const CaseRuns &runs : context.runs)
@@ -68,7 +71,8 @@ namespace meltfront::verification
             + element("title", title) + element("style", Markup(page_style()));
       Markup body = marker_definitions() + navigation(context);
       Markup chapters = verdict_chapter(context) + cost_chapter(context)
-                        + stability_chapter(context) + effects_chapter(context);
+                        + stability_chapter(context) + effects_chapter(context)
+                        + orders_chapter(context);
       for(const CaseRuns &runs : context.runs)
         chapters += case_chapter(context, runs);
       chapters += provenance_chapter(context);

@@ -14,13 +14,14 @@ namespace meltfront::verification
   {
     std::string front_csv(const RunSeries &series)
     {
-      std::string csv = "time,front,front_isotherm,front_exact,budget_defect\n";
+      std::string csv
+          = "time,front,front_isotherm,front_exact,budget_defect,solid_volume\n";
       for(std::size_t i = 0; i < series.time.size(); ++i)
       {
         csv += fmt::format("{:.16g}", series.time[i]);
         for(const std::vector<double> *column :
             {&series.front, &series.front_isotherm, &series.front_exact,
-             &series.budget_defect})
+             &series.budget_defect, &series.solid_volume})
         {
           const double value = i < column->size() ? (*column)[i] : std::nan("");
           csv += std::isnan(value) ? ",nan" : fmt::format(",{:.16g}", value);
@@ -45,9 +46,13 @@ namespace meltfront::verification
     write_file(directory + "/front.csv", front_csv(run.series));
     std::string script;
     if(fills_a_plane(run, record))
-      script = scene_picture_script(record, &run,
-                                    run.series.front.empty() ? std::nan("")
-                                                             : run.series.front.back());
+    {
+      SceneContent content{&run, {}, {}};
+      content.front = run.series.front.empty() ? std::nan("") : run.series.front.back();
+      if(!run.frames.empty())
+        content.tracked = {run.frames.back()};
+      script = scene_picture_script(record, content);
+    }
     else
       script = plot_script(run_profile(run, record));
     write_file(directory + "/picture.svg", run_gnuplot(script));

@@ -3,6 +3,7 @@
 #include <verification/report/gnuplot.h>
 #include <verification/report/method_styles.h>
 #include <verification/report/plot_layout.h>
+#include <verification/report/tracked_front.h>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,12 @@ namespace meltfront::verification
       }
     };
 
+    /** A disk or a ball, with or without a hole. */
+    bool round(const CaseRecord &record)
+    {
+      return record.shape == "ball" || record.shape == "shell";
+    }
+
     bool has_sites(const RunRecord *run)
     {
       return run && run->profile.picture_x.size() > 1
@@ -65,7 +72,7 @@ namespace meltfront::verification
     Frame frame_of(const CaseRecord &record, const RunRecord *run)
     {
       Frame frame{};
-      if(record.shape == "ball")
+      if(round(record))
       {
         frame.x0 = frame.y0 = -record.radius;
         frame.x1 = frame.y1 = record.radius;
@@ -179,6 +186,10 @@ namespace meltfront::verification
           fmt::format_to(out, "set label {} at graph 0.5,{} center offset 0,{}\n",
                          words(wall, room(frame.width)), at, at ? 0.9 : -0.9);
         }
+        else if(wall.side == "inner")
+          fmt::format_to(
+              out, "set label {} at graph 0.5,0.5 center front\n",
+              words(wall, room(frame.width * record.inner_radius / record.radius)));
         else if(wall.side == "outer")
           fmt::format_to(out, "set label {} at graph 0.5,1 center offset 0,0.9\n",
                          words(wall, room(canvas_width - 20)));
@@ -237,28 +248,29 @@ namespace meltfront::verification
           = solid_first ? plot_colours::solid_area : plot_colours::liquid_area;
       const char *outer
           = solid_first ? plot_colours::liquid_area : plot_colours::solid_area;
-      if(record.shape == "ball")
+      const auto circle = [&out](double radius, const char *colour)
+      {
         fmt::format_to(out,
                        "set object circle at 0,0 size {:.8g} fs solid noborder fc rgb "
                        "'{}' behind\n",
-                       record.radius, outer);
+                       radius, colour);
+      };
+      if(round(record))
+        circle(record.radius, outer);
       else
         fmt::format_to(out,
                        "set object rectangle from graph 0,0 to graph 1,1 fs solid "
                        "noborder fc rgb '{}' behind\n",
                        outer);
-      if(!std::isfinite(front))
-        return;
-      if(radial_front(record))
-        fmt::format_to(out,
-                       "set object circle at 0,0 size {:.8g} fs solid noborder fc rgb "
-                       "'{}' behind\n",
-                       front, inner);
-      else
+      if(std::isfinite(front) && radial_front(record))
+        circle(front, inner);
+      else if(std::isfinite(front))
         fmt::format_to(out,
                        "set object rectangle from graph 0,0 to {:.8g},graph 1 fs solid "
                        "noborder fc rgb '{}' behind\n",
                        front, inner);
+      if(record.shape == "shell")
+        circle(record.inner_radius, plot_colours::page);
     }
 
     /** The sites of one phase as data; returns how many there are. */
@@ -284,9 +296,10 @@ namespace meltfront::verification
     }
 
     /** The markers' size, from the area that each site has. */
-    double point_size(const RunRecord &run, const Frame &frame, bool ball)
+    double point_size(const RunRecord &run, const Frame &frame, const CaseRecord &record)
     {
-      const double covered = ball ? std::numbers::pi / 4 : 1;
+      const double hole = record.inner_radius / record.radius;
+      const double covered = round(record) ? std::numbers::pi / 4 * (1 - hole * hole) : 1;
       const double area
           = covered * frame.width * frame.height / run.profile.picture_x.size();
       constexpr double radius_of_size_one = 4.5;
@@ -337,9 +350,10 @@ namespace meltfront::verification
     return run ? run->series.front.back() : std::nan("");
   }
 
-  std::string scene_picture_script(const CaseRecord &record, const RunRecord *run,
-                                   double front)
+  std::string scene_picture_script(const CaseRecord &record, const SceneContent &content)
   {
+    const RunRecord *run = content.run;
+    double front = content.front;
     if(record.symmetry == "none" && record.exact.empty())
       front = std::nan(""); // its shape is not known
     const Frame frame = frame_of(record, run);
@@ -351,7 +365,7 @@ namespace meltfront::verification
     std::vector<std::string> plots;
     if(has_sites(run))
     {
-      const double size = point_size(*run, frame, record.shape == "ball");
+      const double size = point_size(*run, frame, record);
       for(const bool solid : {true, false})
       {
         if(write_sites(out, *run, solid) == 0)
@@ -364,14 +378,18 @@ namespace meltfront::verification
     }
     else
       write_areas(out, record, run, front);
-    if(record.shape == "ball")
-    {
-      write_circle(out, "rim", record.radius, frame, 0, 2 * std::numbers::pi);
-      plots.push_back("$rim with lines lw 4 lc rgb 'black'");
-    }
+    if(round(record))
+      for(const auto &[name, radius] :
+          {std::pair("rim", record.radius), std::pair("hole", record.inner_radius)})
+        if(radius > 0)
+        {
+          write_circle(out, name, radius, frame, 0, 2 * std::numbers::pi);
+          plots.push_back(fmt::format("${} with lines lw 4 lc rgb 'black'", name));
+        }
     if(std::isfinite(front))
-      if(const std::string line = write_front(out, record, frame, front); !line.empty())
-        plots.push_back(line);
+      plots.push_back(write_front(out, record, frame, front));
+    for(const std::string &plot : write_tracked_fronts(script, content.tracked))
+      plots.push_back(plot);
     for(const cases::Position &source : record.source_positions)
       fmt::format_to(out,
                      "set label '' at {:.8g},{:.8g} point pt 3 ps 1.6 lw 2.4 lc rgb "

@@ -3,21 +3,27 @@
 
 #include <verification/report/case_runs.h>
 
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace meltfront::verification
 {
+  /** What is drawn inside the domain. */
+  struct SceneContent
+  {
+    /** The run whose sites are drawn; null or without sites: the phases as areas. */
+    const RunRecord *run = nullptr;
+    double front = std::numeric_limits<double>::quiet_NaN(); ///< at the end; NaN: none
+    std::vector<FrontFrame> tracked; ///< points on the front, the last ones in black
+  };
+
   /**
    * A script that draws the scene in equal axes: the domain with its walls and what is
    * prescribed on them, its sources, the front at the end, a scale, and the particles of
    * a run, solid ones filled and liquid ones open.
-   *
-   * @param run the run whose sites are drawn; null or without sites: the phases are drawn
-   * as areas.
-   * @param front the front at the end; NaN: none is drawn
    */
-  std::string scene_picture_script(const CaseRecord &record, const RunRecord *run,
-                                   double front);
+  std::string scene_picture_script(const CaseRecord &record, const SceneContent &content);
 
   /** The run whose sites suit a picture: the finest one with few enough of them; null if
    * no run has any. */

@@ -63,6 +63,7 @@ namespace meltfront::verification
       record.cost.unknowns = 160;
       record.cost.work = 1L << 60;
       record.cost.solver_iterations = 7;
+      record.cost.most_iterations = 4;
       record.cost.capped_steps = 1;
       record.cost.effects = {{cases::Effect::phase_change, 10, 1280, 0.25}};
       record.peak_memory_mb = 12.5;
@@ -73,6 +74,7 @@ namespace meltfront::verification
       record.series.front = {0, 0.2};
       record.series.front_isotherm = {nan, 0.21};
       record.series.front_exact = {0, 0.19};
+      record.series.solid_volume = {0, 0.2};
       record.series.budget_defect = {0, 1e-15};
       record.series.temperature_min = {-1, -1};
       record.series.temperature_max = {1, 2};
@@ -85,6 +87,7 @@ namespace meltfront::verification
       record.profile.picture_y = {0.07};
       record.profile.picture_solid_fraction = {1};
       record.profile.picture_temperature = {-0.5};
+      record.frames = {{0.05, {0.1, 0.2}, {0.3, nan}}, {0.1, {0.4}, {0.5}}};
       record.provenance = {{"case_text", "set title = x"}, {"date", "today"}};
       return record;
     }
@@ -99,6 +102,9 @@ namespace meltfront::verification
       EXPECT_EQ(read.seed, record.seed);
       EXPECT_EQ(read.message, record.message);
       EXPECT_EQ(read.cost.work, record.cost.work);
+      EXPECT_EQ(read.cost.most_iterations, 4);
+      EXPECT_EQ(read.frames.at(0).x.at(1), 0.2);
+      EXPECT_EQ(read.series.solid_volume, record.series.solid_volume);
       EXPECT_EQ(read.quantities.at("front_rms"), 1. / 3);
       EXPECT_TRUE(std::isnan(read.quantities.at("temperature_l2")));
       EXPECT_EQ(read.quantities.at("front_max"), infinity);
@@ -106,6 +112,18 @@ namespace meltfront::verification
       // All members: what is written again is the same text.
       EXPECT_EQ(nlohmann::json(read).dump(), nlohmann::json(record).dump());
       EXPECT_FALSE(std::filesystem::exists(directory.path("a/b/run.json.part")));
+    }
+
+    TEST(RunRecord, OfEarlierRunsLacksWhatWasNotKeptThen)
+    {
+      nlohmann::json json = full_record();
+      json.erase("frames");
+      json["series"].erase("solid_volume");
+      json["cost"].erase("most_iterations");
+      const auto read = json.get<RunRecord>();
+      EXPECT_TRUE(read.frames.empty());
+      EXPECT_TRUE(read.series.solid_volume.empty());
+      EXPECT_EQ(read.cost.most_iterations, 0);
     }
 
     TEST(RunRecord, HasTheColumnsOfTheConvergenceTableAtItsTopLevel)

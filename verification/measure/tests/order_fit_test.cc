@@ -155,5 +155,39 @@ namespace meltfront::verification
       const std::vector<double> sorted_errors{9e-3, 5e-3, 2e-3, 1.1e-3};
       EXPECT_EQ(fit_order(h, errors).order, fit_order(sorted_h, sorted_errors).order);
     }
+
+    TEST(OrderFit, LeavesOutLevelsAtRoundOffAndSaysSo)
+    {
+      std::vector<double> h, errors;
+      for(int level = 0; level < 8; ++level)
+      {
+        h.push_back(std::pow(2., -level));
+        errors.push_back(std::max(std::pow(h.back(), 8), 3e-14));
+      }
+      EXPECT_NE(fit_order(h, errors, 8.5).verdict, OrderVerdict::clean);
+      const OrderFit fit = fit_order(h, errors, 8.5, 1e-13);
+      EXPECT_NEAR(fit.order, 8, 1e-12);
+      EXPECT_EQ(fit.verdict, OrderVerdict::clean);
+      EXPECT_EQ(fit.levels, 6);
+      EXPECT_EQ(fit.left_out, 2);
+      EXPECT_EQ(fit.text("dt"), "dt^8.00 +- 0.00 (2 levels at round-off left out)");
+      const OrderFit few
+          = fit_order(std::span(h).last(5), std::span(errors).last(5), 8.5, 1e-13);
+      EXPECT_EQ(few.verdict, OrderVerdict::too_few_levels);
+      EXPECT_EQ(few.remarks(), "too few levels; 2 levels at round-off left out");
+    }
+
+    TEST(OrderFit, TakesAZeroForRoundOffOnlyOnTheFinestLevels)
+    {
+      const std::vector<double> h{1, 0.5, 0.25, 0.125, 0.0625};
+      const std::vector<double> fine{1e-2, 1e-3, 1e-4, 1e-5, 0};
+      const std::vector<double> middle{1e-2, 1e-3, 0, 1e-5, 1e-6};
+      const std::vector<double> nothing(5, 0.);
+      EXPECT_EQ(fit_order(h, fine, 4, 1e-13).left_out, 1);
+      EXPECT_EQ(fit_order(h, fine, 4, 1e-13).verdict, OrderVerdict::clean);
+      EXPECT_EQ(fit_order(h, fine, 4).verdict, OrderVerdict::zero_error);
+      EXPECT_EQ(fit_order(h, middle, 4, 1e-13).verdict, OrderVerdict::zero_error);
+      EXPECT_EQ(fit_order(h, nothing, 4, 1e-13).verdict, OrderVerdict::zero_error);
+    }
   } // namespace
 } // namespace meltfront::verification
