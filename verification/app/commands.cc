@@ -103,8 +103,11 @@ namespace meltfront::verification
       options.program_version = program_version;
       options.command_line = command_line;
       options.progress = stderr;
-      MatrixResult result = run_matrix(matrix, options, load_checked_case, method_named);
-      return conclude(result, directory);
+      int status = all_well;
+      options.conclude
+          = [&](MatrixResult &result) { status = conclude(result, directory); };
+      run_matrix(matrix, options, load_checked_case, method_named);
+      return status;
     }
 
     /** Read METHOD.KEY=VALUE settings into options of a method. */

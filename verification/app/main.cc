@@ -1,10 +1,12 @@
 #include <cases/error.h>
+#include <cases/options.h>
 #include <verification/app/commands.h>
 #include <verification/app/list.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 
@@ -143,6 +145,21 @@ namespace
             });
   }
 
+  /** What the user may have meant by a first word that is no command; empty otherwise. */
+  std::string nearest_command(const CLI::App &app, int argc, char **argv)
+  {
+    if(argc < 2 || argv[1][0] == '-')
+      return {};
+    std::vector<std::string> names;
+    for(const CLI::App *command : app.get_subcommands({}))
+      names.push_back(command->get_name());
+    const std::string word = argv[1];
+    if(std::find(names.begin(), names.end(), word) != names.end())
+      return {};
+    return fmt::format("there is no command '{}'; the nearest is '{}'", word,
+                       meltfront::cases::nearest_name(word, names));
+  }
+
   int say(const std::exception &error, int status)
   {
     std::fflush(stdout);
@@ -155,6 +172,9 @@ int main(int argc, char **argv)
 {
   set_command_line(argc, argv);
   CommandLine command_line;
+  if(const std::string problem = nearest_command(command_line.app, argc, argv);
+     !problem.empty())
+    return say(meltfront::cases::InputError(problem), bad_input);
   try
   {
     command_line.app.parse(argc, argv);

@@ -165,7 +165,14 @@ namespace meltfront::verification
   Matrix load_matrix(const std::string &name_or_path)
   {
     if(name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".prm"))
+    {
+      if(!std::filesystem::exists(name_or_path))
+        throw cases::InputError(fmt::format(
+            "there is no matrix file '{}'; a matrix of the library is named without a "
+            "path",
+            cases::quotable(name_or_path)));
       return read_matrix(name_or_path);
+    }
     const std::vector<std::string> names = matrix_names();
     if(std::ranges::find(names, name_or_path) == names.end())
       throw cases::InputError(fmt::format("there is no matrix '{}'; the nearest is '{}'",

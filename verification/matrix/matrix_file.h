@@ -33,7 +33,8 @@ namespace meltfront::verification
   std::vector<std::string> matrix_names();
 
   /** A matrix of the library by its name, or of a file by its path. @throws as
-   * read_matrix(); InputError for an unknown name, with the nearest one. */
+   * read_matrix(); InputError for an unknown name, with the nearest one, and for a file
+   * that there is not. */
   Matrix load_matrix(const std::string &name_or_path);
 
   /** All keys of a matrix file with default and meaning, as a commented file. */

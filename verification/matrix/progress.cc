@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meltfront::verification
@@ -25,13 +26,13 @@ namespace meltfront::verification
     return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
   }
 
-  Progress::Progress(std::FILE *out, std::size_t runs, double work,
-                     std::size_t finished_before)
+  Progress::Progress(std::FILE *out, std::vector<RunKind> runs,
+                     std::size_t finished_before, int jobs)
     : out(out)
     , terminal(out && isatty(fileno(out)))
-    , runs(runs)
-    , work(work)
-    , start(std::chrono::steady_clock::now())
+    , jobs(jobs)
+    , waiting(std::move(runs))
+    , last_ended(std::chrono::steady_clock::now())
   {
     if(!out)
       return;
@@ -49,22 +50,48 @@ namespace meltfront::verification
     std::fflush(out);
   }
 
-  std::string Progress::time_left() const
+  double Progress::seconds_left() const
   {
-    if(work_done <= 0 || ended == runs)
-      return "";
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    return fmt::format(", about {} left",
-                       time_left_text(spent.count() * (work - work_done) / work_done));
+    double sum = 0, longest = 0;
+    for(const RunKind &run : waiting)
+    {
+      const double seconds = estimate.seconds(run);
+      sum += seconds;
+      longest = std::fmax(longest, seconds);
+    }
+    return std::isnan(sum) ? sum : std::max(sum / std::max(jobs, 1), longest);
   }
 
-  void Progress::run_ended(const std::string &what, const std::string &how, bool well,
-                           double work_of_run)
+  std::string Progress::time_left() const
+  {
+    const double seconds = seconds_left();
+    if(waiting.empty() || std::isnan(seconds))
+      return "";
+    // Since the last run ended, those that go on have come nearer to their ends.
+    const std::chrono::duration<double> since
+        = std::chrono::steady_clock::now() - last_ended;
+    return fmt::format(", about {} left",
+                       time_left_text(std::max(seconds - since.count(), 0.)));
+  }
+
+  void Progress::run_ended(const RunKind &run, double seconds, const std::string &what,
+                           const std::string &how, bool well)
   {
     ++ended;
-    work_done += work_of_run;
+    estimate.add(run, seconds);
+    const auto done = std::ranges::find_if(waiting,
+                                           [&run](const RunKind &other)
+                                           {
+                                             return other.case_name == run.case_name
+                                                    && other.label == run.label
+                                                    && other.n == run.n;
+                                           });
+    if(done != waiting.end())
+      waiting.erase(done);
+    last_ended = std::chrono::steady_clock::now();
     if(!out)
       return;
+    const std::size_t runs = ended + waiting.size();
     if(!terminal)
       fmt::print(out, "[{}/{}] {}: {}{}\n", ended, runs, what, how, time_left());
     else if(!well)
@@ -79,7 +106,8 @@ namespace meltfront::verification
       return;
     last_shown = now;
     const std::string line
-        = fmt::format("[{}/{}{}] {}", ended, runs, time_left(), what).substr(0, widest);
+        = fmt::format("[{}/{}{}] {}", ended, ended + waiting.size(), time_left(), what)
+              .substr(0, widest);
     fmt::print(out, "{}{}", clear_line, line);
     std::fflush(out);
   }

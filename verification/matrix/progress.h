@@ -1,17 +1,20 @@
 #ifndef meltfront_verification_matrix_progress_h
 #define meltfront_verification_matrix_progress_h
 
+#include <verification/matrix/time_estimate.h>
+
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace meltfront::verification
 {
   /**
    * Tells how far a matrix is: one line that changes in place on a terminal, one line for
-   * each run that ends elsewhere. The time left is the time spent times the share of work
-   * left, with the runs' own estimates of their work.
+   * each run that ends elsewhere. The time left is guessed from the measured times of the
+   * runs that have ended (TimeEstimate).
    */
   class Progress
   {
@@ -19,10 +22,11 @@ namespace meltfront::verification
     /**
      * @param out null for none
      * @param runs that are to be made
-     * @param work of all of them, in any unit
      * @param finished_before runs of an earlier call that count as done
+     * @param jobs runs at once
      */
-    Progress(std::FILE *out, std::size_t runs, double work, std::size_t finished_before);
+    Progress(std::FILE *out, std::vector<RunKind> runs, std::size_t finished_before,
+             int jobs);
 
     /** Ends the line that changes in place. */
     ~Progress();
@@ -30,23 +34,27 @@ namespace meltfront::verification
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
 
-    /** A run has ended: `what` names it, `how` says how it went. */
-    void run_ended(const std::string &what, const std::string &how, bool well,
-                   double work);
+    /** A run has ended after so many seconds: `what` names it, `how` says how it went. */
+    void run_ended(const RunKind &run, double seconds, const std::string &what,
+                   const std::string &how, bool well);
 
     /** Show which runs go on; at most four times a second, on a terminal only. */
     void show_running(const std::string &what);
+
+    /** Seconds until all runs that have not ended would have, each begun anew; NaN as
+     * long as nothing is known. */
+    double seconds_left() const;
 
   private:
     std::string time_left() const;
 
     std::FILE *out;
     bool terminal;
-    std::size_t runs;
+    int jobs;
     std::size_t ended = 0;
-    double work;
-    double work_done = 0;
-    std::chrono::steady_clock::time_point start, last_shown;
+    std::vector<RunKind> waiting; ///< or running
+    TimeEstimate estimate;
+    std::chrono::steady_clock::time_point last_ended, last_shown;
   };
 
   /** `8 s`, `3 min 20 s`, `2 h 5 min`. */

@@ -31,7 +31,7 @@ namespace meltfront::verification
       const cases::Case *the_case;
       const cases::Method *method;
       std::string path; ///< of its record
-      double work;      ///< estimate, in any unit
+      double work;      ///< estimate, in any unit: the largest runs start first
     };
 
     struct RunningJob
@@ -91,6 +91,11 @@ namespace meltfront::verification
     {
       return fmt::format("{} {} n={}", job.run.case_name, job.run.label,
                          job.run.resolution.n);
+    }
+
+    RunKind kind_of(const Job &job)
+    {
+      return {job.run.case_name, job.run.label, job.run.method, job.run.resolution.n};
     }
 
     /** Starts runs, watches them and writes down how they end. */
@@ -185,11 +190,11 @@ namespace meltfront::verification
       {
         const auto record = read_json(job.path);
         const std::string status = record.at("status"), message = record.at("message");
-        progress.run_ended(name_of(job),
+        progress.run_ended(kind_of(job), seconds, name_of(job),
                            message.empty()
                                ? fmt::format("{} in {:.2f} s", status, seconds)
                                : fmt::format("{}: {}", status, message),
-                           status == to_string(RunStatus::finished), job.work);
+                           status == to_string(RunStatus::finished));
       }
 
       void show()
@@ -243,7 +248,7 @@ namespace meltfront::verification
     write_plan(options.directory, matrix, case_records, plan, options.program_version);
 
     std::deque<Job> jobs;
-    double work = 0;
+    std::vector<RunKind> kinds;
     for(const PlannedRun &run : plan)
     {
       const cases::Case &c = cases_by_name.at(run.case_name);
@@ -253,17 +258,20 @@ namespace meltfront::verification
         continue;
       // What stands in its place is of another program or case.
       std::filesystem::remove(job.path);
-      work += job.work;
+      kinds.push_back(kind_of(job));
       jobs.push_back(std::move(job));
     }
     std::ranges::stable_sort(jobs, std::ranges::greater(), &Job::work);
 
     {
-      Progress progress(options.progress, jobs.size(), work, plan.size() - jobs.size());
+      Progress progress(options.progress, kinds, plan.size() - kinds.size(),
+                        options.jobs);
       Workers(options, matrix.time_limit, progress).run(std::move(jobs));
     }
     MatrixResult result = load_matrix_result(options.directory);
     write_summary(options.directory, result);
+    if(options.conclude)
+      options.conclude(result);
     return result;
   }
 } // namespace meltfront::verification

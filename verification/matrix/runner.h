@@ -6,6 +6,7 @@
 #include <verification/matrix/run_one.h>
 
 #include <cstdio>
+#include <functional>
 #include <string>
 
 namespace meltfront::verification
@@ -20,6 +21,9 @@ namespace meltfront::verification
     std::string command_line;
     std::FILE *progress = nullptr; ///< null: say nothing
     RepeatPolicy repeats{};
+    /** What is to be done with the result while the directory is still held against other
+     * processes: the report, for one. */
+    std::function<void(MatrixResult &)> conclude{};
   };
 
   /**

@@ -76,7 +76,12 @@ TEST(App, ListNamesWhatThereIs)
 TEST(App, BadArgumentsExitWithTwoAndNameTheNearest)
 {
   EXPECT_EQ(meltfront("").status, 2);
-  EXPECT_EQ(meltfront("melt").status, 2);
+  const Outcome unknown_command = meltfront("verfy");
+  EXPECT_EQ(unknown_command.status, 2);
+  expect_text(unknown_command, "the nearest is 'verify'");
+  const Outcome no_file = meltfront("verify nowhere/matrix.prm");
+  EXPECT_EQ(no_file.status, 2);
+  expect_text(no_file, "there is no matrix file 'nowhere/matrix.prm'");
   const Outcome unknown_case = meltfront("run plane-freezin --method sph");
   EXPECT_EQ(unknown_case.status, 2);
   expect_text(unknown_case, "plane-freezing");

@@ -106,10 +106,11 @@ namespace meltfront::verification
       const tests::ScratchDirectory directory;
       std::FILE *out = std::fopen(directory.path("out").c_str(), "w");
       {
-        Progress progress(out, 2, 10, 3);
+        const RunKind a{"x", "a", "a", 20}, b{"x", "b", "b", 20};
+        Progress progress(out, {a, b}, 3, 1);
         progress.show_running("x a n=20");
-        progress.run_ended("x a n=20", "finished in 0.10 s", true, 9);
-        progress.run_ended("x b n=20", "failed: no reason", false, 1);
+        progress.run_ended(a, 0.1, "x a n=20", "finished in 0.10 s", true);
+        progress.run_ended(b, 0.1, "x b n=20", "failed: no reason", false);
       }
       std::fclose(out);
       const auto lines = tests::lines_of(directory.path("out"));

@@ -228,6 +228,35 @@ namespace meltfront::verification
       EXPECT_TRUE(run(matrix_of({"good"}, {20})).passed);
     }
 
+    TEST_F(RunnerTest, HoldsItsDirectoryUntilAllIsConcluded)
+    {
+      int concluded = 0;
+      options.conclude = [&](MatrixResult &result)
+      {
+        ++concluded;
+        EXPECT_TRUE(result.passed);
+        // A child has no lock of its parent's: it is as any other process.
+        const pid_t other = fork();
+        if(other == 0)
+        {
+          try
+          {
+            const DirectoryLock lock(options.directory);
+          }
+          catch(const cases::OutputError &)
+          {
+            _exit(7);
+          }
+          _exit(0);
+        }
+        int status = 0;
+        waitpid(other, &status, 0);
+        EXPECT_EQ(WEXITSTATUS(status), 7) << "held";
+      };
+      run(matrix_of({"good"}, {20}));
+      EXPECT_EQ(concluded, 1);
+    }
+
     TEST_F(RunnerTest, SaysWhichRunsAreMissingInAMatrixThatWasKilled)
     {
       run(matrix_of({"good"}, {20, 40}));
