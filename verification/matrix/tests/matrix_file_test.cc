@@ -102,7 +102,7 @@ namespace meltfront::verification
       }
       EXPECT_TRUE(load_matrix("stability").hard_cases);
       EXPECT_THROW(load_matrix("paper"), cases::InputError);
-      EXPECT_THROW(load_matrix("folder/nothing.prm"), cases::OutputError);
+      EXPECT_THROW(load_matrix("folder/nothing.prm"), cases::InputError);
       EXPECT_NE(matrix_file_reference().find("resolutions"), std::string::npos);
     }
   } // namespace
