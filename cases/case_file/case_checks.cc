@@ -17,7 +17,7 @@ namespace meltfront::cases
       return scene.start_time + (scene.end_time - scene.start_time) * i / times_sampled;
     }
 
-    /** Points at a distance from the origin of a ball, in all directions of the axes. */
+    /** Points at a distance from the origin, in all directions of the axes. */
     std::vector<Position> directions(const Domain &domain, double radius)
     {
       std::vector<Position> points;
@@ -55,21 +55,33 @@ namespace meltfront::cases
       return points;
     }
 
+    /** A radius at a share (0 to 1) of the way across a ball or a shell. */
+    double radius_at(const Domain &domain, double share)
+    {
+      return domain.inner_radius + share * (domain.radius - domain.inner_radius);
+    }
+
+    /** The radius of a round wall. */
+    double wall_radius(const Domain &domain, Side side)
+    {
+      return side == Side::inner ? domain.inner_radius : domain.radius;
+    }
+
     std::vector<Position> interior_points(const Domain &domain)
     {
-      if(domain.shape != DomainShape::ball)
+      if(!domain.round())
         return grid(domain, {0.03, 0.03, 0.03}, {0.97, 0.97, 0.97});
       std::vector<Position> points;
       for(const double share : {0.03, 0.25, 0.5, 0.75, 0.97})
-        for(const Position &p : directions(domain, share * domain.radius))
+        for(const Position &p : directions(domain, radius_at(domain, share)))
           points.push_back(p);
       return points;
     }
 
     std::vector<Position> wall_points(const Domain &domain, Side side)
     {
-      if(side == Side::outer)
-        return directions(domain, domain.radius);
+      if(domain.round())
+        return directions(domain, wall_radius(domain, side));
       std::array<double, 3> from{0, 0, 0}, to{1, 1, 1};
       const int d = static_cast<int>(side) / 2;
       from[d] = to[d] = static_cast<int>(side) % 2;
@@ -163,6 +175,26 @@ namespace meltfront::cases
                   initial_keys, "temperature");
       }
 
+      /** The level set that the file gives has the sign of the exact front's. */
+      void initial_front() const
+      {
+        if(!scene.initial.front)
+          return;
+        const double time = scene.start_time;
+        for(const Position &p : interior_points(scene.domain))
+        {
+          const double distance
+              = (exact.solid_at_origin() ? 1 : -1) * exact.signed_distance(p, time);
+          const double given = (*scene.initial.front)(p, time);
+          if(given * distance < 0)
+            throw prm.error(initial_keys, "front",
+                            fmt::format("contradicts the exact solution, which is {} at "
+                                        "{}, t = {:.6g}",
+                                        distance < 0 ? "solid" : "liquid",
+                                        point_text(scene.domain, p), time));
+        }
+      }
+
       void held_wall(Side side) const
       {
         const Boundary &boundary = scene.boundary(side);
@@ -211,9 +243,11 @@ namespace meltfront::cases
         const auto inward = [&](double distance)
         {
           Position q = p;
-          if(side == Side::outer)
+          if(scene.domain.round())
             for(double &x : q)
-              x *= 1 - distance / scene.domain.radius;
+              x *= 1
+                   - (side == Side::outer ? distance : -distance)
+                         / wall_radius(scene.domain, side);
           else
             q[static_cast<int>(side) / 2]
                 += static_cast<int>(side) % 2 == 0 ? distance : -distance;
@@ -279,6 +313,10 @@ namespace meltfront::cases
            "'exact'");
     demand(Effect::wall_flux, has_wall(BoundaryKind::flux),
            "no wall in subsection 'Scene/Walls' has the kind 'flux'");
+    demand(Effect::metastable_phase, scene.initial.front.has_value(),
+           fmt::format("{} is missing, which alone can leave a phase beyond the melting "
+                       "temperature",
+                       name_of_key(initial_keys, "front")));
     own_property(Effect::phase_conductivity, "conductivity");
     own_property(Effect::phase_heat_capacity, "specific heat capacity");
     own_property(Effect::liquid_motion, "density");
@@ -286,16 +324,20 @@ namespace meltfront::cases
 
   void check_fields(const PrmFile &prm, const Scene &scene)
   {
-    const bool round
-        = scene.domain.shape == DomainShape::ball && scene.symmetry != Symmetry::none;
+    const bool round = scene.domain.round() && scene.symmetry != Symmetry::none;
     const double start = scene.start_time;
-    for(const Position &p : interior_points(scene.domain))
-      check_finite(prm, scene, scene.initial.temperature, p, start, initial_keys,
-                   "temperature");
-    if(round)
-      for(const double share : {0.25, 0.5, 0.97})
-        check_symmetric(prm, scene, scene.initial.temperature,
-                        share * scene.domain.radius, start, initial_keys, "temperature");
+    const auto check_initial = [&](const Field &field, const std::string &key)
+    {
+      for(const Position &p : interior_points(scene.domain))
+        check_finite(prm, scene, field, p, start, initial_keys, key);
+      if(round)
+        for(const double share : {0.25, 0.5, 0.97})
+          check_symmetric(prm, scene, field, radius_at(scene.domain, share), start,
+                          initial_keys, key);
+    };
+    check_initial(scene.initial.temperature, "temperature");
+    if(scene.initial.front)
+      check_initial(*scene.initial.front, "front");
     for(const Side side : scene.sides())
     {
       const Boundary &boundary = scene.boundary(side);
@@ -308,8 +350,8 @@ namespace meltfront::cases
           check_finite(prm, scene, boundary.value, p, time, wall_keys(side),
                        value_key(boundary));
         if(round)
-          check_symmetric(prm, scene, boundary.value, scene.domain.radius, time,
-                          wall_keys(side), value_key(boundary));
+          check_symmetric(prm, scene, boundary.value, wall_radius(scene.domain, side),
+                          time, wall_keys(side), value_key(boundary));
       }
     }
   }
@@ -329,7 +371,10 @@ namespace meltfront::cases
       return;
     const ExactCheck check(prm, c);
     if(!c.scene.initial.exact)
+    {
       check.initial_state();
+      check.initial_front();
+    }
     for(const Side side : c.scene.sides())
       switch(c.scene.boundary(side).kind)
       {

@@ -58,7 +58,47 @@ namespace meltfront::cases
         throw prm.error(here, "temperature to", "must exceed 'temperature from'");
       measurement.front_floor = prm.get_number(here, "front floor");
       measurement.monotone_front = prm.get_boolean(here, "monotone front");
+      measurement.front_mode = static_cast<int>(prm.get_integer(here, "front mode"));
+      if(prm.given(here, "marks"))
+        measurement.marks = prm.get_numbers(here, "marks");
       return measurement;
+    }
+
+    /** What is measured must lie within the scene. */
+    void check_measurement(const PrmFile &prm, const Case &c)
+    {
+      const std::string here = "Measure";
+      double before = c.scene.start_time;
+      for(const double mark : c.measurement.marks)
+      {
+        if(!(mark > before && mark < c.scene.end_time))
+          throw prm.error(
+              here, "marks",
+              fmt::format("must ascend between the scene's start ({}) and its "
+                          "end ({}), which {} does not",
+                          c.scene.start_time, c.scene.end_time, mark));
+        before = mark;
+      }
+      if(c.measurement.front_mode > 0
+         && !(c.scene.domain.round() && c.scene.domain.dimension == 2
+              && c.scene.symmetry == Symmetry::none))
+        prm.forbid(here, "front mode",
+                   "only a disk or a shell in 2 dimensions without symmetry has modes");
+    }
+
+    std::optional<Reference> read_reference(const PrmFile &prm, const Case &c)
+    {
+      const std::string here = "Reference";
+      if(!prm.opened(here))
+        return {};
+      for(const char *key : {"method", "n"})
+      {
+        if(c.exact)
+          prm.forbid(here, key, "there is an exact solution");
+        prm.require(here, key, "a reference is a method at a resolution");
+      }
+      return Reference{at_key(prm, here, "method", parse_label),
+                       static_cast<int>(prm.get_integer(here, "n"))};
     }
 
     void read_lists(const PrmFile &prm, Case &c)
@@ -97,6 +137,8 @@ namespace meltfront::cases
       check_effects(prm, c.scene);
       check_fields(prm, c.scene);
       check_exact_solution(prm, c);
+      c.reference = read_reference(prm, c);
+      check_measurement(prm, c);
       return c;
     }
   } // namespace

@@ -79,15 +79,19 @@ namespace meltfront::cases
       const std::string domain = "Scene/Domain";
       prm.declare(
           domain,
-          word("shape", "", {"slab", "box", "ball"},
+          word("shape", "", {"slab", "box", "ball", "shell"},
                "slab: 0 <= x <= length; box: between two corners; ball: a disk or "
-               "a ball about the origin."));
+               "a ball about the origin; shell: that outside of an inner radius."));
       prm.declare(domain, integer("dimension", "1", 1, 3,
                                   "Dimensions of the shape: 1 for a slab, 2 or 3 else."));
       prm.declare(domain, number("length", "", "m", "Length of a slab.", above_zero));
       prm.declare(domain, numbers("lower corner", "m", "Corner of a box."));
       prm.declare(domain, numbers("upper corner", "m", "Opposite corner of a box."));
-      prm.declare(domain, number("radius", "", "m", "Radius of a ball.", above_zero));
+      prm.declare(domain,
+                  number("radius", "", "m", "Radius of a ball, outer radius of a shell.",
+                         above_zero));
+      prm.declare(domain, number("inner radius", "", "m", "Inner radius of a shell.",
+                                 above_zero));
     }
 
     void declare_material(PrmFile &prm)
@@ -118,6 +122,11 @@ namespace meltfront::cases
                                 "Given as a temperature, or taken from the exact "
                                 "solution at the start time."));
       prm.declare(initial, text("temperature", "Expression of x, y, z (K)."));
+      prm.declare(initial,
+                  text("front", "Level set of the front, expression of x, y, z: negative "
+                                "in solid, zero on the front. Where it is not given, "
+                                "what is colder than the melting temperature is "
+                                "solid."));
       prm.declare(initial,
                   number("solid fraction at melting", "0", "",
                          "Solid fraction of points at the melting temperature.", 0, 1));
@@ -206,9 +215,23 @@ namespace meltfront::cases
                             .unit = {},
                             .description = "Physics says that the front never turns "
                                            "back."});
+      prm.declare(measure,
+                  integer("front mode", "0", 0, 1000,
+                          "m: the amplitude of cos(m phi) in a circular front is "
+                          "measured; 0: none."));
+      PrmEntry marks = numbers("marks", "s",
+                               "Times, ascending, at which the volume that is solid is "
+                               "measured beside the end.");
+      marks.most_values = 4;
+      prm.declare(measure, marks);
+      prm.declare("Reference", text("method", "The run that others are held against "
+                                              "where there is no exact solution: METHOD "
+                                              "or METHOD[KEY=VALUE,KEY=VALUE]."));
+      prm.declare("Reference", integer("n", "", 1, 1e9, "Resolution of that run."));
       prm.declare_numbered("Acceptance",
                            text("criterion", "METHOD: QUANTITY at n=N <= BOUND, and so "
-                                             "on."),
+                                             "on; METHOD[KEY=VALUE,...] for a method "
+                                             "with options."),
                            40);
       prm.declare("Printed", text("source", "Paper that the values are printed in."));
       prm.declare_numbered("Printed",

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -179,13 +180,38 @@ namespace meltfront::cases
     }
   } // namespace
 
+  std::string parse_label(const std::string &text)
+  {
+    check_length(text);
+    const std::string label = trimmed(text);
+    const auto is_word = [](const std::string &word)
+    { return !word.empty() && word.find_first_of("[]=, \t") == std::string::npos; };
+    const std::size_t open = std::min(label.find('['), label.size());
+    bool valid = is_word(trimmed(label.substr(0, open)));
+    if(open < label.size())
+    {
+      valid = valid && label.back() == ']';
+      for(const std::string &option :
+          split_list(label.substr(open + 1, label.size() - open - 2), ','))
+      {
+        const std::size_t equals = std::min(option.find('='), option.size());
+        valid = valid && is_word(trimmed(option.substr(0, equals)))
+                && equals < option.size() && is_word(trimmed(option.substr(equals + 1)));
+      }
+    }
+    if(!valid)
+      throw InputError(fmt::format(
+          "'{}' is not a label: METHOD or METHOD[KEY=VALUE,KEY=VALUE]", quotable(label)));
+    return label;
+  }
+
   Criterion parse_criterion(const std::string &text)
   {
     check_length(text);
     Criterion criterion;
     criterion.text = text;
     Cursor cursor(text);
-    criterion.method = cursor.up_to(':', "'METHOD:'");
+    criterion.method = parse_label(cursor.up_to(':', "'METHOD:'"));
     if(cursor.take("order of"))
       criterion.statistic = Statistic::order;
     else if(cursor.take("worst"))

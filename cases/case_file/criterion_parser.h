@@ -17,11 +17,19 @@ namespace meltfront::cases
    *   METHOD: worst QUANTITY <= 1e-12               (or >=, in, within)
    *
    * the last two with `over n=20..50` after the quantity if only some rows count, and
-   * each with an optional tail `; known shortfall: SENTENCE`.
+   * each with an optional tail `; known shortfall: SENTENCE`. METHOD may be a label with
+   * options, `fem-fitted[degree=2,time=bdf3]`.
    *
    * @throws InputError with the reason alone (the caller knows file, line and key).
    */
   Criterion parse_criterion(const std::string &text);
+
+  /**
+   * A label without blanks around it: METHOD or METHOD[KEY=VALUE,KEY=VALUE].
+   *
+   * @throws InputError with the reason alone.
+   */
+  std::string parse_label(const std::string &text);
 
   /**
    * Read a printed value, `METHOD: QUANTITY at n=20 = 0.01063 (Table 1)`; what stands in

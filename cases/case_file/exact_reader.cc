@@ -124,10 +124,12 @@ namespace meltfront::cases
         throw prm.error(here, "kind", "cannot be periodic for the oracle");
       if(wall.kind == BoundaryKind::insulated)
         return {};
-      const Position position
-          = side == Side::outer
-                ? Position{scene.domain.radius, 0, 0}
-                : (side == Side::x_min ? scene.domain.lower : scene.domain.upper);
+      const Domain &domain = scene.domain;
+      const Position position = side == Side::outer ? Position{domain.radius, 0, 0}
+                                : side == Side::inner
+                                    ? Position{domain.inner_radius, 0, 0}
+                                : side == Side::x_min ? domain.lower
+                                                      : domain.upper;
       return {wall.kind, [value = wall.value, position](double time)
               { return value(position, time); }};
     }
@@ -160,7 +162,7 @@ namespace meltfront::cases
                         "cannot be 'initial state' where that is 'exact'");
       problem.start_time = scene.start_time;
       problem.initial_front = prm.get_number(exact_keys, "initial front");
-      if(problem.initial_front >= problem.outer)
+      if(problem.initial_front <= problem.inner || problem.initial_front >= problem.outer)
         throw prm.error(exact_keys, "initial front", "lies outside the domain");
       problem.initial_temperature = [field = scene.initial.temperature,
                                      time = scene.start_time](double coordinate) {
@@ -184,14 +186,17 @@ namespace meltfront::cases
       if(scene.symmetry == Symmetry::none)
         throw prm.error(exact_keys, "kind",
                         "cannot be 'oracle' for a scene without symmetry");
-      const bool ball = scene.domain.shape == DomainShape::ball;
+      const Domain &domain = scene.domain;
       OracleProblem problem;
       problem.symmetry = scene.symmetry;
       problem.material = scene.material;
-      problem.outer = scene.domain.side() / (ball ? 2 : 1);
-      if(!ball)
-        problem.inner_wall = oracle_wall(prm, scene, Side::x_min);
-      problem.outer_wall = oracle_wall(prm, scene, ball ? Side::outer : Side::x_max);
+      problem.inner = domain.inner_radius;
+      problem.outer = domain.round() ? domain.radius : domain.side();
+      if(domain.shape != DomainShape::ball)
+        problem.inner_wall
+            = oracle_wall(prm, scene, domain.round() ? Side::inner : Side::x_min);
+      problem.outer_wall
+          = oracle_wall(prm, scene, domain.round() ? Side::outer : Side::x_max);
       problem.end_time = scene.end_time;
       KnownSolution start;
       if(prm.get_text(exact_keys, "start") == "initial state")

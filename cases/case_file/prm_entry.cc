@@ -44,7 +44,7 @@ namespace meltfront::cases
       return std::make_unique<Selection>(
           fmt::format("{}", fmt::join(entry.choices, "|")));
     case PrmKind::numbers:
-      return std::make_unique<List>(Double(), 1, 3);
+      return std::make_unique<List>(Double(), 1, entry.most_values);
     default:
       return std::make_unique<Anything>();
     }
@@ -64,7 +64,8 @@ namespace meltfront::cases
     case PrmKind::word:
       return fmt::format("one of {}", fmt::join(entry.choices, ", "));
     case PrmKind::numbers:
-      return "one to three numbers separated by commas";
+      return fmt::format("one to {} numbers separated by commas",
+                         entry.most_values == 3 ? "three" : "four");
     default:
       return "a text";
     }

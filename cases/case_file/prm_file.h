@@ -23,7 +23,7 @@ namespace meltfront::cases
     integer,
     boolean, ///< true or false
     word,    ///< one of PrmEntry::choices
-    numbers, ///< one to three numbers, separated by commas
+    numbers, ///< one to most_values numbers, separated by commas
     text
   };
 
@@ -38,6 +38,7 @@ namespace meltfront::cases
     double lower = -std::numeric_limits<double>::infinity();
     double upper = std::numeric_limits<double>::infinity();
     std::vector<std::string> choices{};
+    unsigned int most_values = 3; ///< of PrmKind::numbers: 3 or 4
   };
 
   /** Lower bound of a number that must be greater than zero. */

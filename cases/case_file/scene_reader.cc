@@ -60,7 +60,8 @@ namespace meltfront::cases
       belongs("length", "slab");
       belongs("lower corner", "box");
       belongs("upper corner", "box");
-      belongs("radius", "ball");
+      belongs("radius", shape == "shell" ? "shell" : "ball");
+      belongs("inner radius", "shell");
     }
 
     Position read_position(const PrmFile &prm, const std::string &subsection,
@@ -74,6 +75,19 @@ namespace meltfront::cases
       Position position{};
       std::copy(values.begin(), values.end(), position.begin());
       return position;
+    }
+
+    void read_round_shape(const PrmFile &prm, const std::string &shape, Domain &domain)
+    {
+      domain.shape = shape == "ball" ? DomainShape::ball : DomainShape::shell;
+      domain.radius = prm.get_number(domain_keys, "radius");
+      if(domain.shape == DomainShape::ball)
+        return;
+      domain.inner_radius = prm.get_number(domain_keys, "inner radius");
+      if(!(domain.inner_radius < domain.radius))
+        throw prm.error(domain_keys, "inner radius",
+                        fmt::format("({}) must be less than 'radius' ({})",
+                                    domain.inner_radius, domain.radius));
     }
 
     Domain read_domain(const PrmFile &prm)
@@ -90,11 +104,8 @@ namespace meltfront::cases
                                         : fmt::format("must be 2 or 3 for a {}", shape));
       if(shape == "slab")
         domain.upper[0] = prm.get_number(domain_keys, "length");
-      else if(shape == "ball")
-      {
-        domain.shape = DomainShape::ball;
-        domain.radius = prm.get_number(domain_keys, "radius");
-      }
+      else if(shape == "ball" || shape == "shell")
+        read_round_shape(prm, shape, domain);
       else
       {
         domain.shape = DomainShape::box;
@@ -124,7 +135,7 @@ namespace meltfront::cases
         complain("planar");
       if(domain.shape == DomainShape::box && symmetry != Symmetry::none)
         complain("none");
-      if(domain.shape == DomainShape::ball && symmetry != Symmetry::none
+      if(domain.round() && symmetry != Symmetry::none
          && symmetry
                 != (domain.dimension == 2 ? Symmetry::cylindrical : Symmetry::spherical))
         complain(domain.dimension == 2 ? "cylindrical or none" : "spherical or none");
@@ -154,6 +165,8 @@ namespace meltfront::cases
     {
       if(domain.shape == DomainShape::ball)
         return {Side::outer};
+      if(domain.shape == DomainShape::shell)
+        return {Side::inner, Side::outer};
       std::vector<Side> sides;
       for(int s = 0; s < 2 * domain.dimension; ++s)
         sides.push_back(static_cast<Side>(s));
@@ -209,10 +222,9 @@ namespace meltfront::cases
       {
         if(scene.boundary(side).kind != BoundaryKind::periodic)
           continue;
-        if(side == Side::outer)
+        if(scene.domain.round())
           throw prm.error(wall_keys(side), "kind",
-                          "cannot be periodic: a ball has one "
-                          "wall only");
+                          "cannot be periodic: walls of a ball or a shell face no other");
         const auto opposite = static_cast<Side>(static_cast<int>(side) ^ 1);
         if(scene.boundary(opposite).kind != BoundaryKind::periodic)
           throw prm.error(
@@ -227,19 +239,25 @@ namespace meltfront::cases
           = prm.get_number(initial_keys, "solid fraction at melting");
       if(prm.get_text(initial_keys, "kind") == "exact")
       {
-        prm.forbid(initial_keys, "temperature",
-                   "the initial state is the exact solution's");
+        for(const char *key : {"temperature", "front"})
+          prm.forbid(initial_keys, key, "the initial state is the exact solution's");
         return;
       }
       prm.require(initial_keys, "temperature", "the scene needs an initial temperature");
       scene.initial.temperature
           = read_field(prm, initial_keys, "temperature", coordinates(scene.domain));
+      if(prm.given(initial_keys, "front"))
+        scene.initial.front
+            = read_field(prm, initial_keys, "front", coordinates(scene.domain));
     }
 
     bool inside(const Domain &domain, const Position &p)
     {
-      if(domain.shape == DomainShape::ball)
-        return coordinate(Symmetry::spherical, p) <= domain.radius;
+      if(domain.round())
+      {
+        const double distance = coordinate(Symmetry::spherical, p);
+        return distance >= domain.inner_radius && distance <= domain.radius;
+      }
       for(int d = 0; d < domain.dimension; ++d)
         if(p[d] < domain.lower[d] || p[d] > domain.upper[d])
           return false;
@@ -251,7 +269,7 @@ namespace meltfront::cases
     {
       if(scene.domain.shape == DomainShape::slab)
         throw prm.subsection_error(here, "has no meaning in a slab; a line or point "
-                                         "source needs a box or a ball");
+                                         "source needs a box, a ball or a shell");
       prm.require(here, "position", "a source needs one");
       prm.require(here, "power", "a source needs one");
       PointSource source;
@@ -284,6 +302,14 @@ namespace meltfront::cases
         if(const std::string here = fmt::format("Scene/Source {}", i); prm.opened(here))
           subsections.push_back(here);
       return subsections;
+    }
+
+    /** The front of an exact solution as a level set, negative in solid. */
+    Field exact_level_set(const std::shared_ptr<const ExactSolution> &exact)
+    {
+      const double sign = exact->solid_at_origin() ? 1 : -1;
+      return {"exact", [exact, sign](const Position &p, double time)
+              { return sign * exact->signed_distance(p, time); }};
     }
 
     void read_times(const PrmFile &prm, Scene &scene)
@@ -347,6 +373,7 @@ namespace meltfront::cases
       require_solution(initial_keys, "kind");
       scene.initial.exact = known.solution;
       scene.initial.temperature = temperature();
+      scene.initial.front = exact_level_set(known.solution);
     }
     const std::vector<std::string> subsections = opened_sources(prm);
     for(std::size_t i = 0; i < subsections.size(); ++i)

@@ -148,7 +148,7 @@ TEST(BadCase, Sources)
                        "  subsection Source 2\n    set power = 1\n  end\n"
                        "  subsection Walls\n"),
             "a.prm:24: subsection 'Scene/Source 2' has no meaning in a slab; a line or "
-            "point source needs a box or a ball");
+            "point source needs a box, a ball or a shell");
 }
 
 TEST(BadCase, EffectsThatAreOnWithoutAnythingToActOn)

@@ -66,7 +66,14 @@ TEST(Library, HoldsTheCasesThatOthersRelyOn)
                           "hard-thin-liquid",
                           "hard-reversal",
                           "hard-jitter",
-                          "hard-line-sink-walls"})
+                          "hard-line-sink-walls",
+                          "frank-disk",
+                          "frank-sphere",
+                          "plane-density-jump",
+                          "annulus",
+                          "annulus-perturbed",
+                          "merging-disks",
+                          "bar-flux"})
     EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
 }
 
@@ -99,7 +106,10 @@ TEST(Library, ExactFrontsEndWhereTheyAreKnownTo)
       {"line-sink", 0.2121320343559643},
       {"line-sink-disk", 0.2121320343559643},
       {"line-sink-strong", 0.2309401076758503},
-      {"point-sink-3d", 0.2121320343559643}};
+      {"point-sink-3d", 0.2121320343559643},
+      {"frank-disk", 0.5},
+      {"frank-sphere", 0.5},
+      {"plane-density-jump", 0.0985042522429317}};
   for(const auto &[name, front] : fronts)
     EXPECT_NEAR(front_at_end(name), front, 1e-12 * front) << name;
   EXPECT_NEAR(front_at_end("plane-freezing-2005"), 0.2383275, 1e-7);
@@ -132,21 +142,25 @@ TEST(Library, ExactSolutionsSatisfyTheirHeldWallsAndInitialStates)
         = bounds.upper
           - (std::isfinite(bounds.lower) ? bounds.lower
                                          : scene.material.melting_temperature);
-    const double side = scene.domain.shape == DomainShape::ball ? scene.domain.radius
-                                                                : scene.domain.side();
+    const double inner = scene.domain.inner_radius;
+    const double side = scene.domain.round() ? scene.domain.radius : scene.domain.side();
     for(const double share : {0.11, 0.37, 0.73, 0.99})
-      EXPECT_NEAR(c.exact->temperature(share * side, scene.start_time),
-                  scene.initial.temperature({share * side, 0, 0}, scene.start_time),
-                  1e-9 * span)
+    {
+      const double x = inner + share * (side - inner);
+      EXPECT_NEAR(c.exact->temperature(x, scene.start_time),
+                  scene.initial.temperature({x, 0, 0}, scene.start_time), 1e-9 * span)
           << name;
+    }
     for(const Side wall : scene.sides())
       for(const double share : {0.1, 0.4, 0.7, 1.})
       {
         const double time
             = scene.start_time + share * (scene.end_time - scene.start_time);
-        const Position p{wall == Side::x_min ? 0 : side, 0, 0};
+        const bool lower = wall == Side::x_min || wall == Side::inner;
+        const Position p{lower ? inner : side, 0, 0};
         const Boundary &boundary = scene.boundary(wall);
-        ASSERT_EQ(boundary.kind, BoundaryKind::fixed_temperature) << name;
+        if(boundary.kind != BoundaryKind::fixed_temperature)
+          continue;
         EXPECT_NEAR(boundary.value(p, time), c.exact->temperature(p, time), 1e-9 * span)
             << name << " " << to_string(wall) << " " << time;
       }
@@ -174,6 +188,17 @@ TEST(Library, ScenesCallForTheEffectsThatTheyShow)
   EXPECT_EQ(effects_of("hard-line-sink-walls"), sink);
   EXPECT_EQ(effects_of("line-sink-disk"), sink_and_rim);
   EXPECT_EQ(effects_of("point-sink-3d"), sink_and_rim);
+  const std::set<Effect> undercooled{phase_change, wall_temperature, metastable_phase};
+  EXPECT_EQ(effects_of("frank-disk"), undercooled);
+  EXPECT_EQ(effects_of("frank-sphere"), undercooled);
+  std::set<Effect> displaced = contrast;
+  displaced.insert(liquid_motion);
+  EXPECT_EQ(effects_of("plane-density-jump"), displaced);
+  EXPECT_EQ(effects_of("annulus"), contrast);
+  EXPECT_EQ(effects_of("annulus-perturbed"), contrast);
+  EXPECT_EQ(effects_of("merging-disks"), (std::set{phase_change, heat_sources}));
+  EXPECT_EQ(effects_of("bar-flux"),
+            (std::set{phase_change, phase_conductivity, phase_heat_capacity, wall_flux}));
 }
 
 TEST(Library, TheFrontTurnsBackWhereItIsSaidTo)
