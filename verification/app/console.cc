@@ -33,18 +33,25 @@ namespace meltfront::verification
       const char *words;
     };
 
-    FirstColumn first_column(const CaseRecord &record)
+    FirstColumn first_column(const CaseRecord &record,
+                             const std::vector<const RunRecord *> &finished)
     {
       if(record.exact.empty() && record.reference)
         return {"solid_volume_end_error", "solid, end"};
-      return {"front_rms", "front rms"};
+      // Few steps have no root mean square.
+      const bool all = std::none_of(finished.begin(), finished.end(),
+                                    [](const RunRecord *run) {
+                                      return std::isnan(table_value(*run, "front_rms"));
+                                    });
+      return all ? FirstColumn{"front_rms", "front rms"}
+                 : FirstColumn{"front_end", "front end"};
     }
 
     std::string measured_text(const CaseRecord &record,
                               const std::vector<const RunRecord *> &finished,
                               const RunRecord &finest)
     {
-      const FirstColumn column = first_column(record);
+      const FirstColumn column = first_column(record, finished);
       if(is_reference(record, finest))
         return "the reference";
       const double error = table_value(finest, column.name);

@@ -190,7 +190,9 @@ namespace meltfront::verification
       {
         const auto record = read_json(job.path);
         const std::string status = record.at("status"), message = record.at("message");
-        progress.run_ended(kind_of(job), seconds, name_of(job),
+        // Repeats are made of short runs only, and say nothing of longer ones.
+        const int repeats = std::max(1, record.at("repeats").get<int>());
+        progress.run_ended(kind_of(job), seconds / repeats, name_of(job),
                            message.empty()
                                ? fmt::format("{} in {:.2f} s", status, seconds)
                                : fmt::format("{}: {}", status, message),

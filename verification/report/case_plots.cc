@@ -81,12 +81,13 @@ namespace meltfront::verification
       }
     }
 
-    std::string plotted_error_label(const CaseRuns &runs)
+    std::string error_label(const CaseRecord &record, const std::string &error)
     {
-      return main_error(*runs.record) == "front_rms"
-                 ? with_unit("front error, RMS", unit_of(*runs.record, "m"))
-                 : with_unit("solid's error, end",
-                             unit_of(*runs.record, volume_unit(*runs.record)));
+      const std::string unit = error.starts_with("front") ? "m" : volume_unit(record);
+      const char *words = error == "front_rms"   ? "front error, RMS"
+                          : error == "front_end" ? "front error, end"
+                                                 : "solid's error, end";
+      return with_unit(words, unit_of(record, unit));
     }
 
     /** The abscissa of a level; of a run without a description, the h that it would have
@@ -102,9 +103,9 @@ namespace meltfront::verification
 
     /** The errors of one label, and marks for what did not finish. */
     void add_errors(Plot &plot, const CaseRuns &runs, const LabelRuns &label,
-                    const LineStyle &style, const std::string &abscissa, double scale)
+                    const LineStyle &style, const std::string &abscissa,
+                    const std::string &error, double scale)
     {
-      const std::string error = main_error(*runs.record);
       Curve curve;
       curve.label = label.label;
       curve.style = style;
@@ -137,12 +138,15 @@ namespace meltfront::verification
                     const std::string &abscissa, double scale)
     {
       const bool resolution = abscissa == "h" || abscissa == "dt";
+      const bool few_steps = abscissa == "dt" && runs.has("front_end");
+      const std::string error = few_steps ? "front_end" : main_error(*runs.record);
       Plot plot;
       plot.x.logarithmic = plot.y.logarithmic = true;
-      plot.y.label = plotted_error_label(runs);
+      plot.y.label = error_label(*runs.record, error);
       for(const LabelRuns &label : runs.labels)
         if(!resolution || label.refinement.symbol() == abscissa)
-          add_errors(plot, runs, label, styles.style(label.label), abscissa, scale);
+          add_errors(plot, runs, label, styles.style(label.label), abscissa, error,
+                     scale);
       return plot;
     }
 

@@ -11,8 +11,8 @@ namespace meltfront::verification
    * is that of the solid's volume at the end from the reference. */
   Plot error_against_spacing(const CaseRuns &runs, const MethodStyles &styles);
 
-  /** The same against the time step, of the labels that refine that, with slopes 2 and
-   * 4. */
+  /** The same against the time step, of the labels that refine that, with slopes 2 and 4;
+   * of the front at the end, which few steps have too. */
   Plot error_against_time_step(const CaseRuns &runs, const MethodStyles &styles);
 
   /** Front error (RMS) against CPU seconds: the work-precision diagram. */
