@@ -1,6 +1,7 @@
 #include <verification/report/case_plots.h>
 
 #include <verification/report/convergence_table.h>
+#include <verification/report/curve_labels.h>
 
 #include <fmt/format.h>
 
@@ -58,6 +59,7 @@ namespace meltfront::verification
             curve.y.push_back(value(run->series, i));
           }
         }
+      shorten_labels(plot);
     }
 
     /** The exact front of the run that sampled it most often. */
@@ -147,6 +149,7 @@ namespace meltfront::verification
         if(!resolution || label.refinement.symbol() == abscissa)
           add_errors(plot, runs, label, styles.style(label.label), abscissa, error,
                      scale);
+      shorten_labels(plot);
       return plot;
     }
 

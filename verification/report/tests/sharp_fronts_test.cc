@@ -3,6 +3,7 @@
 #include <verification/report/chapters.h>
 #include <verification/report/convergence_table.h>
 #include <verification/report/cost_at_error.h>
+#include <verification/report/curve_labels.h>
 #include <verification/report/gnuplot.h>
 #include <verification/report/report.h>
 #include <verification/report/scene_picture.h>
@@ -152,6 +153,7 @@ namespace meltfront::verification
       EXPECT_EQ(time.curves.size(), 2u);
       EXPECT_EQ(space.curves.size(), plane->labels.size() - 2);
       EXPECT_EQ(time.curves[0].exponent, "dt^2.00");
+      EXPECT_EQ(time.curves[0].label, "bdf2");
       EXPECT_EQ(time.curves[0].x.front(), 0.05);
     }
 
@@ -232,6 +234,21 @@ namespace meltfront::verification
         ++points;
       EXPECT_EQ(points, 81) << "two frames of 40, and the marker's definition";
       EXPECT_EQ(tracked_run(*runs_of(all, "plane")), nullptr);
+    }
+
+    TEST(CurveLabels, KeepWhatTellsCurvesApart)
+    {
+      Plot plot;
+      for(const char *label :
+          {"sph", "sph[jitter=0.2]", "fem[degree=1,refine=space]",
+           "fem[degree=2,refine=space]", "fem[degree=2,refine=time,scheme=bdf2]"})
+        plot.curves.emplace_back().label = label;
+      shorten_labels(plot);
+      EXPECT_EQ(plot.curves[0].label, "sph");
+      EXPECT_EQ(plot.curves[1].label, "sph[jitter=0.2]") << "the only form of its method";
+      EXPECT_EQ(plot.curves[2].label, "degree=1, space");
+      EXPECT_EQ(plot.curves[3].label, "degree=2, space");
+      EXPECT_EQ(plot.curves[4].label, "degree=2, time, bdf2");
     }
   } // namespace
 } // namespace meltfront::verification
