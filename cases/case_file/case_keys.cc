@@ -178,10 +178,13 @@ namespace meltfront::cases
                                 "where not given."));
       prm.declare(exact, number("lambda", "", "", "Front constant of a sink's solution.",
                                 above_zero));
-      prm.declare(exact, word("start", "neumann",
-                              {"neumann", "line sink", "point sink", "initial state"},
-                              "What the oracle starts from: a similarity solution, or "
-                              "the scene's initial temperature with a front."));
+      prm.declare(
+          exact,
+          word("start", "neumann",
+               {"neumann", "line sink", "point sink", "initial state", "wall flux"},
+               "What the oracle starts from: a similarity solution, or "
+               "the scene's initial temperature with a front, or liquid that "
+               "a flux out of x_min cools until it freezes."));
       prm.declare(exact, number("start time", "", "s",
                                 "Time until which the oracle is the similarity solution.",
                                 above_zero));

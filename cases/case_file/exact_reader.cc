@@ -1,4 +1,5 @@
 #include <cases/case_file/exact_reader.h>
+#include <cases/exact/flux_freezing.h>
 #include <cases/exact/frank.h>
 #include <cases/exact/line_sink.h>
 #include <cases/exact/oracle.h>
@@ -181,6 +182,29 @@ namespace meltfront::cases
       }
     }
 
+    /** The oracle starts soon after a flux has brought the wall to the melting point. */
+    void start_from_wall_flux(const PrmFile &prm, const Scene &scene,
+                              OracleProblem &problem)
+    {
+      for(const char *key : {"start time", "initial front"})
+        prm.forbid(exact_keys, key, "the wall's flux decides when ice appears");
+      const Boundary &wall = scene.boundary(Side::x_min);
+      if(wall.kind != BoundaryKind::flux || !wall.value.constant
+         || scene.boundary(Side::x_max).kind != BoundaryKind::insulated)
+        throw prm.error(exact_keys, "start",
+                        "cannot be 'wall flux' but where x_min has the kind 'flux', "
+                        "constant in time, and x_max is insulated");
+      if(!scene.initial.temperature.value)
+        throw prm.error(exact_keys, "start",
+                        "cannot be 'wall flux' where the initial state is 'exact'");
+      const double flux = -wall.value({}, scene.start_time);
+      const double far = scene.initial.temperature(scene.domain.upper, scene.start_time);
+      const auto start = construct<FluxFreezing>(prm, scene.material, scene.domain.side(),
+                                                 flux, far, scene.start_time);
+      problem.start = start;
+      problem.start_time = start->end_time();
+    }
+
     KnownSolution oracle(const PrmFile &prm, const Scene &scene)
     {
       if(scene.symmetry == Symmetry::none)
@@ -199,8 +223,13 @@ namespace meltfront::cases
           = oracle_wall(prm, scene, domain.round() ? Side::outer : Side::x_max);
       problem.end_time = scene.end_time;
       KnownSolution start;
-      if(prm.get_text(exact_keys, "start") == "initial state")
+      const std::string word = prm.get_text(exact_keys, "start");
+      if(scene.domain.shape != DomainShape::slab && word == "wall flux")
+        throw prm.error(exact_keys, "start", "cannot be 'wall flux' but in a slab");
+      if(word == "initial state")
         start_from_initial_state(prm, scene, problem);
+      else if(word == "wall flux")
+        start_from_wall_flux(prm, scene, problem);
       else
       {
         prm.require(exact_keys, "start time",

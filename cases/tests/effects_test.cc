@@ -31,6 +31,7 @@ namespace
     scene.boundaries[0] = Boundary{BoundaryKind::fixed_temperature, Field::uniform(-1)};
     scene.boundaries[1] = Boundary{BoundaryKind::flux, Field::uniform(7)};
     scene.sources.resize(2);
+    scene.initial.front = Field::uniform(-1); // solid, though too warm
     return scene;
   }
 
@@ -159,4 +160,26 @@ TEST(SimulatedScene, OneEffectOffLeavesTheOthers)
   EXPECT_EQ(simulated.boundary(Side::x_min).kind, BoundaryKind::insulated);
   EXPECT_EQ(simulated.boundary(Side::x_max).kind, BoundaryKind::flux);
   EXPECT_EQ(simulated.material.latent_heat, 3);
+}
+
+TEST(Effects, APhaseBeyondTheMeltingTemperatureIsMetastable)
+{
+  Scene scene = bare_scene();
+  scene.material.melting_temperature = 1;
+  const auto at = [&scene](double left, double right)
+  {
+    scene.initial.temperature
+        = {"", [=](const Position &p, double) { return p[0] < 0.5 ? left : right; }};
+    return decision(effects_called_for(scene), Effect::metastable_phase);
+  };
+  EXPECT_FALSE(at(2, 0).on) << "without a front of its own";
+  scene.initial.front
+      = Field{"x - 0.5", [](const Position &p, double) { return p[0] - 0.5; }};
+  EXPECT_FALSE(at(0, 2).on);
+  EXPECT_FALSE(at(1, 2).on) << "solid at the melting temperature";
+  EXPECT_FALSE(at(1 + 1e-12, 2).on) << "the same to round-off";
+  EXPECT_FALSE(at(0, 1).on);
+  EXPECT_EQ(at(1, 0.5).reason, "liquid is undercooled at the start");
+  EXPECT_EQ(at(1.5, 2).reason, "solid is superheated at the start");
+  EXPECT_TRUE(at(1, 0.5).on);
 }
