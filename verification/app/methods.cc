@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <particles/sph/sph.h>
 #include <reference_fem/enthalpy/enthalpy.h>
+#include <reference_fem/fitted/fitted.h>
 #include <verification/app/methods.h>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ namespace meltfront::verification
       list.push_back(particles::make_sph());
       list.push_back(particles::make_sph_2005());
       list.push_back(reference_fem::make_fem_enthalpy());
+      list.push_back(reference_fem::make_fem_fitted());
       return list;
     }();
     return registry;

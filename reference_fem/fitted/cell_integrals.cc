@@ -1,0 +1,237 @@
+#include <reference_fem/fitted/cell_integrals.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+namespace meltfront::reference_fem::fitted
+{
+  using Eigen::ArrayXd;
+  using Eigen::MatrixXd;
+
+  LineRule LineRule::gauss(int n)
+  {
+    const dealii::QGauss<1> rule(n);
+    LineRule result;
+    for(int q = 0; q < n; ++q)
+    {
+      result.points.push_back(rule.point(q)[0]);
+      result.weights.push_back(rule.weight(q));
+    }
+    return result;
+  }
+
+  LineRule LineRule::towards_centre(int n)
+  {
+    LineRule result = gauss(n);
+    for(int q = 0; q < n; ++q)
+    {
+      const double v = result.points[q];
+      result.points[q] = v * v * v;
+      result.weights[q] *= 3 * v * v;
+    }
+    return result;
+  }
+
+  namespace
+  {
+    /** (a x b)(point of a x point of b, function of a x function of b). */
+    MatrixXd tensor(const MatrixXd &a, const MatrixXd &b)
+    {
+      MatrixXd result(a.rows() * b.rows(), a.cols() * b.cols());
+      for(Eigen::Index i = 0; i < a.rows(); ++i)
+        for(Eigen::Index j = 0; j < a.cols(); ++j)
+          result.block(i * b.rows(), j * b.cols(), b.rows(), b.cols()) = a(i, j) * b;
+      return result;
+    }
+  } // namespace
+
+  CellTables::CellTables(const FrontSurface &surface, const SurfaceRule &rule,
+                         const LineRule &line)
+    : line(line)
+  {
+    const LineBasis basis(surface.degree, line.points);
+    const MatrixXd ones = MatrixXd::Ones(line.points.size(), 1);
+    const MatrixXd weights
+        = Eigen::Map<const Eigen::VectorXd>(line.weights.data(), line.weights.size());
+    value = tensor(rule.value, basis.value);
+    across = tensor(rule.value, basis.derivative);
+    rays = tensor(rule.value, ones);
+    for(const SurfaceRule::Cell &cell : rule.cells)
+    {
+      Along entry;
+      entry.weight = tensor(cell.weight.matrix(), weights).array();
+      for(int j = 0; j < surface.tangents; ++j)
+      {
+        entry.derivative[j] = tensor(cell.gradient[j], basis.value);
+        entry.rays[j] = tensor(cell.gradient[j], ones);
+      }
+      cells.push_back(entry);
+    }
+  }
+
+  CellIntegrals::CellIntegrals(const CellTables &tables, unsigned int surface_cell,
+                               const Layer &layer, const FrontSurface &surface,
+                               const CellPhysics &physics, const CellState &state)
+    : tables(tables)
+    , along(tables.cells[surface_cell])
+    , physics(physics)
+    , tangents(surface.tangents)
+    , exponent(surface.exponent)
+    , round(surface.round)
+    , c_slope(layer.carried[1] - layer.carried[0])
+  {
+    const Eigen::Map<const ArrayXd> zeta(tables.line.points.data(),
+                                         tables.line.points.size());
+    const Eigen::Index repeats = tables.value.rows() / zeta.size();
+    c = (layer.carried[0] + c_slope * zeta).replicate(repeats, 1);
+    front = tables.rays * state.front;
+    front_rate = tables.rays * state.front_rate;
+    const double a_slope = layer.fixed[1] - layer.fixed[0];
+    r = (layer.fixed[0] + a_slope * zeta).replicate(repeats, 1) + c * front;
+    r_slope = a_slope + c_slope * front;
+    area = along.weight;
+    for(int m = 0; m < exponent; ++m)
+      area *= r;
+    weight = area * r_slope;
+    per_r = exponent > 0 ? ArrayXd(1 / r) : ArrayXd(ArrayXd::Zero(r.size()));
+
+    theta_slope = (tables.across * state.temperature).array();
+    source_slope = ArrayXd::Zero(r.size());
+    excess = (tables.value * state.temperature).array();
+    if(physics.source.strength != 0)
+      for(Eigen::Index q = 0; q < r.size(); ++q)
+      {
+        excess[q] += physics.source.value(r[q]);
+        source_slope[q] = physics.source.slope(r[q]);
+      }
+    heat = physics.phase.latent + physics.phase.capacity * excess;
+    liquid_speed = physics.displacement * front_rate;
+    if(physics.displacement != 0)
+      for(int m = 0; m < exponent; ++m)
+        liquid_speed *= front / r;
+    speed = c * front_rate - liquid_speed;
+
+    conduction = weight;
+    if(round)
+      conduction /= r * r;
+    for(int j = 0; j < tangents; ++j)
+    {
+      slope[j] = c * (along.rays[j] * state.front).array() / r_slope;
+      level_derivative[j]
+          = (along.derivative[j] * state.temperature).array() - theta_slope * slope[j];
+    }
+  }
+
+  CellVectors CellIntegrals::vectors() const
+  {
+    const double k = physics.time_rate * physics.phase.conductivity;
+    Array flux = area * (theta_slope / r_slope + source_slope);
+    for(int j = 0; j < tangents; ++j)
+      flux -= conduction * level_derivative[j] * slope[j];
+    CellVectors result;
+    result.mass = tables.value.transpose() * (weight * heat).matrix();
+    result.flow = tables.across.transpose() * (-k * flux - area * heat * speed).matrix();
+    for(int j = 0; j < tangents; ++j)
+      result.flow += along.derivative[j].transpose()
+                     * (-k * conduction * level_derivative[j]).matrix();
+    return result;
+  }
+
+  CellMatrices CellIntegrals::matrices() const
+  {
+    const double capacity = physics.phase.capacity;
+    CellMatrices result;
+    result.mass_temperature
+        = tables.value.transpose()
+          * ((weight * capacity).matrix().asDiagonal() * tables.value);
+    const Array mass_by_front = weight * heat * (exponent * c * per_r + c_slope / r_slope)
+                                + weight * capacity * source_slope * c;
+    result.mass_front
+        = tables.value.transpose() * (mass_by_front.matrix().asDiagonal() * tables.rays);
+    differentiate_flow(result);
+    return result;
+  }
+
+  void CellIntegrals::differentiate_flow(CellMatrices &result) const
+  {
+    const double capacity = physics.phase.capacity;
+    const double k = physics.time_rate * physics.phase.conductivity;
+
+    // The factors of phi', with respect to theta and to the value of h at the point.
+    MatrixXd by_theta = (-k * area / r_slope).matrix().asDiagonal() * tables.across
+                        + (-area * capacity * speed).matrix().asDiagonal() * tables.value;
+    Array source_curvature = Array::Zero(r.size());
+    if(physics.source.strength != 0)
+      for(Eigen::Index q = 0; q < r.size(); ++q)
+        source_curvature[q] = physics.source.curvature(r[q]);
+    const Array area_by_front = area * exponent * c * per_r;
+    Array liquid_by_front = Array::Zero(r.size());
+    if(physics.displacement != 0 && exponent > 0)
+      liquid_by_front = liquid_speed * exponent * (1 / front - c * per_r);
+    Array flux_by_front
+        = area_by_front * (theta_slope / r_slope + source_slope)
+          + area * (source_curvature * c - theta_slope * c_slope / (r_slope * r_slope));
+    const Array conduction_by_front
+        = conduction * ((exponent - (round ? 2 : 0)) * c * per_r + c_slope / r_slope);
+    for(int j = 0; j < tangents; ++j)
+      flux_by_front -= conduction_by_front * level_derivative[j] * slope[j]
+                       - conduction * (level_derivative[j] - theta_slope * slope[j])
+                             * slope[j] * c_slope / r_slope;
+    const Array across_by_front
+        = -k * flux_by_front
+          - (area_by_front * heat + area * capacity * source_slope * c) * speed
+          + area * heat * liquid_by_front;
+    MatrixXd by_front = across_by_front.matrix().asDiagonal() * tables.rays;
+
+    // D phi_b of the trial functions, and what multiplies the tangential derivatives.
+    MatrixXd flow_temperature = MatrixXd::Zero(tables.value.cols(), tables.value.cols());
+    MatrixXd flow_front = MatrixXd::Zero(tables.value.cols(), tables.rays.cols());
+    for(int j = 0; j < tangents; ++j)
+    {
+      const MatrixXd trial
+          = along.derivative[j] - slope[j].matrix().asDiagonal() * tables.across;
+      const Array slope_by_gradient = c / r_slope;
+      const Array slope_by_front = -slope[j] * c_slope / r_slope;
+      by_theta += (k * conduction * slope[j]).matrix().asDiagonal() * trial;
+      by_front += (k * conduction * (level_derivative[j] - theta_slope * slope[j])
+                   * slope_by_gradient)
+                      .matrix()
+                      .asDiagonal()
+                  * along.rays[j];
+      const MatrixXd along_by_theta = (-k * conduction).matrix().asDiagonal() * trial;
+      const MatrixXd along_by_front
+          = (-k
+             * (conduction_by_front * level_derivative[j]
+                - conduction * theta_slope * slope_by_front))
+                    .matrix()
+                    .asDiagonal()
+                * tables.rays
+            + (k * conduction * theta_slope * slope_by_gradient).matrix().asDiagonal()
+                  * along.rays[j];
+      flow_temperature += along.derivative[j].transpose() * along_by_theta;
+      flow_front += along.derivative[j].transpose() * along_by_front;
+    }
+    result.flow_temperature = tables.across.transpose() * by_theta + flow_temperature;
+    result.flow_front = tables.across.transpose() * by_front + flow_front;
+    Array speed_by_rate = c;
+    if(physics.displacement != 0)
+    {
+      Array ratio = Array::Constant(r.size(), physics.displacement);
+      for(int m = 0; m < exponent; ++m)
+        ratio *= front / r;
+      speed_by_rate -= ratio;
+    }
+    result.flow_rate
+        = tables.across.transpose()
+          * ((-area * heat * speed_by_rate).matrix().asDiagonal() * tables.rays);
+  }
+
+  double CellIntegrals::volume() const
+  {
+    return weight.sum();
+  }
+
+  double CellIntegrals::sensible_heat() const
+  {
+    return physics.phase.capacity * (weight * excess).sum();
+  }
+} // namespace meltfront::reference_fem::fitted

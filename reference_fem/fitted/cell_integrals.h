@@ -1,0 +1,140 @@
+#ifndef meltfront_reference_fem_fitted_cell_integrals_h
+#define meltfront_reference_fem_fitted_cell_integrals_h
+
+#include <reference_fem/fitted/physics.h>
+#include <reference_fem/fitted/ray_mesh.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace meltfront::reference_fem::fitted
+{
+  /** Quadrature points of [0, 1] with their weights. */
+  struct LineRule
+  {
+    std::vector<double> points, weights;
+
+    static LineRule gauss(int points);
+
+    /** zeta = v^3 with Gauss points v: exact to round-off for r ln r times polynomials.
+     */
+    static LineRule towards_centre(int points);
+  };
+
+  /** Shape functions at the quadrature points of the cells; point = surface point x
+   * points across, function = ray of the cell x node across. */
+  struct CellTables
+  {
+    CellTables(const FrontSurface &surface, const SurfaceRule &rule,
+               const LineRule &line);
+
+    unsigned int n_points() const
+    {
+      return static_cast<unsigned int>(value.rows());
+    }
+
+    LineRule line;
+    Eigen::MatrixXd value;  ///< phi
+    Eigen::MatrixXd across; ///< d phi/d zeta
+    Eigen::MatrixXd rays;   ///< psi, by point and ray of the cell
+    struct Along
+    {
+      Eigen::ArrayXd weight;                     ///< of the surface at r = 1 x line
+      std::array<Eigen::MatrixXd, 2> derivative; ///< of phi along the tangents
+      std::array<Eigen::MatrixXd, 2> rays;       ///< of psi along the tangents
+    };
+    std::vector<Along> cells; ///< of the surface
+  };
+
+  /** The state of one cell: its share of the unknowns and of their rates. */
+  struct CellState
+  {
+    Eigen::VectorXd temperature; ///< theta = T - T_m - S by node
+    Eigen::VectorXd front;       ///< h by ray (m)
+    Eigen::VectorXd front_rate;  ///< dh/dclock by ray
+  };
+
+  /** What holds in a cell. */
+  struct CellPhysics
+  {
+    Phase phase;
+    SourceField source;
+    double displacement = 0; ///< of the liquid, of the front's speed
+    double time_rate = 1;    ///< dt/dclock
+  };
+
+  /** Integrals of one cell, by node. */
+  struct CellVectors
+  {
+    Eigen::VectorXd mass, flow;
+  };
+
+  /** Derivatives of the integrals, by node and by node (theta) or ray (h, its rate). */
+  struct CellMatrices
+  {
+    Eigen::MatrixXd mass_temperature, mass_front;
+    Eigen::MatrixXd flow_temperature, flow_front, flow_rate;
+  };
+
+  /**
+   * The integrals of a cell whose points lie at r = a + c h(xi) on their rays.
+   *
+   * With r' = dr/dzeta, the area g = mu r^m, the slope p = grad h c/r' of the levels and
+   * D phi = grad phi - phi' p the derivative along the surface at fixed r,
+   *
+   *   M = int phi e g r',
+   *   F = - int phi' e g (c dh/dclock - u)
+   *       - dt/dclock int k [ phi' g T_r + D phi . D T g r'/r^2 ]
+   *
+   * (no division by r^2 for rays that are parallel), with T_r = theta'/r' + dS/dr and
+   * u = displacement x dh/dclock (h/r)^m the speed of the liquid beyond the front.
+   */
+  class CellIntegrals
+  {
+  public:
+    /** The arguments must outlive the object. */
+    CellIntegrals(const CellTables &tables, unsigned int surface_cell, const Layer &layer,
+                  const FrontSurface &surface, const CellPhysics &physics,
+                  const CellState &state);
+
+    CellVectors vectors() const;
+    CellMatrices matrices() const;
+
+    /** Shares of the cell in the volume, and in the heat above the melting temperature.
+     */
+    double volume() const;
+    double sensible_heat() const;
+
+    Eigen::ArrayXd r;      ///< coordinate of the points on their rays (m)
+    Eigen::ArrayXd weight; ///< g r': volumes that the points stand for
+    Eigen::ArrayXd excess; ///< T - T_m at the points (K)
+
+  private:
+    using Array = Eigen::ArrayXd;
+
+    void differentiate_flow(CellMatrices &result) const;
+
+    const CellTables &tables;
+    const CellTables::Along &along;
+    const CellPhysics &physics;
+    int tangents, exponent;
+    bool round;
+    Array c;                               ///< dr/dh
+    double c_slope;                        ///< dc/dzeta
+    Array r_slope;                         ///< r'
+    Array per_r;                           ///< 1/r, 0 where areas do not depend on r
+    Array area;                            ///< g x quadrature weight
+    Array theta_slope;                     ///< theta'
+    Array source_slope;                    ///< dS/dr
+    Array conduction;                      ///< g r'/r^2
+    Array heat;                            ///< e (J/m^3)
+    Array speed, liquid_speed;             ///< c dh/dclock - u, and u
+    Array front, front_rate;               ///< h, dh/dclock
+    std::array<Array, 2> slope;            ///< p
+    std::array<Array, 2> level_derivative; ///< D theta
+  };
+} // namespace meltfront::reference_fem::fitted
+
+#endif

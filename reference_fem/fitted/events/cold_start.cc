@@ -1,0 +1,219 @@
+#include <reference_fem/fitted/events/cold_start.h>
+
+#include <cases/error.h>
+#include <cases/exact/line_sink.h>
+#include <cases/exact/planar_neumann.h>
+#include <cases/exact/point_sink.h>
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace meltfront::reference_fem::fitted
+{
+  namespace
+  {
+    using cases::BoundaryKind;
+
+    /** Where the front of a seed is, as a share of the ray. */
+    constexpr double seed_share = 1e-4;
+
+    /** The time of a seed is at most this share of the run. */
+    constexpr double latest_seed = 1e-5;
+
+    /** Widths of the thermal layer of the old phase that the ray must be long at the
+     * seed: erfc(6) is 2e-17. */
+    constexpr double layers_in_ray = 12;
+
+    /** Steps are equal in this root of the clock. */
+    constexpr double lengthening = 3;
+
+    /** A distance from the wall at which the initial temperature counts as the wall's,
+     * as a share of the ray. */
+    constexpr double beside_wall = 1e-9;
+
+    double initial_temperature(const EventScene &setting, const double r)
+    {
+      const RayMesh geometry(setting.rays.surface, setting.rays.inner, setting.rays.outer,
+                             {0, 1});
+      return setting.scene.initial.temperature(geometry.position(0, r),
+                                               setting.scene.start_time);
+    }
+
+    double initial_temperature_at_end(const EventScene &setting, const bool inner)
+    {
+      const RayScene &rays = setting.rays;
+      const double distance = beside_wall * (rays.outer - rays.inner);
+      return initial_temperature(setting,
+                                 inner ? rays.inner + distance : rays.outer - distance);
+    }
+
+    std::shared_ptr<const cases::ExactSolution>
+    wall_start(const EventScene &setting, const cases::Boundary &wall, const bool inner)
+    {
+      if(wall.kind != BoundaryKind::fixed_temperature)
+        return nullptr;
+      const cases::Scene &scene = setting.scene;
+      const double melting = scene.material.melting_temperature;
+      const RayMesh geometry(setting.rays.surface, setting.rays.inner, setting.rays.outer,
+                             {0, 1});
+      const double at_wall = wall.value(
+          geometry.position(0, inner ? setting.rays.inner : setting.rays.outer),
+          scene.start_time);
+      const double beside = initial_temperature_at_end(setting, inner);
+      const bool liquid
+          = beside > melting
+            || (beside == melting && scene.initial.solid_fraction_at_melting < 0.5);
+      if(at_wall == melting || (at_wall > melting) == liquid)
+        return nullptr;
+      return std::make_shared<cases::PlanarNeumann>(scene.material, at_wall, beside);
+    }
+
+    /** The front constant for which a sink of the given kind removes @p heat. */
+    template <typename Sink, typename Strength>
+    std::shared_ptr<const cases::ExactSolution>
+    sink_that_removes(const double heat, const cases::Material &material,
+                      const double far, const Strength &strength)
+    {
+      const auto excess = [&](const double logarithm)
+      { return strength(Sink(material, std::exp(logarithm), far)) / heat - 1; };
+      double lower = std::log(1e-3), upper = std::log(3.);
+      if(!(excess(lower) < 0) || !(excess(upper) > 0))
+        throw cases::Refusal("fem-fitted cannot start from this sink: it is too weak or "
+                             "too strong for a front that grows with the root of time");
+      std::uintmax_t iterations = 200;
+      const auto bracket = boost::math::tools::toms748_solve(
+          excess, lower, upper, boost::math::tools::eps_tolerance<double>(52),
+          iterations);
+      return std::make_shared<Sink>(
+          material, std::exp(0.5 * (bracket.first + bracket.second)), far);
+    }
+
+    /** Heat that a sink draws around the time of seeds; its law in time must be the one
+     * that the similarity solution asks for. */
+    std::shared_ptr<const cases::ExactSolution> sink_start(const EventScene &setting)
+    {
+      const cases::Scene &scene = setting.scene;
+      const double early = latest_seed * (scene.end_time - scene.start_time);
+      const auto drawn = [&](const double since)
+      { return -scene.sources[0].power(scene.start_time + since); };
+      if(!(drawn(early) > 0))
+        throw cases::Refusal("fem-fitted starts in one phase from sinks; this source "
+                             "gives off heat");
+      const bool line = setting.rays.surface.exponent == 1;
+      const double growth = drawn(early) / drawn(early / 4);
+      if(std::abs(growth - (line ? 1 : 2)) > 1e-3)
+        throw cases::Refusal(fmt::format(
+            "fem-fitted starts in one phase from {}; this one has another law in time",
+            line ? "a line sink of constant strength"
+                 : "a point sink whose strength grows with the root of time"));
+      const double far = initial_temperature_at_end(setting, true);
+      if(line)
+        return sink_that_removes<cases::LineSink>(drawn(early), scene.material, far,
+                                                  [](const cases::LineSink &sink)
+                                                  { return sink.strength(); });
+      return sink_that_removes<cases::PointSink>(drawn(early), scene.material, far,
+                                                 [&](const cases::PointSink &sink)
+                                                 { return sink.strength(early); });
+    }
+
+    /** Since the start (s). */
+    double seed_time(const EventScene &setting, const SuddenStart &start)
+    {
+      const cases::Scene &scene = setting.scene;
+      const double length = setting.rays.outer - setting.rays.inner;
+      const cases::PhaseProperties &old
+          = start.local->solid_at_origin() ? scene.material.liquid : scene.material.solid;
+      const double by_front = std::pow(seed_share * length / start.local->front(1), 2);
+      const double by_layer = std::pow(length / layers_in_ray, 2) / old.diffusivity();
+      return std::min(
+          {by_front, by_layer, latest_seed * (scene.end_time - scene.start_time)});
+    }
+  } // namespace
+
+  std::optional<SuddenStart> sudden_start(const EventScene &setting)
+  {
+    const cases::Scene &scene = setting.scene;
+    const bool centre = setting.rays.surface.exponent > 0 && setting.rays.inner == 0;
+    const bool round = scene.domain.round();
+    std::vector<SuddenStart> starts;
+    if(setting.effects.contains(cases::Effect::heat_sources))
+      starts.push_back({true, sink_start(setting), "the sink at the centre"});
+    for(const bool inner : {true, false})
+    {
+      if(inner && centre)
+        continue;
+      const cases::Side side = inner ? (round ? cases::Side::inner : cases::Side::x_min)
+                                     : (round ? cases::Side::outer : cases::Side::x_max);
+      if(auto local = wall_start(setting, scene.boundary(side), inner))
+        starts.push_back(
+            {inner, std::move(local), fmt::format("the wall {}", to_string(side))});
+    }
+    if(starts.size() > 1)
+      throw cases::Refusal(fmt::format(
+          "fem-fitted follows one front; in this scene {} and {} start one each",
+          starts[0].cause, starts[1].cause));
+    return starts.empty() ? std::nullopt : std::optional(starts[0]);
+  }
+
+  Stretch seeded_stretch(const EventScene &setting, const SuddenStart &start,
+                         const double initial_heat)
+  {
+    const cases::Scene &scene = setting.scene;
+    const RayScene &rays = setting.rays;
+    const bool inner = start.at_inner_end;
+    const double since = seed_time(setting, start);
+    const double width = start.local->front(since);
+    const double length = rays.outer - rays.inner;
+    const bool new_is_solid = start.local->solid_at_origin();
+
+    // The old phase's thermal layer or the new phase, whichever is thinner.
+    const cases::PhaseProperties &old
+        = new_is_solid ? scene.material.liquid : scene.material.solid;
+    const double layer = std::min(width, 2 * std::sqrt(old.diffusivity() * since));
+    const int cells = rays.cells;
+    const std::vector<double> equal
+        = graded_shares(std::max(1, cells / 2), 1, false),
+        widening = widening_shares(4 * layer / (cells * length),
+                                   1 + 8. / std::max(cells, 8), 2. / cells, inner);
+    Physics physics
+        = physics_of(scene, setting.effects, setting.options, inner == new_is_solid);
+    if(setting.options.clock != "t")
+      physics.clock = {true, scene.start_time};
+
+    Stretch result;
+    result.problem = std::make_shared<FittedProblem>(
+        RayMesh(rays.surface, rays.inner, rays.outer, inner ? equal : widening,
+                inner ? widening : equal),
+        physics);
+    result.time = scene.start_time + since;
+    const double far = initial_temperature_at_end(setting, inner);
+    result.state = result.problem->state(
+        result.time, {inner ? rays.inner + width : rays.outer - width},
+        [&](const cases::Position &p)
+        {
+          const double r
+              = setting.scene.domain.round() ? std::hypot(p[0], p[1], p[2]) : p[0];
+          const double distance = inner ? r - rays.inner : rays.outer - r;
+          const double local = start.local->temperature(distance, since);
+          // The initial state need not be uniform farther away.
+          return distance < width ? local : local + initial_temperature(setting, r) - far;
+        });
+    for(const cases::PointSource &source : scene.sources)
+      result.before.sources += source.energy(result.time);
+    const HeatContent seed = result.problem->heat(result.time, result.state);
+    result.before.walls
+        = seed.sensible + seed.latent - initial_heat - result.before.sources;
+    const Clock &clock = physics.clock;
+    result.steps = lengthening_steps(clock.clock(result.time),
+                                     clock.clock(scene.end_time), setting.options.steps,
+                                     clock.root ? lengthening : 2 * lengthening);
+    result.cause = fmt::format("a front starts at {} at t = {:g} s, {:.3g} m away at "
+                               "first, from the similarity solution",
+                               start.cause, scene.start_time, width);
+    return result;
+  }
+} // namespace meltfront::reference_fem::fitted

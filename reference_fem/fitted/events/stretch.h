@@ -1,0 +1,49 @@
+#ifndef meltfront_reference_fem_fitted_events_stretch_h
+#define meltfront_reference_fem_fitted_events_stretch_h
+
+#include <reference_fem/fitted/fitted_problem.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace meltfront::reference_fem::fitted
+{
+  /** Equal steps of a clock up to an end. */
+  struct StepRange
+  {
+    double end = 0, step = 0;
+  };
+
+  /** A part of a run with one mesh: one phase, or two with a front between them. */
+  struct Stretch
+  {
+    std::shared_ptr<FittedProblem> problem;
+    dealii::Vector<double> state;
+    double time = 0; ///< of the state (s)
+
+    /** Heat that came in before the stretch (walls, sources), and that of a phase that
+     * was dropped (sensible, latent); see FittedProblem::heat() for the rest. */
+    HeatContent before;
+
+    std::vector<StepRange> steps;
+    std::string cause; ///< what made it begin, for the description of the run
+  };
+
+  /**
+   * @p n steps from one value of a clock > 0 to another that are equal in
+   * clock^(1/power): they lengthen with the clock, so that a start at a small value
+   * counts as much as it needs to.
+   */
+  std::vector<StepRange> lengthening_steps(double begin, double end, int n, double power);
+
+  /**
+   * Shares of an interval taken by cells that begin with a share of @p first at the front
+   * and widen by @p ratio up to a share of @p largest. From 0 to 1, the front at the end
+   * that @p front_first says.
+   */
+  std::vector<double> widening_shares(double first, double ratio, double largest,
+                                      bool front_first);
+} // namespace meltfront::reference_fem::fitted
+
+#endif

@@ -1,0 +1,487 @@
+#include <reference_fem/fitted/fitted_problem.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace meltfront::reference_fem::fitted
+{
+  using cases::BoundaryKind;
+  using dealii::Vector;
+
+  namespace
+  {
+    /** Beyond the degree of the elements: areas and the slopes of levels. */
+    constexpr int extra_points = 2;
+
+    /** Makes r ln r times polynomials exact to 1e-13. */
+    constexpr int points_at_centre = 16;
+
+    /** A front closer to a wall than this share of a ray has reached it. */
+    constexpr double closest = 1e-12;
+  } // namespace
+
+  struct FittedProblem::Matrices
+  {
+    dealii::SparseMatrix<double> &mass, &flow, &rate;
+  };
+
+  FittedProblem::FittedProblem(RayMesh mesh, Physics physics)
+    : rays(std::move(mesh))
+    , laws(std::move(physics))
+    , surface_rule(rays.surface.rule(rays.surface.degree + extra_points))
+    , regular(rays.surface, surface_rule,
+              LineRule::gauss(rays.surface.degree + extra_points))
+  {
+    if(laws.power)
+      at_centre.emplace(rays.surface, surface_rule,
+                        LineRule::towards_centre(points_at_centre));
+    for(unsigned int level = 0; level < rays.n_levels(); ++level)
+    {
+      const auto [fixed, carried] = rays.place(level);
+      level_fixed.push_back(fixed);
+      level_carried.push_back(carried);
+    }
+    for(const SurfaceRule::Cell &cell : surface_rule.cells)
+      total_measure += cell.weight.sum();
+    walls[0] = {rays.has_centre() ? nullptr : &laws.inner_wall, rays.inner, 0};
+    walls[1] = {&laws.outer_wall, rays.outer, rays.n_levels() - 1};
+    number_accounts();
+    make_sparsity();
+  }
+
+  void FittedProblem::number_accounts()
+  {
+    n_unknowns = rays.n_nodes();
+    bool flux = false;
+    for(Wall &wall : walls)
+    {
+      if(!wall.boundary)
+        continue;
+      flux = flux || wall.boundary->kind == BoundaryKind::flux;
+      if(wall.boundary->kind == BoundaryKind::fixed_temperature)
+      {
+        wall.first_account = n_unknowns;
+        n_unknowns += rays.surface.n_rays();
+      }
+    }
+    if(flux)
+      flux_account = n_unknowns++;
+    if(laws.power)
+      source_account = n_unknowns++;
+    if(laws.displacement != 0)
+      outflow_account = n_unknowns++;
+  }
+
+  void FittedProblem::make_sparsity()
+  {
+    dealii::DynamicSparsityPattern dynamic(n_unknowns, n_unknowns);
+    for(unsigned int s = 0; s < rays.surface.cells.size(); ++s)
+      for(unsigned int l = 0; l < rays.layers.size(); ++l)
+      {
+        std::vector<unsigned int> columns = nodes_of(s, l);
+        const std::vector<unsigned int> rows = columns;
+        if(rays.has_front())
+          for(const unsigned int ray : rays.surface.cells[s])
+            columns.push_back(rays.front_node(ray));
+        for(const unsigned int row : rows)
+          for(const unsigned int column : columns)
+            dynamic.add(row, column);
+      }
+    for(const Wall &wall : walls)
+      for(unsigned int ray = 0;
+          wall.first_account != RayMesh::none && ray < rays.surface.n_rays(); ++ray)
+      {
+        dynamic.add(rays.node(ray, wall.level), wall.first_account + ray);
+        dynamic.add(wall.first_account + ray, rays.node(ray, wall.level));
+      }
+    if(outflow_account != RayMesh::none)
+      for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+      {
+        dynamic.add(outflow_account, rays.node(ray, walls[1].level));
+        dynamic.add(outflow_account, rays.front_node(ray));
+      }
+    pattern.copy_from(dynamic);
+  }
+
+  unsigned int FittedProblem::size() const
+  {
+    return n_unknowns;
+  }
+
+  const dealii::SparsityPattern &FittedProblem::sparsity() const
+  {
+    return pattern;
+  }
+
+  const CellTables &FittedProblem::tables(unsigned int layer) const
+  {
+    return at_centre && layer == 0 ? *at_centre : regular;
+  }
+
+  SourceField FittedProblem::source(int phase, double time) const
+  {
+    if(phase != 0 || !laws.power)
+      return {};
+    return SourceField::of(rays.surface.exponent, laws.power(time),
+                           laws.phases[0].conductivity, rays.outer);
+  }
+
+  CellPhysics FittedProblem::cell_physics(unsigned int layer, double time) const
+  {
+    const int phase = rays.layers[layer].phase;
+    CellPhysics result;
+    result.phase = laws.phases[phase];
+    result.source = source(phase, time);
+    result.displacement = phase == 1 ? laws.displacement : 0;
+    result.time_rate = laws.clock.rate(laws.clock.clock(time));
+    return result;
+  }
+
+  std::vector<unsigned int> FittedProblem::nodes_of(unsigned int surface_cell,
+                                                    unsigned int layer) const
+  {
+    std::vector<unsigned int> nodes;
+    const unsigned int degree = rays.surface.degree;
+    for(const unsigned int ray : rays.surface.cells[surface_cell])
+      for(unsigned int b = 0; b <= degree; ++b)
+        nodes.push_back(rays.node(ray, layer * degree + b));
+    return nodes;
+  }
+
+  double FittedProblem::coordinate(unsigned int ray, unsigned int level,
+                                   const Vector<double> &u) const
+  {
+    const double carried = level_carried[level];
+    return level_fixed[level] + (carried != 0 ? carried * u[rays.front_node(ray)] : 0.);
+  }
+
+  double FittedProblem::theta(int phase, unsigned int ray, unsigned int level,
+                              double time, const Vector<double> &u) const
+  {
+    const unsigned int node = rays.node(ray, level);
+    return rays.has_front() && level == rays.front_level()
+               ? -source(phase, time).value(u[node])
+               : u[node];
+  }
+
+  CellState FittedProblem::cell_state(unsigned int surface_cell, unsigned int layer,
+                                      double time, const Vector<double> &u,
+                                      const Vector<double> &rate) const
+  {
+    const std::vector<unsigned int> &cell = rays.surface.cells[surface_cell];
+    const unsigned int degree = rays.surface.degree;
+    const int phase = rays.layers[layer].phase;
+    CellState state;
+    state.temperature.resize(cell.size() * (degree + 1));
+    state.front.setZero(cell.size());
+    state.front_rate.setZero(cell.size());
+    for(std::size_t a = 0; a < cell.size(); ++a)
+    {
+      if(rays.has_front())
+      {
+        state.front[a] = u[rays.front_node(cell[a])];
+        state.front_rate[a] = rate[rays.front_node(cell[a])];
+      }
+      for(unsigned int b = 0; b <= degree; ++b)
+        state.temperature[a * (degree + 1) + b]
+            = theta(phase, cell[a], layer * degree + b, time, u);
+    }
+    return state;
+  }
+
+  void FittedProblem::assemble(double clock, const Vector<double> &u,
+                               const Vector<double> &rate, Vector<double> &mass,
+                               Vector<double> &flow, Matrices *matrices) const
+  {
+    const double time = laws.clock.time(clock);
+    mass.reinit(n_unknowns);
+    flow.reinit(n_unknowns);
+    for(unsigned int l = 0; l < rays.layers.size(); ++l)
+    {
+      CellPhysics physics = cell_physics(l, time);
+      physics.time_rate = laws.clock.rate(clock);
+      for(unsigned int s = 0; s < rays.surface.cells.size(); ++s)
+      {
+        const CellState state = cell_state(s, l, time, u, rate);
+        const CellIntegrals integrals(tables(l), s, rays.layers[l], rays.surface, physics,
+                                      state);
+        const CellVectors local = integrals.vectors();
+        const std::vector<unsigned int> nodes = nodes_of(s, l);
+        for(std::size_t i = 0; i < nodes.size(); ++i)
+        {
+          mass[nodes[i]] += local.mass[i];
+          flow[nodes[i]] += local.flow[i];
+        }
+        if(matrices)
+          scatter(s, l, time, u, integrals.matrices(), *matrices);
+      }
+    }
+    add_walls(clock, u, mass, flow, matrices);
+    if(outflow_account != RayMesh::none)
+    {
+      mass[outflow_account] -= u[outflow_account];
+      if(matrices)
+        matrices->mass.add(outflow_account, outflow_account, -1);
+      add_outflow(u, rate, flow, matrices);
+    }
+  }
+
+  void FittedProblem::scatter(unsigned int surface_cell, unsigned int layer, double time,
+                              const Vector<double> &u, const CellMatrices &local,
+                              Matrices &matrices) const
+  {
+    const std::vector<unsigned int> &cell = rays.surface.cells[surface_cell];
+    const std::vector<unsigned int> nodes = nodes_of(surface_cell, layer);
+    const unsigned int per_ray = rays.surface.degree + 1;
+    const SourceField field = source(rays.layers[layer].phase, time);
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      for(std::size_t j = 0; j < nodes.size(); ++j)
+      {
+        double mass = local.mass_temperature(i, j), flow = local.flow_temperature(i, j);
+        const unsigned int level = layer * rays.surface.degree + j % per_ray;
+        // On the front theta = -S(h).
+        if(rays.has_front() && level == rays.front_level())
+        {
+          const double factor = -field.slope(u[nodes[j]]);
+          mass *= factor;
+          flow *= factor;
+        }
+        matrices.mass.add(nodes[i], nodes[j], mass);
+        matrices.flow.add(nodes[i], nodes[j], flow);
+      }
+      for(std::size_t a = 0; rays.has_front() && a < cell.size(); ++a)
+      {
+        const unsigned int column = rays.front_node(cell[a]);
+        matrices.mass.add(nodes[i], column, local.mass_front(i, a));
+        matrices.flow.add(nodes[i], column, local.flow_front(i, a));
+        matrices.rate.add(nodes[i], column, local.flow_rate(i, a));
+      }
+    }
+  }
+
+  void FittedProblem::add_walls(double clock, const Vector<double> &u,
+                                Vector<double> &mass, Vector<double> &flow,
+                                Matrices *matrices) const
+  {
+    const double time = laws.clock.time(clock);
+    for(const Wall &wall : walls)
+    {
+      if(wall.boundary && wall.boundary->kind == BoundaryKind::flux)
+        add_flux(wall, clock, flow);
+      for(unsigned int ray = 0;
+          wall.first_account != RayMesh::none && ray < rays.surface.n_rays(); ++ray)
+      {
+        const unsigned int node = rays.node(ray, wall.level);
+        const unsigned int account = wall.first_account + ray;
+        mass[node] -= u[account];
+        flow[account] = wall.boundary->value(rays.position(ray, wall.r), time)
+                        - laws.melting_temperature - u[node];
+        if(matrices)
+        {
+          matrices->mass.add(node, account, -1);
+          matrices->flow.add(account, node, -1);
+        }
+      }
+    }
+    if(source_account != RayMesh::none)
+    {
+      const double heat = laws.clock.rate(clock) * laws.power(time);
+      flow[rays.node(0, 0)] += heat;
+      flow[source_account] -= heat;
+    }
+    for(const unsigned int account : {flux_account, source_account})
+      if(account != RayMesh::none)
+      {
+        mass[account] -= u[account];
+        if(matrices)
+          matrices->mass.add(account, account, -1);
+      }
+  }
+
+  void FittedProblem::add_flux(const Wall &wall, double clock, Vector<double> &flow) const
+  {
+    const double time = laws.clock.time(clock);
+    const double area = laws.clock.rate(clock) * std::pow(wall.r, rays.surface.exponent);
+    for(std::size_t s = 0; s < rays.surface.cells.size(); ++s)
+    {
+      const SurfaceRule::Cell &cell = surface_rule.cells[s];
+      for(std::size_t q = 0; q < cell.points.size(); ++q)
+      {
+        cases::Position position{};
+        for(int d = 0; d < 3; ++d)
+          position[d] = cell.points[q].base[d] + wall.r * cell.points[q].direction[d];
+        const double heat = cell.weight[q] * area * wall.boundary->value(position, time);
+        for(std::size_t a = 0; a < rays.surface.cells[s].size(); ++a)
+          flow[rays.node(rays.surface.cells[s][a], wall.level)]
+              += heat * surface_rule.value(q, a);
+        flow[flux_account] -= heat;
+      }
+    }
+  }
+
+  /** What liquid takes along through the outer wall; one ray only. */
+  void FittedProblem::add_outflow(const Vector<double> &u, const Vector<double> &rate,
+                                  Vector<double> &flow, Matrices *matrices) const
+  {
+    const unsigned int front = rays.front_node(0);
+    const unsigned int node = rays.node(0, walls[1].level);
+    const int exponent = rays.surface.exponent;
+    const double volume_by_rate
+        = total_measure * laws.displacement * std::pow(u[front], exponent);
+    const double volume = volume_by_rate * rate[front];
+    const double heat = laws.phases[1].latent + laws.phases[1].capacity * u[node];
+    flow[node] -= heat * volume;
+    flow[outflow_account] += heat * volume;
+    if(!matrices)
+      return;
+    for(const auto &[row, sign] : {std::pair(node, -1.), std::pair(outflow_account, 1.)})
+    {
+      matrices->flow.add(row, node, sign * laws.phases[1].capacity * volume);
+      if(exponent > 0)
+        matrices->flow.add(row, front, sign * heat * volume * exponent / u[front]);
+      matrices->rate.add(row, front, sign * heat * volume_by_rate);
+    }
+  }
+
+  void FittedProblem::evaluate(double clock, const Vector<double> &u,
+                               const Vector<double> &rate, Vector<double> &mass,
+                               Vector<double> &flow) const
+  {
+    assemble(clock, u, rate, mass, flow, nullptr);
+  }
+
+  void FittedProblem::linearize(double clock, const Vector<double> &u,
+                                const Vector<double> &rate, Vector<double> &mass,
+                                Vector<double> &flow, dealii::SparseMatrix<double> &by_u,
+                                dealii::SparseMatrix<double> &flow_by_u,
+                                dealii::SparseMatrix<double> &flow_by_rate) const
+  {
+    by_u = 0;
+    flow_by_u = 0;
+    flow_by_rate = 0;
+    Matrices matrices{by_u, flow_by_u, flow_by_rate};
+    assemble(clock, u, rate, mass, flow, &matrices);
+  }
+
+  Vector<double> FittedProblem::scale(const Vector<double> &) const
+  {
+    Vector<double> result(n_unknowns);
+    const int m = rays.surface.exponent;
+    const double volume = total_measure
+                          * (std::pow(rays.outer, m + 1) - std::pow(rays.inner, m + 1))
+                          / (m + 1);
+    double density = 0;
+    for(const Phase &phase : laws.phases)
+      density = std::max(density, phase.latent + phase.capacity * laws.temperature_scale);
+    for(unsigned int i = 0; i < n_unknowns; ++i)
+      result[i] = i < rays.n_nodes() ? laws.temperature_scale : density * volume;
+    for(unsigned int ray = 0; rays.has_front() && ray < rays.surface.n_rays(); ++ray)
+      result[rays.front_node(ray)] = rays.outer - rays.inner;
+    return result;
+  }
+
+  std::string FittedProblem::objection(const Vector<double> &u) const
+  {
+    for(const double value : u)
+      if(!std::isfinite(value))
+        return "a value is not finite";
+    if(!rays.has_front())
+      return {};
+    const double margin = closest * (rays.outer - rays.inner);
+    for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+    {
+      const double h = u[rays.front_node(ray)];
+      if(!(h > rays.inner + margin && h < rays.outer - margin))
+        return fmt::format("the front at r = {:.6g} has reached the wall at {:g}", h,
+                           h > rays.inner + margin ? rays.outer : rays.inner);
+    }
+    for(const auto &cell : rays.surface.cells)
+      for(Eigen::Index q = 0; q < surface_rule.value.rows(); ++q)
+      {
+        double h = 0;
+        for(std::size_t a = 0; a < cell.size(); ++a)
+          h += surface_rule.value(q, a) * u[rays.front_node(cell[a])];
+        if(!(h > rays.inner && h < rays.outer))
+          return "an element is inverted";
+      }
+    return {};
+  }
+
+  /** By the polynomial in r through values next to the source. */
+  double FittedProblem::theta_at_centre(
+      double time, double nearest,
+      const std::function<double(const cases::Position &)> &temperature) const
+  {
+    const std::array<double, 6> weights{6, -15, 20, -15, 6, -1};
+    const SourceField field = source(0, time);
+    double sum = 0;
+    for(std::size_t k = 0; k < weights.size(); ++k)
+    {
+      const double r = nearest * static_cast<double>(k + 1) / 50;
+      sum += weights[k]
+             * (temperature(rays.position(0, r)) - laws.melting_temperature
+                - field.value(r));
+    }
+    return sum;
+  }
+
+  Vector<double> FittedProblem::state(
+      double time, const std::vector<double> &front,
+      const std::function<double(const cases::Position &)> &temperature) const
+  {
+    Vector<double> u(n_unknowns);
+    for(unsigned int ray = 0; rays.has_front() && ray < rays.surface.n_rays(); ++ray)
+      u[rays.front_node(ray)] = front[ray];
+    for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+      for(unsigned int level = 0; level < rays.n_levels(); ++level)
+      {
+        if(rays.has_front() && level == rays.front_level())
+          continue;
+        const int phase = rays.has_front() && level > rays.front_level() ? 1 : 0;
+        const double r = coordinate(ray, level, u);
+        const SourceField field = source(phase, time);
+        // The temperature is singular at a source, the rest of it is not.
+        if(field.strength != 0 && r == 0)
+          continue;
+        u[rays.node(ray, level)] = temperature(rays.position(ray, r))
+                                   - laws.melting_temperature - field.value(r);
+      }
+    if(laws.power)
+      u[rays.node(0, 0)] = theta_at_centre(time, coordinate(0, 1, u), temperature);
+    return u;
+  }
+
+  HeatContent FittedProblem::heat(double time, const Vector<double> &u) const
+  {
+    HeatContent result;
+    const Vector<double> rate(n_unknowns);
+    for(unsigned int l = 0; l < rays.layers.size(); ++l)
+    {
+      const CellPhysics physics = cell_physics(l, time);
+      for(unsigned int s = 0; s < rays.surface.cells.size(); ++s)
+      {
+        const CellState state = cell_state(s, l, time, u, rate);
+        const CellIntegrals integrals(tables(l), s, rays.layers[l], rays.surface, physics,
+                                      state);
+        result.sensible += integrals.sensible_heat();
+        result.latent += physics.phase.latent * integrals.volume();
+      }
+    }
+    for(const Wall &wall : walls)
+      for(unsigned int ray = 0;
+          wall.first_account != RayMesh::none && ray < rays.surface.n_rays(); ++ray)
+        result.walls += u[wall.first_account + ray];
+    for(const unsigned int account : {flux_account, outflow_account})
+      if(account != RayMesh::none)
+        result.walls += u[account];
+    if(source_account != RayMesh::none)
+      result.sources = u[source_account];
+    return result;
+  }
+} // namespace meltfront::reference_fem::fitted

@@ -1,0 +1,111 @@
+#include <reference_fem/fitted/options.h>
+
+#include <cases/error.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace meltfront::reference_fem::fitted
+{
+  namespace
+  {
+    using cases::DomainShape;
+    using cases::Symmetry;
+
+    /** Coarse runs take more steps than the cells call for, so that their fronts can be
+     * compared at 50 times at least. */
+    constexpr int fewest_steps = 50;
+    constexpr int steps_per_cell = 2;
+
+    int choose_dimension(const cases::Scene &scene, const cases::Options &options)
+    {
+      std::vector<int> possible{scene.domain.dimension};
+      const bool radial = scene.symmetry == Symmetry::cylindrical
+                          || scene.symmetry == Symmetry::spherical;
+      if(radial && scene.domain.shape == DomainShape::box)
+        throw cases::Refusal("fem-fitted has no rays from an axis or a centre to the "
+                             "walls of a box; it takes a ball or a shell");
+      if(radial)
+        possible.insert(possible.begin(), 1);
+      const int wanted = static_cast<int>(options.get_integer("dimension"));
+      if(wanted == 0)
+        return possible.front();
+      if(std::find(possible.begin(), possible.end(), wanted) == possible.end())
+        throw cases::Refusal(
+            fmt::format("fem-fitted simulates this scene in {} dimensions, not in {}",
+                        fmt::join(possible, " or "), wanted));
+      return wanted;
+    }
+  } // namespace
+
+  RunOptions::RunOptions(const cases::Scene &scene, const cases::Resolution &resolution)
+    : dimension(choose_dimension(scene, resolution.options))
+    , degree(static_cast<int>(resolution.options.get_integer("degree")))
+    , cells(resolution.n)
+    , steps(static_cast<int>(resolution.options.get_integer("steps")))
+    , refines_time(resolution.options.get_string("refine") == "time")
+    , grading(resolution.options.get_double("grading"))
+    , tolerance(resolution.options.get_double("tolerance"))
+    , scheme(scheme_of(resolution.options.get_string("scheme")))
+    , clock(resolution.options.get_string("clock"))
+  {
+    if(refines_time)
+    {
+      cells = static_cast<int>(resolution.options.get_integer("cells"));
+      steps = resolution.n;
+    }
+    else if(steps == 0)
+      steps = resolution.options.get_string("refine") == "space"
+                  ? 200
+                  : std::max(fewest_steps, steps_per_cell * resolution.n);
+  }
+
+  std::vector<cases::OptionDeclaration> fitted_options()
+  {
+    return {
+        {"degree", "1", 4L, "Degree of the elements.", 1, 4},
+        {"dimension", "1", 0L,
+         "Dimension in which a symmetric scene is simulated; 0: the lowest.", 0, 3},
+        {"scheme",
+         "",
+         std::string("radau5"),
+         "Time scheme: backward differentiation (bdf2, bdf3, bdf4) or Radau IIA of order "
+         "3 or 5 (radau3, radau5).",
+         0,
+         0,
+         {"bdf2", "bdf3", "bdf4", "radau3", "radau5"}},
+        {"steps", "1", 0L,
+         "Time steps over the run; 0: two for each of the n cells and 50 at least, or "
+         "200 "
+         "where only space is refined.",
+         0, 1e7},
+        {"refine",
+         "",
+         std::string("both"),
+         "What n refines: both, space (the steps stay) or time (n steps, the cells "
+         "stay).",
+         0,
+         0,
+         {"both", "space", "time"}},
+        {"cells", "1", 32L, "Cells along the domain's side where n refines time.", 2,
+         1e5},
+        {"clock",
+         "",
+         std::string("auto"),
+         "Steps are equal in t or in sqrt(t); auto: sqrt(t) for a scene that starts from "
+         "an exact solution some time after that began, else t.",
+         0,
+         0,
+         {"auto", "t", "sqrt(t)"}},
+        {"tolerance", "1", 0.,
+         "Error of a time step, relative, that the steps are chosen for (Radau); 0: "
+         "equal "
+         "steps.",
+         0, 1},
+        {"grading", "1", 1.,
+         "Width of a cell over that of its neighbour towards the front, in both phases.",
+         1, 10}};
+  }
+} // namespace meltfront::reference_fem::fitted

@@ -1,0 +1,34 @@
+#ifndef meltfront_reference_fem_fitted_options_h
+#define meltfront_reference_fem_fitted_options_h
+
+#include <cases/method.h>
+#include <cases/scene.h>
+#include <reference_fem/fitted/time/integrator.h>
+
+#include <string>
+#include <vector>
+
+namespace meltfront::reference_fem::fitted
+{
+  /** The options of `fem-fitted`. */
+  std::vector<cases::OptionDeclaration> fitted_options();
+
+  /** Their values, made out for a scene. */
+  struct RunOptions
+  {
+    /** @throws Refusal for a dimension that the scene cannot be simulated in. */
+    RunOptions(const cases::Scene &scene, const cases::Resolution &resolution);
+
+    int dimension;
+    int degree;
+    int cells; ///< along the domain's side
+    int steps;
+    bool refines_time; ///< n counts steps, not cells
+    double grading;
+    double tolerance;
+    Scheme scheme;
+    std::string clock; ///< auto, t or sqrt(t)
+  };
+} // namespace meltfront::reference_fem::fitted
+
+#endif

@@ -1,0 +1,48 @@
+#ifndef meltfront_reference_fem_fitted_run_h
+#define meltfront_reference_fem_fitted_run_h
+
+#include <cases/stopwatch.h>
+#include <reference_fem/fitted/fitted_problem.h>
+#include <reference_fem/fitted/setup.h>
+#include <reference_fem/fitted/sites.h>
+
+#include <memory>
+#include <vector>
+
+namespace meltfront::reference_fem::fitted
+{
+  /** A run of `fem-fitted` from a state with a front. */
+  class FittedRun
+  {
+  public:
+    FittedRun(const cases::Scene &scene, const cases::EffectSet &effects,
+              const cases::Resolution &resolution);
+
+    cases::Cost run(cases::Observer &observer);
+
+  private:
+    cases::RunDescription description() const;
+    IntegrationOptions integration_options() const;
+    double clock_step() const;
+    void check_temperatures(long step, double time,
+                            const dealii::Vector<double> &u) const;
+    void report(cases::Observer &observer, long step, double time,
+                const dealii::Vector<double> &u, bool always);
+    void observe(cases::Observer &observer, long step, double time,
+                 const dealii::Vector<double> &u);
+    std::vector<cases::EffectCost> effect_costs(const IntegrationCost &cost) const;
+
+    const cases::Scene &scene;
+    const cases::EffectSet &effects;
+    const cases::Resolution &resolution;
+    cases::Stopwatch watch;
+    RunOptions options;
+    cases::TemperatureBounds bounds;
+    std::unique_ptr<FittedProblem> problem;
+    std::unique_ptr<Sites> sites;
+    dealii::Vector<double> initial_state;
+    double initial_heat = 0;
+  };
+} // namespace meltfront::reference_fem::fitted
+
+#endif

@@ -1,0 +1,231 @@
+#include <reference_fem/fitted/setup.h>
+
+#include <cases/error.h>
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meltfront::reference_fem::fitted
+{
+  namespace
+  {
+    using cases::BoundaryKind;
+    using cases::DomainShape;
+    using cases::Effect;
+    using cases::Refusal;
+    using cases::Side;
+    using cases::Symmetry;
+
+    constexpr int fewest_cells_around = 8;
+
+    /** Points of a ray at which a front is looked for. */
+    constexpr int samples_on_ray = 256;
+
+    /** The first and the last of them, off the walls by this share of the ray: a wall may
+     * be at the melting temperature. */
+    constexpr double next_to_wall = 1e-9;
+
+    int cells_across(const cases::Domain &domain, int d, int n)
+    {
+      const double width = domain.upper[d] - domain.lower[d];
+      return std::max(1, static_cast<int>(std::lround(n * width / domain.side())));
+    }
+
+    /** Walls beside the rays are insulated or periodic. */
+    bool is_periodic(const cases::Scene &scene, Side lower, Side upper)
+    {
+      bool periodic = true;
+      for(const Side side : {lower, upper})
+      {
+        const BoundaryKind kind = scene.boundary(side).kind;
+        if(kind != BoundaryKind::insulated && kind != BoundaryKind::periodic)
+          throw Refusal(fmt::format("fem-fitted has rays along x and takes walls beside "
+                                    "them that are insulated or periodic; {} is neither",
+                                    to_string(side)));
+        periodic = periodic && kind == BoundaryKind::periodic;
+      }
+      return periodic;
+    }
+
+    FrontSurface surface_of(const cases::Scene &scene, const RunOptions &options)
+    {
+      using std::numbers::pi;
+      const cases::Domain &domain = scene.domain;
+      const int n = options.cells;
+      if(options.dimension == 1)
+        return scene.symmetry == Symmetry::cylindrical
+                   ? FrontSurface::point(options.degree, 2 * pi, 1)
+               : scene.symmetry == Symmetry::spherical
+                   ? FrontSurface::point(options.degree, 4 * pi, 2)
+                   : FrontSurface::point(options.degree, 1, 0);
+      if(domain.round())
+        return options.dimension == 2
+                   ? FrontSurface::circle(options.degree,
+                                          std::max(fewest_cells_around, n))
+                   : FrontSurface::sphere(options.degree, std::max(1, n / 4));
+      const bool periodic_y = is_periodic(scene, Side::y_min, Side::y_max);
+      if(options.dimension == 2)
+        return FrontSurface::line(options.degree, cells_across(domain, 1, n),
+                                  domain.lower[1], domain.upper[1], periodic_y);
+      return FrontSurface::rectangle(
+          options.degree, {cells_across(domain, 1, n), cells_across(domain, 2, n)},
+          domain.lower, domain.upper,
+          {periodic_y, is_periodic(scene, Side::z_min, Side::z_max)});
+    }
+  } // namespace
+
+  RayScene rays_of(const cases::Scene &scene, const RunOptions &options)
+  {
+    const cases::Domain &domain = scene.domain;
+    RayScene result{surface_of(scene, options)};
+    result.inner = domain.shape == DomainShape::shell  ? domain.inner_radius
+                   : domain.shape == DomainShape::ball ? 0
+                                                       : domain.lower[0];
+    result.outer = domain.round() ? domain.radius : domain.upper[0];
+    const double share = (result.outer - result.inner) / domain.side();
+    result.cells = std::max(2, static_cast<int>(std::lround(options.cells * share)));
+    return result;
+  }
+
+  RayMesh two_phase_mesh(const RayScene &rays, double grading)
+  {
+    const int inside = rays.cells / 2;
+    return RayMesh(rays.surface, rays.inner, rays.outer,
+                   graded_shares(inside, grading, false),
+                   graded_shares(rays.cells - inside, grading, true));
+  }
+
+  namespace
+  {
+    void set_walls(const cases::Scene &scene, Physics &physics)
+    {
+      if(scene.domain.shape != DomainShape::ball)
+        physics.inner_wall
+            = scene.boundary(scene.domain.round() ? Side::inner : Side::x_min);
+      physics.outer_wall
+          = scene.boundary(scene.domain.round() ? Side::outer : Side::x_max);
+      for(const cases::Boundary *wall : {&physics.inner_wall, &physics.outer_wall})
+        if(wall->kind == BoundaryKind::periodic)
+          throw Refusal("fem-fitted follows rays along x from wall to wall, which cannot "
+                        "be periodic");
+    }
+
+    void set_source(const cases::Scene &scene, Physics &physics)
+    {
+      if(scene.sources.size() != 1 || scene.domain.shape != DomainShape::ball
+         || scene.sources[0].position != cases::Position{})
+        throw Refusal("fem-fitted takes one source, at the centre of a ball");
+      physics.power = scene.sources[0].power;
+    }
+
+    double temperature_scale(const cases::Scene &scene)
+    {
+      const cases::TemperatureBounds bounds = cases::temperature_bounds(scene);
+      double scale = 0;
+      for(const double bound : {bounds.lower, bounds.upper})
+        if(std::isfinite(bound))
+          scale = std::max(scale, std::abs(bound - scene.material.melting_temperature));
+      return scale > 0 ? scale
+                       : scene.material.latent_heat
+                             / scene.material.solid.specific_heat_capacity;
+    }
+
+    Clock clock_of(const cases::Scene &scene, const std::string &word)
+    {
+      const double origin
+          = scene.initial.exact ? scene.initial.exact->start_time() : scene.start_time;
+      const bool similar = scene.initial.exact && scene.start_time > origin;
+      return {word == "sqrt(t)" || (word == "auto" && similar),
+              std::min(origin, scene.start_time)};
+    }
+  } // namespace
+
+  Physics physics_of(const cases::Scene &scene, const cases::EffectSet &effects,
+                     const RunOptions &options, bool solid_inside)
+  {
+    const cases::Material &material = scene.material;
+    if(!(material.latent_heat > 0))
+      throw Refusal("fem-fitted follows a front that takes latent heat to move; the "
+                    "latent heat of this scene is zero");
+    Physics physics;
+    const Phase solid{true, material.solid.conductivity,
+                      material.solid.volumetric_heat_capacity(), 0};
+    const Phase liquid{false, material.liquid.conductivity,
+                       material.liquid.volumetric_heat_capacity(),
+                       material.liquid.density * material.latent_heat};
+    physics.phases = {solid_inside ? solid : liquid, solid_inside ? liquid : solid};
+    physics.melting_temperature = material.melting_temperature;
+    physics.temperature_scale = temperature_scale(scene);
+    physics.clock = clock_of(scene, options.clock);
+    set_walls(scene, physics);
+    if(effects.contains(Effect::heat_sources))
+      set_source(scene, physics);
+    if(effects.contains(Effect::liquid_motion))
+    {
+      if(options.dimension > 1 || !solid_inside)
+        throw Refusal("fem-fitted moves liquid only in one dimension and away from solid "
+                      "at the origin or at x_min");
+      physics.displacement = 1 - material.solid.density / material.liquid.density;
+    }
+    return physics;
+  }
+
+  InitialFront initial_front(const cases::Scene &scene, const RayScene &rays)
+  {
+    const double time = scene.start_time;
+    const cases::InitialState &initial = scene.initial;
+    // Negative in solid.
+    const auto level = [&](const cases::Position &p)
+    {
+      if(initial.front)
+        return (*initial.front)(p, time);
+      if(initial.exact)
+        return (initial.exact->solid_at_origin() ? 1 : -1)
+               * initial.exact->signed_distance(p, time);
+      return initial.temperature(p, time) - scene.material.melting_temperature;
+    };
+    InitialFront result;
+    const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
+    for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+    {
+      const auto on_ray = [&](double r) { return level(geometry.position(ray, r)); };
+      const auto sample = [&](int i)
+      {
+        const double share = std::clamp(static_cast<double>(i) / samples_on_ray,
+                                        next_to_wall, 1 - next_to_wall);
+        return rays.inner + (rays.outer - rays.inner) * share;
+      };
+      double found = -1;
+      int crossings = 0;
+      double at_lower = on_ray(sample(0));
+      for(int i = 1; i <= samples_on_ray; ++i)
+      {
+        const double at_upper = on_ray(sample(i));
+        if((at_lower < 0) != (at_upper < 0))
+        {
+          ++crossings;
+          result.solid_inside = at_lower < 0;
+          std::uintmax_t iterations = 200;
+          const auto bracket = boost::math::tools::toms748_solve(
+              on_ray, sample(i - 1), sample(i), at_lower, at_upper,
+              boost::math::tools::eps_tolerance<double>(52), iterations);
+          found = 0.5 * (bracket.first + bracket.second);
+        }
+        at_lower = at_upper;
+      }
+      if(crossings > 1)
+        throw Refusal("fem-fitted follows one front that each ray from wall to wall, or "
+                      "from the centre, crosses once; this one is crossed again");
+      if(crossings == 1)
+        result.coordinate.push_back(found);
+    }
+    if(!result.coordinate.empty() && result.coordinate.size() < rays.surface.n_rays())
+      throw Refusal("fem-fitted follows one front that each ray from wall to wall, or "
+                    "from the centre, crosses once; some rays do not cross it");
+    return result;
+  }
+} // namespace meltfront::reference_fem::fitted

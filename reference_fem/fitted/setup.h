@@ -1,0 +1,48 @@
+#ifndef meltfront_reference_fem_fitted_setup_h
+#define meltfront_reference_fem_fitted_setup_h
+
+#include <cases/effects.h>
+#include <cases/scene.h>
+#include <reference_fem/fitted/options.h>
+#include <reference_fem/fitted/physics.h>
+#include <reference_fem/fitted/ray_mesh.h>
+
+#include <vector>
+
+namespace meltfront::reference_fem::fitted
+{
+  /** The rays of a scene and where they end. */
+  struct RayScene
+  {
+    FrontSurface surface;
+    double inner = 0, outer = 1; ///< r at the ends (m)
+    int cells = 2;               ///< along a ray
+  };
+
+  /** @throws Refusal for walls or sources that rays cannot have. */
+  RayScene rays_of(const cases::Scene &scene, const RunOptions &options);
+
+  /** Equal cells for both phases, drawn to the front by the option `grading`. */
+  RayMesh two_phase_mesh(const RayScene &rays, double grading);
+
+  /** Phases, walls, source and clock of a scene.
+   * @throws Refusal for what the method cannot treat. */
+  Physics physics_of(const cases::Scene &scene, const cases::EffectSet &effects,
+                     const RunOptions &options, bool solid_inside);
+
+  /** Where the front starts. */
+  struct InitialFront
+  {
+    bool solid_inside = true;
+    std::vector<double> coordinate; ///< by ray (m); empty: the scene starts in one phase
+  };
+
+  /**
+   * The root on each ray of the scene's initial front, of its exact solution's, or of
+   * T - T_m.
+   * @throws Refusal where a ray crosses the front more than once, or only some rays do.
+   */
+  InitialFront initial_front(const cases::Scene &scene, const RayScene &rays);
+} // namespace meltfront::reference_fem::fitted
+
+#endif
