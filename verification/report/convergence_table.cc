@@ -30,7 +30,7 @@ namespace meltfront::verification
         {"front_points_rms", "tracked points, RMS", "m", true, false, when_asked, 2},
         {"front_points_max", "tracked points, maximum", "m", true, false, when_asked, 2},
         {"roundness_end", "roundness, end", "m", true, false, when_asked, 2},
-        {"solid_volume_end", "solid, end", "volume", false, false, without_exact, 2},
+        {"solid_volume_end", "solid, end", "volume", false, false, without_exact, 2, 8},
         {"solid_volume_end_error", "solid's error, end", "volume", true, false, always,
          2},
         {"solid_volume_end_bars", "the same in error bars", "", false, false, always, 2},
@@ -46,7 +46,7 @@ namespace meltfront::verification
          2},
         {"solid_volume_backsteps", "solid's backsteps", "relative", false, false,
          without_exact, 2},
-        {"front_mode_end", "amplitude, end", "m", false, false, always, 2},
+        {"front_mode_end", "amplitude, end", "m", false, false, always, 2, 8},
         {"front_mode_end_error", "amplitude's error, end", "m", true, false, always, 2},
         {"temperature_l2", "temperature, L2", "relative", true},
         {"temperature_max", "temperature, maximum", "relative", true},
@@ -175,7 +175,7 @@ namespace meltfront::verification
       if(column.quantity.whole && std::isfinite(value))
         cell.content = NumberText{grouped(std::lround(value)), {}};
       else
-        cell.content = number_text(value, 3, column.notation);
+        cell.content = number_text(value, column.quantity.digits, column.notation);
       cell.best = value == column.best;
       return cell;
     }

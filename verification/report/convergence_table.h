@@ -29,6 +29,7 @@ namespace meltfront::verification
     bool whole = false; ///< a count
     Shown shown = Shown::always;
     int csv_rank = 0; ///< columns of the CSV stand in the order of their ranks
+    int digits = 3;   ///< significant, in the table
   };
 
   /** The columns of convergence tables in their order, with units of SI. */

@@ -146,3 +146,80 @@ TEST(App, CompareMeasuresEveryMethodAndItsReportCanBeMadeAgain)
   EXPECT_EQ(meltfront("report " + directory.path.string()).status, outcome.status);
   EXPECT_TRUE(fs::exists(directory.path / "report.html"));
 }
+
+namespace
+{
+  /** A slab that freezes, of which no exact solution is stated, and a matrix of it. */
+  void write_referenced_case(const fs::path &directory, const std::string &criterion)
+  {
+    std::ofstream(directory / "slab.prm") << R"(set title = A slab without a solution
+set units = normalised
+subsection Scene
+  set symmetry = planar
+  set end time = 0.1
+  subsection Domain
+    set shape = slab
+    set length = 1
+  end
+  subsection Material
+    set latent heat = 1
+    set melting temperature = 0
+    subsection Solid
+      set conductivity = 1
+      set specific heat capacity = 1
+      set density = 1
+    end
+  end
+  subsection Initial state
+    set temperature = 0.2
+  end
+  subsection Walls
+    subsection x_min
+      set kind = fixed temperature
+      set temperature = -1
+    end
+  end
+end
+subsection Reference
+  set method = fem-enthalpy
+  set n = 64
+end
+subsection Measure
+  set marks = 0.033, 0.05
+end
+subsection Acceptance
+  set criterion 1 = )" << criterion << "\nend\n";
+    std::ofstream(directory / "matrix.prm")
+        << "set title = Trial\nsubsection Block 1\n  set cases = "
+        << (directory / "slab.prm").string()
+        << "\n  set methods = sph, fem-enthalpy\n  set resolutions = 16, 32, 64\n"
+           "  set options = sph.step_factor = 0.4; sph.dimension = 1\nend\n";
+  }
+} // namespace
+
+TEST(App, ARunCanStandInForAnExactSolution)
+{
+  const TemporaryDirectory directory;
+  write_referenced_case(
+      directory.path,
+      "sph[ step_factor = 0.4, dimension = 1 ]: solid_volume_2_error at n=64 <= 3e-3");
+  const Outcome outcome = meltfront("verify " + (directory.path / "matrix.prm").string()
+                                    + " --out " + (directory.path / "out").string());
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+  expect_text(outcome, "PASS  slab: sph[ step_factor = 0.4, dimension = 1 ]");
+  expect_text(outcome, "the reference");
+  for(const char *file : {"out/report.html", "out/tables/slab-reference.csv"})
+    EXPECT_TRUE(fs::exists(directory.path / file)) << file;
+}
+
+TEST(App, NamesTheNearestOptionInALabelOfACriterion)
+{
+  const TemporaryDirectory directory;
+  write_referenced_case(directory.path,
+                        "fem-enthalpy[step=5]: worst budget_defect <= 1e-12");
+  const Outcome outcome = meltfront("verify " + (directory.path / "matrix.prm").string()
+                                    + " --out " + (directory.path / "out").string());
+  EXPECT_EQ(outcome.status, 2);
+  expect_text(outcome, "'steps'");
+  EXPECT_FALSE(fs::exists(directory.path / "out/runs"));
+}
