@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <particles/sph/sph.h>
+#include <reference_fem/cut/cut.h>
 #include <reference_fem/enthalpy/enthalpy.h>
 #include <reference_fem/fitted/fitted.h>
 #include <verification/app/methods.h>
@@ -17,6 +18,7 @@ namespace meltfront::verification
       list.push_back(particles::make_sph_2005());
       list.push_back(reference_fem::make_fem_enthalpy());
       list.push_back(reference_fem::make_fem_fitted());
+      list.push_back(reference_fem::make_fem_cut());
       return list;
     }();
     return registry;

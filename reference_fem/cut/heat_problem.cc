@@ -1,0 +1,313 @@
+#include <reference_fem/cut/heat_problem.h>
+
+#include <reference_fem/cut/quadrature.h>
+
+#include <algorithm>
+
+namespace meltfront::reference_fem::cut
+{
+  namespace
+  {
+    /** Of the spacing: no quadrature point lies nearer to a source than this. */
+    constexpr double smallest_sink_distance = 0.02;
+
+    /** Of the spacing: by which a temperature is differentiated. */
+    constexpr double difference = 1e-4;
+
+    /** Of the spacing: below it the projection of the start is Ritz's, which gives the
+     * heat flow, above it that in L2, which keeps the heat. */
+    constexpr double projection_length = 1;
+
+    /** Of the spacing: beside the front, where a temperature given is not trusted to have
+     * the front's phases. */
+    constexpr double kink_layer = 0.05;
+
+    std::size_t index(Phase phase)
+    {
+      return static_cast<std::size_t>(phase);
+    }
+  } // namespace
+
+  TimeDerivative time_derivative(double step, double step_before)
+  {
+    if(step_before == 0)
+      return {1 / step, -1 / step, 0};
+    const double ratio = step / step_before;
+    return {(1 + 2 * ratio) / (1 + ratio) / step, -(1 + ratio) / step,
+            ratio * ratio / (1 + ratio) / step};
+  }
+
+  HeatProblem::HeatProblem(const cases::Scene &scene, const BackgroundMesh &mesh,
+                           const Stabilization &stabilization, double smoothing)
+    : sinks(scene, smallest_sink_distance * mesh.spacing)
+    , scene(scene)
+    , mesh(mesh)
+    , stabilization(stabilization)
+    , smoothing(smoothing)
+  {
+  }
+
+  const cases::PhaseProperties &HeatProblem::properties(Phase phase) const
+  {
+    return phase == Phase::solid ? scene.material.solid : scene.material.liquid;
+  }
+
+  void HeatProblem::set_front(State &state, Values level_set) const
+  {
+    keep_off_nodes(mesh, level_set);
+    state.geometry = std::make_shared<CutGeometry>(mesh, level_set);
+    redistance(mesh, *state.geometry, level_set);
+    state.level_set = std::move(level_set);
+  }
+
+  PhaseEquation HeatProblem::conditions(Phase phase, double time) const
+  {
+    const bool solid = phase == Phase::solid;
+    const double melting = scene.material.melting_temperature;
+    const double conductivity = properties(phase).conductivity;
+    PhaseEquation result;
+    result.front_value = [this, solid, melting, time](const Point &point)
+    { return solid ? melting - sinks.value(point, time) : melting; };
+    result.wall
+        = [this, solid, conductivity, time](const WallPoint &wall) -> WallCondition
+    {
+      const cases::Boundary &boundary = scene.boundary(wall.side);
+      const cases::Position place = position(wall.position);
+      if(boundary.kind == cases::BoundaryKind::fixed_temperature)
+        return {true, boundary.value(place, time)
+                          - (solid ? sinks.value(wall.position, time) : 0)};
+      const double flux
+          = boundary.kind == cases::BoundaryKind::flux ? boundary.value(place, time) : 0;
+      return {false, flux
+                         - (solid ? conductivity
+                                        * (sinks.gradient(wall.position, time)
+                                           * wall.point.normal)
+                                  : 0)};
+    };
+    return result;
+  }
+
+  /** What stands for a phase that is absent. */
+  Values HeatProblem::values_on_front(const PhaseEquation &equation) const
+  {
+    Values result;
+    for(const Point &point : mesh.positions)
+      result.push_back(equation.front_value(point));
+    return result;
+  }
+
+  /**
+   * Gradient of a function with a kink on the front, by differences. Near the front, and
+   * beyond it, it is continued linearly from the inside of the phase: the discrete front
+   * is not exactly where the kink is.
+   */
+  Gradient HeatProblem::gradient_beside_front(const PointFunction &function, Phase phase,
+                                              const State &state, const Cell &cell,
+                                              const Point &unit) const
+  {
+    const double shift = difference * mesh.spacing, layer = kink_layer * mesh.spacing;
+    const Point here = cell.real(unit);
+    const auto gradient = [&](const Point &point)
+    {
+      Gradient result;
+      for(int d = 0; d < dim; ++d)
+      {
+        Gradient step;
+        step[d] = shift;
+        result[d] = (function(point + step) - function(point - step)) / (2 * shift);
+      }
+      return result;
+    };
+    const ValueAndGradient front = evaluate(mesh, cell, state.level_set, unit);
+    const double slope = front.gradient.norm();
+    if(!(slope > 0))
+      return gradient(here);
+    const double inward = phase == Phase::solid ? -1 : 1;
+    const double depth = inward * front.value / slope;
+    if(depth >= layer)
+      return gradient(here);
+    const Gradient into = inward / slope * front.gradient;
+    const Gradient near = gradient(here + (layer - depth) * into);
+    const Gradient far = gradient(here + (2 * layer - depth) * into);
+    return near + (depth - layer) / layer * (far - near);
+  }
+
+  PhaseEquation HeatProblem::projection(Phase phase, const State &state,
+                                        const PointFunction &temperature) const
+  {
+    const double conductivity = properties(phase).conductivity;
+    const double length = projection_length * mesh.spacing;
+    const auto smooth_part = [this, phase, time = state.time,
+                              &temperature](const Point &point) {
+      return temperature(point) - (phase == Phase::solid ? sinks.value(point, time) : 0);
+    };
+    PhaseEquation result = conditions(phase, state.time);
+    result.wall = {};
+    result.conductivity = conductivity;
+    result.mass = conductivity / (length * length);
+    result.source = [smooth_part, mass = result.mass](const Point &point)
+    { return mass * smooth_part(point); };
+    result.divergence_source = [this, smooth_part, conductivity, phase,
+                                &state](const Cell &cell, const Point &unit) {
+      return conductivity * gradient_beside_front(smooth_part, phase, state, cell, unit);
+    };
+    return result;
+  }
+
+  void HeatProblem::project(State &state, const PointFunction &temperature)
+  {
+    std::array<std::vector<double>, 2> flux;
+    for(const Phase phase : phases)
+    {
+      const PhaseEquation equation = projection(phase, state, temperature);
+      Values &unknown = state.unknown[index(phase)];
+      unknown = values_on_front(equation);
+      if(!state.geometry->has(phase))
+        continue;
+      PhaseProblem problem(mesh, *state.geometry, state.level_set, phase, stabilization);
+      unknown = problem.solve(equation);
+      flux[index(phase)] = problem.front_flux(equation, unknown);
+      unknowns += problem.unknowns;
+    }
+    find_speed(state, flux);
+  }
+
+  /** Stefan's condition, rho L V = heat flux out of the front into both phases. */
+  void HeatProblem::find_speed(State &state,
+                               const std::array<std::vector<double>, 2> &flux) const
+  {
+    const double latent = scene.material.solid.density * scene.material.latent_heat;
+    std::vector<double> speed;
+    for(const CutCell &cut : state.geometry->cut_cells)
+      for(const SurfacePoint &point : cut.front)
+      {
+        const Gradient singular
+            = sinks.gradient(mesh.cells[cut.cell].real(point.unit), state.time);
+        double heat = scene.material.solid.conductivity * (singular * point.normal);
+        for(const std::vector<double> &phase_flux : flux)
+          if(!phase_flux.empty())
+            heat += phase_flux[speed.size()];
+        speed.push_back(heat / latent);
+      }
+    state.speed = extend_speed(mesh, *state.geometry, state.level_set, speed, smoothing);
+  }
+
+  PointFunction HeatProblem::change_of_sinks(const TimeDerivative &derivative,
+                                             const State &state, const State &before,
+                                             const State *older) const
+  {
+    const double capacity = scene.material.solid.volumetric_heat_capacity();
+    const double now = state.time, then = before.time, first = older ? older->time : 0;
+    return [this, capacity, derivative, now, then, first](const Point &point)
+    {
+      return -capacity
+             * (derivative.now * sinks.value(point, now)
+                + derivative.before * sinks.value(point, then)
+                + (derivative.older != 0 ? derivative.older * sinks.value(point, first)
+                                         : 0));
+    };
+  }
+
+  PhaseEquation HeatProblem::equation(Phase phase, const State &state,
+                                      const State &before, const State *older) const
+  {
+    const TimeDerivative derivative = time_derivative(
+        state.time - before.time, older ? before.time - older->time : 0);
+    const double capacity = properties(phase).volumetric_heat_capacity();
+    PhaseEquation result = conditions(phase, state.time);
+    result.mass = capacity * derivative.now;
+    result.conductivity = properties(phase).conductivity;
+    result.load = before.unknown[index(phase)];
+    for(std::size_t i = 0; i < result.load.size(); ++i)
+      result.load[i]
+          = -capacity
+            * (derivative.before * result.load[i]
+               + (older ? derivative.older * older->unknown[index(phase)][i] : 0));
+    if(phase == Phase::solid && sinks.varies())
+      result.source = change_of_sinks(derivative, state, before, older);
+    return result;
+  }
+
+  void HeatProblem::solve(State &state, const State &before, const State *older)
+  {
+    const CutGeometry &geometry = *state.geometry;
+    state.wall_power = sink_wall_power(state);
+    unknowns = 0;
+    std::array<std::vector<double>, 2> flux;
+    for(const Phase phase : phases)
+    {
+      const PhaseEquation equation = this->equation(phase, state, before, older);
+      Values &unknown = state.unknown[index(phase)];
+      unknown = values_on_front(equation);
+      if(!geometry.has(phase))
+        continue;
+      PhaseProblem problem(mesh, geometry, state.level_set, phase, stabilization);
+      unknown = problem.solve(equation);
+      flux[index(phase)] = problem.front_flux(equation, unknown);
+      state.wall_power += problem.wall_heat(equation, unknown);
+      unknowns += problem.unknowns;
+      entries += problem.entries;
+    }
+    find_speed(state, flux);
+    ++solves;
+  }
+
+  double HeatProblem::sink_wall_power(const State &state) const
+  {
+    double sum = 0;
+    for(const WallPoint &wall : state.geometry->walls)
+      if(wall.phase == Phase::solid)
+        sum += wall.point.weight * scene.material.solid.conductivity
+               * (sinks.gradient(wall.position, state.time) * wall.point.normal);
+    return sum;
+  }
+
+  double HeatProblem::temperature(const State &state, Phase phase, unsigned int number,
+                                  const Point &unit) const
+  {
+    const Cell &cell = mesh.cells[number];
+    const double value = field_value(mesh, cell, state.unknown[index(phase)], unit);
+    return phase == Phase::solid ? value + sinks.value(cell.real(unit), state.time)
+                                 : value;
+  }
+
+  double HeatProblem::sensible_heat(const State &state) const
+  {
+    double sum = 0;
+    const double melting = scene.material.melting_temperature;
+    for(const Phase phase : phases)
+    {
+      double heat = 0;
+      const auto add = [&](unsigned int cell, const std::vector<VolumePoint> &points)
+      {
+        for(const VolumePoint &point : points)
+          heat += point.weight * (temperature(state, phase, cell, point.unit) - melting);
+      };
+      for(unsigned int cell = 0; cell < mesh.cells.size(); ++cell)
+        if(CutGeometry::is(state.geometry->location[cell], phase)
+           && mesh.place[cell] == Place::inside)
+          add(cell, whole_cell(mesh.cells[cell]));
+      state.geometry->visit_parts(mesh, phase, add);
+      sum += properties(phase).volumetric_heat_capacity() * heat;
+    }
+    return sum;
+  }
+
+  double HeatProblem::latent_heat(const State &state) const
+  {
+    return scene.material.solid.density * scene.material.latent_heat
+           * state.geometry->area(Phase::liquid);
+  }
+
+  bool HeatProblem::in_solid(const State &state, const Point &point) const
+  {
+    for(std::size_t number = 0; number < mesh.cells.size(); ++number)
+    {
+      const Point unit = mesh.cells[number].unit(point);
+      if(unit[0] >= 0 && unit[0] <= 1 && unit[1] >= 0 && unit[1] <= 1
+         && state.geometry->location[number] == Location::solid)
+        return true;
+    }
+    return false;
+  }
+} // namespace meltfront::reference_fem::cut

@@ -1,0 +1,96 @@
+#ifndef meltfront_reference_fem_cut_heat_problem_h
+#define meltfront_reference_fem_cut_heat_problem_h
+
+#include <reference_fem/cut/front_speed.h>
+#include <reference_fem/cut/phase_problem.h>
+#include <reference_fem/cut/sink_field.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace meltfront::reference_fem::cut
+{
+  /**
+   * A front and the temperatures on both sides of it at a time. In the solid the unknown
+   * is T - S (SinkField), in the liquid T; both reach beyond their phase.
+   */
+  struct State
+  {
+    double time = 0;
+    Values level_set; ///< signed distance, negative in the solid (m)
+    std::shared_ptr<const CutGeometry> geometry;
+    std::array<Values, 2> unknown; ///< by Phase
+    SpeedField speed;
+    double wall_power = 0; ///< heat in through the walls (W/m)
+  };
+
+  /** Factors of a time derivative: d/dt u = now u + before u_before + older u_older. */
+  struct TimeDerivative
+  {
+    double now, before, older;
+  };
+
+  /** BDF2 for steps of any ratio; backward Euler without a step before. */
+  TimeDerivative time_derivative(double step, double step_before);
+
+  /** Heat conduction on both sides of a given front, and the speed that follows. */
+  class HeatProblem
+  {
+  public:
+    HeatProblem(const cases::Scene &scene, const BackgroundMesh &mesh,
+                const Stabilization &stabilization, double smoothing);
+
+    /** Geometry of a front; the level set becomes a distance beside it. */
+    void set_front(State &state, Values level_set) const;
+
+    /**
+     * Temperatures of a function, as their Ritz projection: it has the accuracy of the
+     * discretization also in the heat that flows to the front, and so gives the speed.
+     */
+    void project(State &state, const PointFunction &temperature);
+
+    /** Temperatures, speed and wall power at state.time for the front of the state. */
+    void solve(State &state, const State &before, const State *older);
+
+    /** Temperature of a phase at a point of a cell. */
+    double temperature(const State &state, Phase phase, unsigned int cell,
+                       const Point &unit) const;
+
+    /** Sensible heat, integral of rho c (T - T_m) (J/m). */
+    double sensible_heat(const State &state) const;
+
+    /** Latent heat of the liquid (J/m). */
+    double latent_heat(const State &state) const;
+
+    /** Whether a point lies in the solid and not at its front. */
+    bool in_solid(const State &state, const Point &point) const;
+
+    SinkField sinks;
+    long solves = 0, unknowns = 0;
+    long entries = 0; ///< of matrices, over all solves
+
+  private:
+    const cases::PhaseProperties &properties(Phase phase) const;
+    Values values_on_front(const PhaseEquation &equation) const;
+    PhaseEquation projection(Phase phase, const State &state,
+                             const PointFunction &temperature) const;
+    Gradient gradient_beside_front(const PointFunction &function, Phase phase,
+                                   const State &state, const Cell &cell,
+                                   const Point &unit) const;
+    void find_speed(State &state, const std::array<std::vector<double>, 2> &flux) const;
+    PhaseEquation conditions(Phase phase, double time) const;
+    PhaseEquation equation(Phase phase, const State &state, const State &before,
+                           const State *older) const;
+    PointFunction change_of_sinks(const TimeDerivative &derivative, const State &state,
+                                  const State &before, const State *older) const;
+    double sink_wall_power(const State &state) const;
+
+    const cases::Scene &scene;
+    const BackgroundMesh &mesh;
+    const Stabilization &stabilization;
+    double smoothing;
+  };
+} // namespace meltfront::reference_fem::cut
+
+#endif

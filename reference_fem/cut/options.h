@@ -1,0 +1,30 @@
+#ifndef meltfront_reference_fem_cut_options_h
+#define meltfront_reference_fem_cut_options_h
+
+#include <cases/method.h>
+#include <reference_fem/cut/phase_problem.h>
+
+#include <vector>
+
+namespace meltfront::reference_fem::cut
+{
+  /** The options of `fem-cut`. */
+  std::vector<cases::OptionDeclaration> cut_options();
+
+  /** Their values. */
+  struct RunOptions
+  {
+    explicit RunOptions(const cases::Options &options);
+
+    int degree, level_set_degree;
+    int refinement;
+    double step_factor;
+    long fewest_steps;
+    int solves;
+    double smoothing;
+    double seed_cells;
+    Stabilization stabilization;
+  };
+} // namespace meltfront::reference_fem::cut
+
+#endif

@@ -1,0 +1,266 @@
+#include <reference_fem/cut/run.h>
+
+#include <cases/error.h>
+#include <reference_fem/cut/start.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace meltfront::reference_fem::cut
+{
+  namespace
+  {
+    constexpr const char *method_name = "fem-cut";
+
+    /** The first step, of the one that accuracy allows: backward Euler, whose error is of
+     * first order, makes it. */
+    constexpr double first_step_share = 1. / 32;
+
+    /** BDF2 is stable for steps that grow by less than 1 + sqrt(2). */
+    constexpr double largest_growth = 1.6;
+
+    /** No node of the level set moves by more than this in a step, in cells: beyond it no
+     * temperatures would be at hand. */
+    constexpr double farthest_move = 0.9;
+
+    /** A step that moves the front farther is halved so many times before it is cut. */
+    constexpr int most_halvings = 8;
+
+    /** Both phases are to be this deep at the start, in cells. */
+    constexpr double least_depth = 1.4;
+
+    /** Share of the span of the bounds by which temperatures may pass them: neither the
+     * elements nor BDF2 obey the maximum principle. */
+    constexpr double bounds_slack = 0.02;
+  } // namespace
+
+  CutRun::CutRun(const cases::Scene &scene, const cases::EffectSet &effects,
+                 const cases::Resolution &resolution)
+    : scene(scene)
+    , effects(effects)
+    , resolution(resolution)
+    , options(resolution.options)
+    , mesh(scene, resolution.n, options.refinement, options.degree,
+           options.level_set_degree)
+    , heat(scene, mesh, options.stabilization, options.smoothing)
+    , bounds(cases::temperature_bounds(scene))
+  {
+    for(const cases::Side side : scene.sides())
+      if(scene.boundary(side).kind == cases::BoundaryKind::periodic)
+        throw cases::Refusal("fem-cut does not simulate periodic walls");
+    if(!(scene.material.latent_heat > 0))
+      throw cases::Refusal("fem-cut follows a front: it needs a latent heat above zero");
+  }
+
+  cases::Cost CutRun::run(cases::Observer &observer)
+  {
+    start();
+    cases::Cost cost;
+    const auto setup = watch.elapsed();
+    watch.restart();
+    watch.without(
+        [&]
+        {
+          observer.begin(description());
+          observe_initial(observer);
+        });
+    if(state.time > scene.start_time)
+      report(observer, false);
+    while(state.time < scene.end_time)
+    {
+      step();
+      report(observer, state.time == scene.end_time);
+    }
+    const auto stepping = watch.elapsed();
+    cost.setup_wall = setup.wall;
+    cost.setup_cpu = setup.cpu;
+    cost.stepping_wall = stepping.wall;
+    cost.stepping_cpu = stepping.cpu;
+    cost.steps = step_number;
+    cost.unknowns = heat.unknowns;
+    cost.work = heat.entries;
+    cost.solver_iterations = heat.solves;
+    cost.most_iterations = options.solves;
+    cost.capped_steps = capped_steps;
+    cost.effects = effect_costs();
+    return cost;
+  }
+
+  void CutRun::start()
+  {
+    const Start found = find_start(scene, mesh.spacing, options.seed_cells);
+    start_in_words = found.description;
+    state.time = found.time;
+    heat.set_front(state, signed_distance_to_zeros(mesh, found.level_set));
+    require_resolved();
+    heat.project(state, found.temperature);
+    step_number = found.time > scene.start_time ? 1 : 0;
+
+    check(state);
+  }
+
+  void CutRun::require_resolved() const
+  {
+    double lowest = 0, highest = 0;
+    for(std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+      if(state.geometry->location[cell] != Location::outside)
+        for(const unsigned int dof : mesh.cells[cell].level_set_dofs)
+        {
+          lowest = std::min(lowest, state.level_set[dof]);
+          highest = std::max(highest, state.level_set[dof]);
+        }
+    const double least = least_depth * mesh.spacing;
+    if(!(-lowest >= least && highest >= least))
+      throw cases::Refusal(fmt::format(
+          "fem-cut does not resolve the front at the start: solid is {:.3g} m deep and "
+          "liquid {:.3g} m, with cells of {:.3g} m; {} cells are needed",
+          -lowest, highest, mesh.spacing, least_depth));
+  }
+
+  double CutRun::next_step() const
+  {
+    const double longest
+        = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
+    double step = longest;
+    if(state.speed.largest > 0)
+      step = std::min(step, options.step_factor * mesh.spacing / state.speed.largest);
+    step = fresh ? first_step_share * step : std::min(step, largest_growth * last_step);
+    const double rest = scene.end_time - state.time;
+    if(step >= rest * (1 - 1e-10))
+      return rest;
+    return step > rest / 2 ? rest / 2 : step;
+  }
+
+  /** The level set after a displacement along the normals, at nodes in the band. */
+  Values CutRun::displaced(const Values &displacement, const std::vector<char> &band,
+                           bool &limited) const
+  {
+    const double farthest = farthest_move * mesh.spacing;
+    Values result = state.level_set;
+    for(std::size_t i = 0; i < result.size(); ++i)
+    {
+      if(!band[i])
+        continue;
+      limited = limited || !(std::abs(displacement[i]) <= farthest);
+      result[i] -= std::clamp(displacement[i], -farthest, farthest);
+    }
+    mesh.distribute_level_set(result);
+    return result;
+  }
+
+  /** Adams-Bashforth of second order, where a speed before is at hand. */
+  Values CutRun::predicted_front(double step, bool &limited) const
+  {
+    Values displacement = state.speed.values;
+    for(std::size_t i = 0; i < displacement.size(); ++i)
+    {
+      if(older && older->speed.band[i])
+        displacement[i]
+            += step / (2 * last_step) * (state.speed.values[i] - older->speed.values[i]);
+      displacement[i] *= step;
+    }
+    return displaced(displacement, state.speed.band, limited);
+  }
+
+  /** The trapezoidal rule. */
+  Values CutRun::moved_front(double step, const SpeedField &end_speed,
+                             bool &limited) const
+  {
+    Values displacement = state.speed.values;
+    for(std::size_t i = 0; i < displacement.size(); ++i)
+    {
+      if(end_speed.band[i])
+        displacement[i] = (displacement[i] + end_speed.values[i]) / 2;
+      displacement[i] *= step;
+    }
+    return displaced(displacement, state.speed.band, limited);
+  }
+
+  bool CutRun::attempt(double step, bool last_chance, State &next)
+  {
+    const double rest = scene.end_time - state.time;
+    next.time = step == rest ? scene.end_time : state.time + step;
+    bool limited = false;
+    Values front = predicted_front(step, limited);
+    for(int solve = 0; solve < options.solves; ++solve)
+    {
+      if(limited && !last_chance)
+        return false;
+      heat.set_front(next, std::move(front));
+      heat.solve(next, state, older ? &*older : nullptr);
+      if(solve + 1 < options.solves)
+        front = moved_front(step, next.speed, limited);
+    }
+    if(limited)
+      ++capped_steps;
+    return true;
+  }
+
+  void CutRun::step()
+  {
+    double step = next_step();
+    State next;
+    try
+    {
+      for(int halvings = 0; !attempt(step, halvings == most_halvings, next); ++halvings)
+        step /= 2;
+    }
+    catch(const std::runtime_error &error)
+    {
+      if(dynamic_cast<const cases::Refusal *>(&error))
+        throw;
+      throw cases::NumericalError(method_name, step_number + 1, state.time + step,
+                                  "temperature",
+                                  fmt::format("cannot be solved for: {}", error.what()));
+    }
+    last_step = step;
+    accept(std::move(next));
+  }
+
+  void CutRun::accept(State next)
+  {
+    if(fresh)
+      state.wall_power = next.wall_power;
+    boundary_heat += (next.time - state.time) * (state.wall_power + next.wall_power) / 2;
+    older = std::move(state);
+    state = std::move(next);
+    fresh = false;
+    ++step_number;
+    check(state);
+  }
+
+  void CutRun::check(const State &checked) const
+  {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for(unsigned int number = 0; number < mesh.cells.size(); ++number)
+    {
+      if(mesh.place[number] != Place::inside)
+        continue;
+      const Cell &cell = mesh.cells[number];
+      for(unsigned int vertex = 0; vertex < 1u << dim; ++vertex)
+      {
+        const bool solid = checked.level_set[cell.level_set_dofs[vertex]] < 0;
+        const double temperature
+            = heat.temperature(checked, solid ? Phase::solid : Phase::liquid, number,
+                               mesh.element.unit_support_point(vertex));
+        // A comparison passes over what is not a number.
+        if(!std::isfinite(temperature))
+          lowest = highest = temperature;
+        lowest = std::min(lowest, temperature);
+        highest = std::max(highest, temperature);
+      }
+    }
+    cases::check_temperature(bounds, lowest, highest, method_name, step_number,
+                             checked.time, bounds_slack);
+    for(const Point &place : heat.sinks.places)
+      if(!heat.in_solid(checked, place))
+        throw cases::Refusal(fmt::format(
+            "fem-cut: the source at ({:.6g}, {:.6g}) does not lie in the solid, at least "
+            "a cell from the front, at time {:.6g}",
+            place[0], place[1], checked.time));
+  }
+} // namespace meltfront::reference_fem::cut

@@ -1,0 +1,72 @@
+#ifndef meltfront_reference_fem_cut_run_h
+#define meltfront_reference_fem_cut_run_h
+
+#include <cases/method.h>
+#include <cases/scene.h>
+#include <cases/stopwatch.h>
+#include <reference_fem/cut/heat_problem.h>
+#include <reference_fem/cut/options.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace meltfront::reference_fem::cut
+{
+  /** A run of `fem-cut`: start, time steps, snapshots. */
+  class CutRun
+  {
+  public:
+    CutRun(const cases::Scene &scene, const cases::EffectSet &effects,
+           const cases::Resolution &resolution);
+
+    cases::Cost run(cases::Observer &observer);
+
+  private:
+    void start();
+    void require_resolved() const;
+    void step();
+    double next_step() const;
+    bool attempt(double step, bool last_chance, State &next);
+    Values moved_front(double step, const SpeedField &end_speed, bool &limited) const;
+    Values predicted_front(double step, bool &limited) const;
+    Values displaced(const Values &displacement, const std::vector<char> &band,
+                     bool &limited) const;
+    void accept(State next);
+    void check(const State &state) const;
+
+    cases::RunDescription description() const;
+    void report(cases::Observer &observer, bool always);
+    void observe(cases::Observer &observer);
+    void observe_initial(cases::Observer &observer);
+    void collect_sites();
+    void add_site(const Point &point, double weight, double temperature, bool solid);
+    void add_vertices();
+    double limited_temperature(double temperature) const;
+    std::vector<cases::EffectCost> effect_costs() const;
+
+    const cases::Scene &scene;
+    const cases::EffectSet &effects;
+    const cases::Resolution &resolution;
+    cases::Stopwatch watch;
+    RunOptions options;
+    BackgroundMesh mesh;
+    HeatProblem heat;
+    cases::TemperatureBounds bounds;
+    std::string start_in_words;
+
+    State state;
+    std::optional<State> older;
+    double last_step = 0;
+    bool fresh = true; ///< no step was made yet
+    long step_number = 0, capped_steps = 0;
+    double boundary_heat = 0, initial_heat = 0;
+
+    std::array<std::vector<double>, dim> site_positions, front_positions;
+    std::vector<double> weights, temperatures, solid_fractions;
+    std::vector<unsigned int> site_cells;
+  };
+} // namespace meltfront::reference_fem::cut
+
+#endif

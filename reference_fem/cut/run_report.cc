@@ -1,0 +1,186 @@
+#include <reference_fem/cut/quadrature.h>
+#include <reference_fem/cut/run.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::reference_fem::cut
+{
+  cases::RunDescription CutRun::description() const
+  {
+    cases::RunDescription result;
+    result.dimension = dim;
+    result.spacing = mesh.spacing;
+    result.time_step
+        = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
+    result.unknowns = heat.unknowns;
+    result.parameters = {
+        {"elements",
+         fmt::format("degree {}, each phase on the cells that it cuts", options.degree),
+         ""},
+        {"mesh", fmt::format("{} Cartesian cells", mesh.cells.size()), ""},
+        {"front",
+         fmt::format("level set of degree {}, Nitsche's condition, ghost penalty",
+                     options.level_set_degree),
+         ""},
+        {"start", start_in_words, ""},
+        {"time scheme", "BDF2 for the temperature, predictor and trapezoid for the front",
+         ""},
+        {"cells crossed in a step, at most", fmt::format("{:g}", options.step_factor),
+         "1"},
+        {"longest time step", fmt::format("{:.6g}", result.time_step), "s"},
+        {"solves per step", fmt::format("{}", options.solves), "1"},
+        {"linear solver", "sparse Cholesky (Eigen, LDL')", ""}};
+    return result;
+  }
+
+  void CutRun::report(cases::Observer &observer, bool always)
+  {
+    watch.without(
+        [&]
+        {
+          if(observer.wants(step_number, state.time) || always)
+            observe(observer);
+        });
+  }
+
+  /** The scene's own initial state, also where the run starts from a front that was
+   * seeded later. */
+  void CutRun::observe_initial(cases::Observer &observer)
+  {
+    observer.wants(0, scene.start_time);
+    if(state.time == scene.start_time)
+    {
+      initial_heat = heat.sensible_heat(state) + heat.latent_heat(state);
+      observe(observer);
+      return;
+    }
+    State seeded = std::move(state);
+    state = State{};
+    state.time = scene.start_time;
+    heat.set_front(state, Values(mesh.level_set_positions.size(), mesh.spacing));
+    heat.project(state,
+                 [this](const Point &point) {
+                   return scene.initial.temperature(position(point), scene.start_time);
+                 });
+    initial_heat = heat.sensible_heat(state) + heat.latent_heat(state);
+    const long seeded_step = std::exchange(step_number, 0);
+    observe(observer);
+    step_number = seeded_step;
+    state = std::move(seeded);
+  }
+
+  double CutRun::limited_temperature(double temperature) const
+  {
+    return std::clamp(temperature, bounds.lower, bounds.upper);
+  }
+
+  void CutRun::add_site(const Point &point, double weight, double temperature, bool solid)
+  {
+    for(int d = 0; d < dim; ++d)
+      site_positions[d].push_back(point[d]);
+    weights.push_back(weight);
+    temperatures.push_back(limited_temperature(temperature));
+    solid_fractions.push_back(solid ? 1 : 0);
+  }
+
+  /** Vertices as sites without weight; those beyond the rim are moved onto it. */
+  void CutRun::add_vertices()
+  {
+    constexpr unsigned int none = static_cast<unsigned int>(-1);
+    std::vector<unsigned int> site_of_dof(mesh.positions.size(), none);
+    for(unsigned int number = 0; number < mesh.cells.size(); ++number)
+    {
+      if(mesh.place[number] == Place::outside)
+        continue;
+      const Cell &cell = mesh.cells[number];
+      for(unsigned int vertex = 0; vertex < 1u << dim; ++vertex)
+      {
+        unsigned int &site = site_of_dof[cell.dofs[vertex]];
+        if(site == none)
+        {
+          site = static_cast<unsigned int>(weights.size());
+          Point point = mesh.positions[cell.dofs[vertex]];
+          const double radius = point.norm();
+          if(scene.domain.round() && radius > 0)
+            point *= std::clamp(radius, scene.domain.inner_radius, scene.domain.radius)
+                     / radius;
+          const bool solid = state.level_set[cell.level_set_dofs[vertex]] < 0;
+          add_site(point, 0,
+                   heat.temperature(state, solid ? Phase::solid : Phase::liquid, number,
+                                    cell.unit(point)),
+                   solid);
+        }
+        site_cells.push_back(site);
+      }
+    }
+  }
+
+  void CutRun::collect_sites()
+  {
+    for(int d = 0; d < dim; ++d)
+    {
+      site_positions[d].clear();
+      front_positions[d].clear();
+    }
+    weights.clear();
+    temperatures.clear();
+    solid_fractions.clear();
+    site_cells.clear();
+    for(const Phase phase : phases)
+    {
+      const auto add = [&](unsigned int cell, const std::vector<VolumePoint> &points)
+      {
+        for(const VolumePoint &point : points)
+          add_site(mesh.cells[cell].real(point.unit), point.weight,
+                   heat.temperature(state, phase, cell, point.unit),
+                   phase == Phase::solid);
+      };
+      for(unsigned int cell = 0; cell < mesh.cells.size(); ++cell)
+        if(CutGeometry::is(state.geometry->location[cell], phase)
+           && mesh.place[cell] == Place::inside)
+          add(cell, whole_cell(mesh.cells[cell], 2));
+      state.geometry->visit_parts(mesh, phase, add);
+    }
+    add_vertices();
+    for(const CutCell &cut : state.geometry->cut_cells)
+      for(const SurfacePoint &point : cut.front)
+      {
+        const Point place = mesh.cells[cut.cell].real(point.unit);
+        for(int d = 0; d < dim; ++d)
+          front_positions[d].push_back(place[d]);
+      }
+  }
+
+  void CutRun::observe(cases::Observer &observer)
+  {
+    collect_sites();
+    cases::Snapshot snapshot;
+    snapshot.step = step_number;
+    snapshot.time = state.time;
+    snapshot.dimension = dim;
+    for(int d = 0; d < dim; ++d)
+    {
+      snapshot.positions[d] = site_positions[d];
+      snapshot.front[d] = front_positions[d];
+    }
+    snapshot.weights = weights;
+    snapshot.temperature = temperatures;
+    snapshot.solid_fraction = solid_fractions;
+    snapshot.cells = site_cells;
+    snapshot.heat = {heat.sensible_heat(state), heat.latent_heat(state), boundary_heat,
+                     heat.sinks.energy(state.time), initial_heat};
+    observer.observe(snapshot);
+  }
+
+  std::vector<cases::EffectCost> CutRun::effect_costs() const
+  {
+    std::vector<cases::EffectCost> result;
+    for(const cases::EffectDecision &decision : effects.decisions())
+      if(decision.on)
+        result.push_back({decision.effect, heat.solves, 0, 0});
+    return result;
+  }
+} // namespace meltfront::reference_fem::cut
