@@ -88,6 +88,19 @@ namespace meltfront::cases
           }
     }
 
+    /** The point of a wall that belongs to a sample on_side(): of a round wall the one on
+     * the sample's ray, at which a value that varies along the wall is to be taken. */
+    Position on_wall(const Domain &domain, Side side, Position p)
+    {
+      if(side != Side::outer && side != Side::inner)
+        return p;
+      const double wanted = side == Side::outer ? domain.radius : domain.inner_radius;
+      const double distance = coordinate(Symmetry::spherical, p);
+      for(double &component : p)
+        component *= wanted / distance;
+      return p;
+    }
+
     bool on_side(const Domain &domain, Side side, const Position &p)
     {
       const double tolerance = 1e-9 * domain.side();
@@ -128,9 +141,10 @@ namespace meltfront::cases
                                          : boundary.exact        ? samples_in_time
                                                                  : samples_of_expression;
                      const double span = scene.end_time - scene.start_time;
+                     const Position wall = on_wall(scene.domain, side, p);
                      for(int i = 0; i < samples; ++i)
                        include(boundary.value(
-                           p, scene.start_time + span * i / std::max(samples - 1, 1)));
+                           wall, scene.start_time + span * i / std::max(samples - 1, 1)));
                    });
     }
     const auto widen = [&](double heat)
@@ -149,12 +163,13 @@ namespace meltfront::cases
         widen(source.power(time));
       for(const Side side : scene.sides())
         if(scene.boundary(side).kind == BoundaryKind::flux)
-          visit_points(scene.domain,
-                       [&](const Position &p)
-                       {
-                         if(on_side(scene.domain, side, p))
-                           widen(scene.boundary(side).value(p, time));
-                       });
+          visit_points(
+              scene.domain,
+              [&](const Position &p)
+              {
+                if(on_side(scene.domain, side, p))
+                  widen(scene.boundary(side).value(on_wall(scene.domain, side, p), time));
+              });
     }
     // Walls that vary are sampled; their extremes may fall between the samples.
     const bool varying

@@ -113,6 +113,22 @@ TEST(TemperatureBounds, FollowAWallInTimeAndAlongItself)
   EXPECT_GE(bounds.upper, 11);
 }
 
+TEST(TemperatureBounds, AreTakenOnRoundWallsThemselves)
+{
+  Scene scene;
+  scene.domain = Domain{DomainShape::shell, 2, {}, {}, 1, 0.2};
+  scene.initial.temperature = Field::uniform(0);
+  Field steep;
+  steep.value = [](const Position &p, double)
+  { return std::hypot(p[0], p[1]) < 0.6 ? -1 / std::hypot(p[0], p[1]) : p[0]; };
+  for(const Side side : {Side::inner, Side::outer})
+    scene.boundaries[static_cast<std::size_t>(side)]
+        = Boundary{BoundaryKind::fixed_temperature, steep, false};
+  const TemperatureBounds bounds = temperature_bounds(scene);
+  EXPECT_NEAR(bounds.lower, -5, 0.01) << "-1/r at r = 0.2, and no less beside it";
+  EXPECT_NEAR(bounds.upper, 1, 0.01);
+}
+
 TEST(TemperatureBounds, OpenWhereHeatComesInOrGoesOut)
 {
   Scene scene = box_scene(2);
