@@ -21,7 +21,10 @@ namespace meltfront::verification
    * Snapshots are taken of the initial state, of the first step at or after each of
    * Measurement::samples times equidistant in t or sqrt(t), of the end, and of the steps
    * around each of Measurement::marks. Each is judged: a state that is not finite or
-   * breaks the maximum principle ends the run with a NumericalError.
+   * breaks the maximum principle ends the run with a NumericalError. Elements that carry
+   * or cut a tracked front (Snapshot::front) obey the principle in the limit only: they
+   * may overshoot by a tenth of the bounds' span, and temperature_overshoot tells by how
+   * much they did.
    */
   class RunObserver : public cases::Observer
   {
@@ -75,6 +78,8 @@ namespace meltfront::verification
      * solid_volume_1 to _4: at Measurement::marks, interpolated() between steps;
      * solid_volume_backsteps: farthest that it fell back, over its net change;
      * temperature_l2, temperature_max, temperature_rmse: TemperatureError at the end;
+     * temperature_overshoot: farthest beyond the bounds of the maximum principle in any
+     * snapshot, over their span; 0 within them, NaN where they are not both finite;
      * budget_defect: largest of any snapshot.
      */
     std::map<std::string, double> quantities() const;
@@ -116,6 +121,7 @@ namespace meltfront::verification
     FrontCourse course, volume_course;
     ErrorStatistics front, late_front, isotherm, max_ice, heat_loss, front_points;
     double farthest_point; ///< NaN as long as no point was tracked
+    double overshoot;      ///< over the bounds' span
     MarkWatch marks;
     std::size_t next_mark = 0; ///< of Measurement::marks, whose frame is to be kept
     std::vector<double> volume_times, volumes; ///< of all snapshots

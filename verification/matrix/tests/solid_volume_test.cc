@@ -176,6 +176,30 @@ namespace meltfront::verification
       EXPECT_EQ(frames[0].x, (std::vector<double>{1, 2, 4}));
     }
 
+    TEST(TemperatureOvershoot, IsMeasuredAndBoundedByATenthForTrackedFronts)
+    {
+      const cases::Case c = disk_case(); // between -0.5 and 1
+      const auto run_with = [&](double highest, int points)
+      {
+        RunObserver observer(c, c.scene, "fake");
+        cases::RunDescription description;
+        description.spacing = 0.1;
+        observer.begin(description);
+        for(int step = 0; step <= 100; ++step)
+        {
+          DiskState state(0.5, 0.3, points);
+          if(step == 50)
+            state.temperature[1] = highest;
+          observer.observe(state.view_at(step, step / 100.));
+        }
+        return observer.quantities().at("temperature_overshoot");
+      };
+      EXPECT_EQ(run_with(0.9, 0), 0);
+      EXPECT_THROW(run_with(1.01, 0), cases::NumericalError);
+      EXPECT_NEAR(run_with(1.03, 8), 0.03 / 1.5, 1e-3);
+      EXPECT_THROW(run_with(1.2, 8), cases::NumericalError);
+    }
+
     TEST(FrontModeEnd, IsMeasuredWhereTheCaseAsksForIt)
     {
       cases::Case c = disk_case();
