@@ -28,6 +28,10 @@ namespace meltfront::reference_fem::fitted
      * seed: erfc(6) is 2e-17. */
     constexpr double layers_in_ray = 12;
 
+    /** Beyond so many widths of its thermal layer the old phase is as it was: erfc(20) is
+     * 5e-176, and what is left of it is no number. */
+    constexpr double far_in_layers = 20;
+
     /** Steps are equal in this root of the clock. */
     constexpr double lengthening = 3;
 
@@ -173,7 +177,8 @@ namespace meltfront::reference_fem::fitted
     // The old phase's thermal layer or the new phase, whichever is thinner.
     const cases::PhaseProperties &old
         = new_is_solid ? scene.material.liquid : scene.material.solid;
-    const double layer = std::min(width, 2 * std::sqrt(old.diffusivity() * since));
+    const double thermal_layer = 2 * std::sqrt(old.diffusivity() * since);
+    const double layer = std::min(width, thermal_layer);
     const int cells = rays.cells;
     const std::vector<double> equal
         = graded_shares(std::max(1, cells / 2), 1, false),
@@ -198,9 +203,13 @@ namespace meltfront::reference_fem::fitted
           const double r
               = setting.scene.domain.round() ? std::hypot(p[0], p[1], p[2]) : p[0];
           const double distance = inner ? r - rays.inner : rays.outer - r;
-          const double local = start.local->temperature(distance, since);
+          if(distance < width)
+            return start.local->temperature(distance, since);
           // The initial state need not be uniform farther away.
-          return distance < width ? local : local + initial_temperature(setting, r) - far;
+          const double there = initial_temperature(setting, r);
+          return distance > width + far_in_layers * thermal_layer
+                     ? there
+                     : start.local->temperature(distance, since) + there - far;
         });
     for(const cases::PointSource &source : scene.sources)
       result.before.sources += source.energy(result.time);

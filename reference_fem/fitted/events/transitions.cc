@@ -1,0 +1,302 @@
+#include <reference_fem/fitted/events/transitions.h>
+
+#include <cases/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace meltfront::reference_fem::fitted
+{
+  namespace
+  {
+    using cases::BoundaryKind;
+    using dealii::Vector;
+
+    /** How long after the crossing a front is seeded, of the time that is left. */
+    constexpr double late_share = 1e-5;
+
+    /** Fewest steps of a stretch. */
+    constexpr int fewest_steps = 20;
+
+    constexpr double lengthening = 3;
+
+    /** Secant steps for the front's place: its heat is all but linear in it. */
+    constexpr int balance_steps = 6;
+
+    int steps_for(const EventScene &setting, const double from)
+    {
+      const cases::Scene &scene = setting.scene;
+      const double share = (scene.end_time - from) / (scene.end_time - scene.start_time);
+      return std::max(fewest_steps,
+                      static_cast<int>(std::ceil(share * setting.options.steps)));
+    }
+
+    HeatContent sum_of(const HeatContent &a, const HeatContent &b)
+    {
+      return {a.sensible + b.sensible, a.latent + b.latent, a.walls + b.walls,
+              a.sources + b.sources};
+    }
+
+    const char *side_name(const EventScene &setting, const bool inner)
+    {
+      if(setting.scene.domain.round())
+        return inner ? "inner" : "outer";
+      return inner ? "x_min" : "x_max";
+    }
+
+    /** T - T_m along the ray of a stretch with one phase, and its derivative. */
+    class Profile
+    {
+    public:
+      Profile(const FittedProblem &problem, const Vector<double> &u)
+        : problem(problem)
+        , u(u)
+      {
+      }
+
+      double value(const double r) const
+      {
+        return evaluate(r, false);
+      }
+
+      double slope(const double r) const
+      {
+        return evaluate(r, true);
+      }
+
+    private:
+      double evaluate(const double r, const bool derivative) const
+      {
+        const RayMesh &mesh = problem.mesh();
+        const unsigned int degree = mesh.surface.degree;
+        std::size_t layer = 0;
+        while(layer + 1 < mesh.layers.size() && r > mesh.layers[layer].fixed[1])
+          ++layer;
+        const double lower = mesh.layers[layer].fixed[0];
+        const double width = mesh.layers[layer].fixed[1] - lower;
+        const LineBasis basis(degree, {(r - lower) / width});
+        double sum = 0;
+        for(unsigned int b = 0; b <= degree; ++b)
+          sum += u[mesh.node(0, static_cast<unsigned int>(layer) * degree + b)]
+                 * (derivative ? basis.derivative(0, b) / width : basis.value(0, b));
+        return sum;
+      }
+
+      const FittedProblem &problem;
+      const Vector<double> &u;
+    };
+
+    /** i^2erfc, the second integral of the complementary error function. */
+    double second_integral(const double x)
+    {
+      return 0.25
+             * ((1 + 2 * x * x) * std::erfc(x)
+                - 2 * x * std::exp(-x * x) / std::sqrt(std::numbers::pi));
+    }
+
+    Physics one_phase_physics(const EventScene &setting, const bool solid)
+    {
+      Physics physics = physics_of(setting.scene, setting.effects, setting.options, true);
+      if(!solid)
+        std::swap(physics.phases[0], physics.phases[1]);
+      // Liquid moves only where a front makes it.
+      physics.displacement = 0;
+      return physics;
+    }
+  } // namespace
+
+  Stretch one_phase_stretch(const EventScene &setting)
+  {
+    const cases::Scene &scene = setting.scene;
+    const RayScene &rays = setting.rays;
+    const RayMesh mesh(rays.surface, rays.inner, rays.outer,
+                       graded_shares(rays.cells, 1, true));
+    const double middle = scene.initial.temperature(
+        mesh.position(0, 0.5 * (rays.inner + rays.outer)), scene.start_time);
+    const double melting = scene.material.melting_temperature;
+    Physics physics = one_phase_physics(
+        setting,
+        middle < melting
+            || (middle == melting && scene.initial.solid_fraction_at_melting >= 0.5));
+    physics.clock = {};
+    // A sink makes a front at once: this is the state before it is switched on.
+    physics.power = {};
+    Stretch result;
+    result.problem = std::make_shared<FittedProblem>(mesh, physics);
+    result.time = scene.start_time;
+    result.state
+        = result.problem->state(scene.start_time, {},
+                                [&](const cases::Position &p) {
+                                  return scene.initial.temperature(p, scene.start_time);
+                                });
+    result.steps = {{scene.end_time, (scene.end_time - scene.start_time)
+                                         / std::max(1, setting.options.steps)}};
+    return result;
+  }
+
+  double wall_excess(const FittedProblem &problem, const Vector<double> &u,
+                     const bool inner)
+  {
+    const RayMesh &mesh = problem.mesh();
+    return u[mesh.node(0, inner ? 0 : mesh.n_levels() - 1)];
+  }
+
+  Stretch late_stretch(const EventScene &setting, const Stretch &past,
+                       const double crossing, const Vector<double> &u, const bool inner,
+                       const IntegrationOptions &integration)
+  {
+    const cases::Scene &scene = setting.scene;
+    const RayScene &rays = setting.rays;
+    const Physics &old = past.problem->physics();
+    const double since = late_share * (scene.end_time - crossing);
+    const double time = crossing + since;
+
+    Integrator beyond(*past.problem, integration);
+    beyond.start(old.clock.clock(crossing), u);
+    beyond.advance_to(old.clock.clock(time), scene.end_time);
+    const Profile profile(*past.problem, beyond.state());
+    const double wall = inner ? rays.inner : rays.outer;
+    const double excess = wall_excess(*past.problem, beyond.state(), inner);
+    const Phase &phase = old.phases[0];
+    const bool new_is_solid = !phase.solid;
+    if((excess < 0) != new_is_solid || excess == 0)
+      throw cases::NumericalError(integration.method, 0, time, "the wall",
+                                  "turned back from the melting temperature at once");
+
+    Physics physics
+        = physics_of(scene, setting.effects, setting.options, inner == new_is_solid);
+    physics.clock = {true, crossing};
+    const Phase &fresh = physics.phases[inner ? 0 : 1];
+    const double latent
+        = scene.material.latent_heat
+          * (new_is_solid ? scene.material.solid.density : scene.material.liquid.density);
+    const double diffusivity = phase.conductivity / phase.capacity;
+    const double layer = 2 * std::sqrt(diffusivity * since);
+    const double length = rays.outer - rays.inner;
+    const int cells = rays.cells;
+    const std::vector<double> equal
+        = graded_shares(std::max(1, cells / 2), 1, false),
+        widening = widening_shares(4 * layer / (cells * length),
+                                   1 + 8. / std::max(cells, 8), 2. / cells, inner);
+    Stretch result;
+    result.problem = std::make_shared<FittedProblem>(
+        RayMesh(rays.surface, rays.inner, rays.outer, inner ? equal : widening,
+                inner ? widening : equal),
+        physics);
+    result.time = time;
+
+    // Everything by distance from the wall; positive slopes lead away from it.
+    const cases::Boundary &wall_law = inner ? old.inner_wall : old.outer_wall;
+    const double outflow = phase.conductivity * profile.slope(wall) * (inner ? 1 : -1);
+    const double rate = std::abs(excess) / since;
+    const double direction = new_is_solid ? 1 : -1;
+    const bool by_flux = wall_law.kind != BoundaryKind::fixed_temperature;
+    double width = 4. / 3 * phase.conductivity * std::abs(excess) * std::sqrt(since)
+                   / (latent * std::sqrt(std::numbers::pi * diffusivity));
+    if(!by_flux)
+      width = since
+              * (std::sqrt(std::pow(outflow, 2) + 4 * latent * fresh.conductivity * rate)
+                 - direction * outflow)
+              / (2 * latent);
+    const RayMesh &mesh = result.problem->mesh();
+    const double gradient
+        = by_flux ? -wall_law.value(mesh.position(0, wall), time) / fresh.conductivity
+                  : -excess / width;
+    const auto state_with = [&](const double front)
+    {
+      return result.problem->state(
+          time, {inner ? wall + front : wall - front},
+          [&](const cases::Position &p)
+          {
+            const double r = scene.domain.round() ? std::hypot(p[0], p[1], p[2]) : p[0];
+            const double distance = std::abs(r - wall);
+            const double above
+                = distance < front
+                      ? gradient * (distance - front)
+                      : profile.value(r) - 4 * excess * second_integral(distance / layer);
+            return scene.material.melting_temperature + above;
+          });
+    };
+    const HeatContent before = past.problem->heat(time, beyond.state());
+    const auto surplus = [&](const Vector<double> &state)
+    {
+      const HeatContent now = result.problem->heat(time, state);
+      return now.sensible + now.latent - before.sensible - before.latent;
+    };
+    result.state = state_with(width);
+    const double area = std::pow(wall, rays.surface.exponent)
+                        * (rays.surface.exponent == 0   ? 1
+                           : rays.surface.exponent == 1 ? 2 * std::numbers::pi
+                                                        : 4 * std::numbers::pi);
+    for(int step = 0; by_flux && step < balance_steps; ++step)
+    {
+      width += direction * surplus(result.state) / (latent * area);
+      if(!(width > 0))
+        throw cases::NumericalError(integration.method, 0, time, "the front",
+                                    "that starts at a wall has no place that balances "
+                                    "the heat; more cells would help");
+      result.state = state_with(width);
+    }
+    result.before = sum_of(past.before, {0, 0, before.walls, before.sources});
+    result.before.walls += surplus(result.state);
+    result.steps = lengthening_steps(physics.clock.clock(time),
+                                     physics.clock.clock(scene.end_time),
+                                     steps_for(setting, crossing), lengthening);
+    result.cause
+        = fmt::format("the wall {} passes the melting temperature at t = {:.12g} s, and "
+                      "a front starts there",
+                      side_name(setting, inner), crossing);
+    return result;
+  }
+
+  Stretch remaining_stretch(const EventScene &setting, const Stretch &past,
+                            const double time, const Vector<double> &u,
+                            const bool inner_vanishes)
+  {
+    const RayScene &rays = setting.rays;
+    const FittedProblem &old = *past.problem;
+    if(inner_vanishes && old.physics().power)
+      throw cases::NumericalError("fem-fitted", 0, time, "the phase at the source",
+                                  "vanishes, which leaves no field to split off");
+    const int kept = inner_vanishes ? 1 : 0;
+    const unsigned int front = old.mesh().front_level();
+    const unsigned int first = inner_vanishes ? front : 0;
+    const unsigned int last = inner_vanishes ? old.mesh().n_levels() - 1 : front;
+
+    // The same cells, which now reach the wall.
+    const double from = old.coordinate(0, first, u), to = old.coordinate(0, last, u);
+    std::vector<double> shares;
+    for(unsigned int level = first; level <= last; level += rays.surface.degree)
+      shares.push_back((old.coordinate(0, level, u) - from) / (to - from));
+    Physics physics = one_phase_physics(setting, old.physics().phases[kept].solid);
+    if(setting.options.clock != "t")
+      physics.clock = {true, time};
+
+    Stretch result;
+    result.problem = std::make_shared<FittedProblem>(
+        RayMesh(rays.surface, rays.inner, rays.outer, shares), physics);
+    result.time = time;
+    result.state.reinit(result.problem->size());
+    for(unsigned int level = first; level <= last; ++level)
+      result.state[result.problem->mesh().node(0, level - first)]
+          = old.theta(kept, 0, level, time, u);
+    const HeatContent before = old.heat(time, u),
+                      now = result.problem->heat(time, result.state);
+    result.before = sum_of(past.before, before);
+    result.before.sensible -= now.sensible;
+    result.before.latent -= now.latent;
+    const double end = physics.clock.clock(setting.scene.end_time);
+    result.steps = {{end, (end - physics.clock.clock(time)) / steps_for(setting, time)}};
+    result.cause = fmt::format(
+        "the front reaches {} at t = {:.12g} s",
+        inner_vanishes && old.mesh().has_centre()
+            ? "the centre"
+            : fmt::format("the wall {}", side_name(setting, inner_vanishes)),
+        time);
+    return result;
+  }
+} // namespace meltfront::reference_fem::fitted
