@@ -50,6 +50,19 @@ TEST(Criterion, TakesOrdersAndWorstValues)
   EXPECT_EQ(worst.upper, 1e-12);
 }
 
+TEST(Criterion, TakesALabelWithOptions)
+{
+  const Criterion c = parse_criterion(
+      "fem-fitted[degree=2, time=bdf3]: order of front_end >= 3.5; known shortfall: 3.");
+  EXPECT_EQ(c.method, "fem-fitted[degree=2, time=bdf3]");
+  EXPECT_EQ(c.quantity, "front_end");
+  EXPECT_EQ(c.lower, 3.5);
+  EXPECT_EQ(parse_label(" a[k=1e-3,l=x] "), "a[k=1e-3,l=x]");
+  for(const char *label : {"", "[k=1]", "a[", "a[]", "a]", "a[k]", "a[k=]", "a[=1]",
+                           "a[k=1]b", "a[k=1][l=2]", "a b", "a[k=1,]"})
+    EXPECT_THROW(parse_label(label), InputError) << label;
+}
+
 TEST(Criterion, KeepsAKnownShortfall)
 {
   const Criterion c = parse_criterion(

@@ -113,6 +113,8 @@ TEST(Library, ExactFrontsEndWhereTheyAreKnownTo)
   for(const auto &[name, front] : fronts)
     EXPECT_NEAR(front_at_end(name), front, 1e-12 * front) << name;
   EXPECT_NEAR(front_at_end("plane-freezing-2005"), 0.2383275, 1e-7);
+  EXPECT_NEAR(front_at_end("bar-flux"), 0.452097059863568, 1e-12);
+  EXPECT_NEAR(front_at_end("annulus"), 0.632047368850, 1e-10);
 }
 
 TEST(Library, SinksDrawWhatTheirSolutionsNeed)

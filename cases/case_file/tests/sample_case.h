@@ -75,6 +75,42 @@ subsection Scene
 end
 )";
 
+  /** A complete case: ice on the inner wall of an annulus, with a front of its own. */
+  inline const std::string annulus = R"(set title = An annulus
+subsection Scene
+  set symmetry = none
+  set end time = 0.2
+  subsection Domain
+    set shape = shell
+    set dimension = 2
+    set radius = 1
+    set inner radius = 0.2
+  end
+  subsection Material
+    set latent heat = 1
+    set melting temperature = 0
+    subsection Solid
+      set conductivity = 1
+      set specific heat capacity = 1
+      set density = 1
+    end
+  end
+  subsection Initial state
+    set temperature = if(x^2 + y^2 < 0.25, -1, 1)*abs(x^2 + y^2 - 0.25)
+    set front = x^2 + y^2 - 0.25
+  end
+  subsection Walls
+    subsection inner
+      set kind = fixed temperature
+      set temperature = -0.21
+    end
+    subsection outer
+      set kind = insulated
+    end
+  end
+end
+)";
+
   /** A text with its one occurrence of a piece replaced. */
   inline std::string replaced(std::string text, const std::string &old_piece,
                               const std::string &new_piece)
