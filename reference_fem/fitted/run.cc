@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace meltfront::reference_fem::fitted
 {
@@ -33,15 +34,24 @@ namespace meltfront::reference_fem::fitted
     const RayScene rays = rays_of(scene, options);
     const InitialFront front = initial_front(scene, rays);
     if(front.coordinate.empty())
-      throw cases::Refusal("fem-fitted needs a front to start from; this scene starts in "
-                           "one phase");
-    problem = std::make_unique<FittedProblem>(
-        two_phase_mesh(rays, options.grading),
-        physics_of(scene, effects, options, front.solid_inside));
-    initial_state
-        = problem->state(scene.start_time, front.coordinate,
-                         [&](const cases::Position &p)
-                         { return scene.initial.temperature(p, scene.start_time); });
+    {
+      if(options.dimension > 1)
+        throw cases::Refusal("fem-fitted needs a front to start from in more than one "
+                             "dimension; this scene starts in one phase");
+      const Stretch stretch = one_phase_stretch({scene, effects, options, rays});
+      problem = stretch.problem;
+      initial_state = stretch.state;
+    }
+    else
+    {
+      problem = std::make_shared<FittedProblem>(
+          two_phase_mesh(rays, options.grading),
+          physics_of(scene, effects, options, front.solid_inside));
+      initial_state
+          = problem->state(scene.start_time, front.coordinate,
+                           [&](const cases::Position &p)
+                           { return scene.initial.temperature(p, scene.start_time); });
+    }
     const std::string objection = problem->objection(initial_state);
     if(!objection.empty())
       throw cases::NumericalError(method_name, 0, scene.start_time, "the initial state",
@@ -68,21 +78,30 @@ namespace meltfront::reference_fem::fitted
     return (clock.clock(scene.end_time) - clock.clock(scene.start_time)) / options.steps;
   }
 
+  /** Within the bounds of the scene, of which the walls' values at the nodes are part. */
   void FittedRun::check_temperatures(long step, double time,
-                                     const dealii::Vector<double> &u) const
+                                     const dealii::Vector<double> &u)
   {
     const RayMesh &mesh = problem->mesh();
+    const Physics &physics = problem->physics();
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for(unsigned int ray = 0; ray < mesh.surface.n_rays(); ++ray)
       for(unsigned int level = 0; level < mesh.n_levels(); ++level)
       {
         const double r = problem->coordinate(ray, level, u);
-        if(level == mesh.front_level() || (r == 0 && problem->physics().power))
+        if(level == mesh.front_level() || (r == 0 && physics.power))
           continue;
         const int phase = mesh.has_front() && level > mesh.front_level() ? 1 : 0;
-        const double value = problem->physics().melting_temperature
-                             + u[mesh.node(ray, level)]
+        const double value = physics.melting_temperature + u[mesh.node(ray, level)]
                              + problem->source(phase, time).value(r);
+        const cases::Boundary *wall = level == 0                     ? &physics.inner_wall
+                                      : level + 1 == mesh.n_levels() ? &physics.outer_wall
+                                                                     : nullptr;
+        if(step == 0 || (wall && wall->kind == cases::BoundaryKind::fixed_temperature))
+        {
+          bounds.lower = std::min(bounds.lower, value);
+          bounds.upper = std::max(bounds.upper, value);
+        }
         lowest = std::min(lowest, value);
         highest = std::max(highest, value);
       }
@@ -90,14 +109,9 @@ namespace meltfront::reference_fem::fitted
                              slack_of_bounds);
   }
 
-  cases::Cost FittedRun::run(cases::Observer &observer)
+  IntegrationCost FittedRun::integrate(cases::Observer &observer)
   {
-    const cases::Stopwatch::Seconds setup = watch.elapsed();
-    const cases::RunDescription run_description = description();
-    observer.begin(run_description);
-    watch.restart();
     report(observer, 0, scene.start_time, initial_state, true);
-
     const Clock &clock = problem->physics().clock;
     const double end = clock.clock(scene.end_time);
     Integrator integrator(*problem, integration_options());
@@ -112,16 +126,57 @@ namespace meltfront::reference_fem::fitted
                             report(observer, step.number, time, step.u, last);
                             return true;
                           });
+    return integrator.cost();
+  }
+
+  void FittedRun::enter(const Stretch &stretch)
+  {
+    problem = stretch.problem;
+    before = stretch.before;
+    sites = std::make_unique<Sites>(*problem);
+    most_unknowns = std::max<long>(most_unknowns, problem->size());
+  }
+
+  IntegrationCost FittedRun::integrate_events(cases::Observer &observer)
+  {
+    const Clock &clock = problem->physics().clock;
+    Stretch first{problem,
+                  initial_state,
+                  scene.start_time,
+                  {},
+                  {{clock.clock(scene.end_time), clock_step()}},
+                  {}};
+    Timeline timeline(
+        {scene, effects, options, rays_of(scene, options)}, integration_options(),
+        {[&](const Stretch &stretch) { enter(stretch); },
+         [&](long step, double time, const dealii::Vector<double> &u, bool last)
+         {
+           check_temperatures(step, time, u);
+           report(observer, step, time, u, last || step == 0);
+         }});
+    timeline.run(std::move(first));
+    return timeline.cost();
+  }
+
+  cases::Cost FittedRun::run(cases::Observer &observer)
+  {
+    const cases::Stopwatch::Seconds setup = watch.elapsed();
+    const cases::RunDescription run_description = description();
+    observer.begin(run_description);
+    watch.restart();
+    check_temperatures(0, scene.start_time, initial_state);
+    most_unknowns = problem->size();
+    const IntegrationCost integration
+        = options.dimension == 1 ? integrate_events(observer) : integrate(observer);
 
     const cases::Stopwatch::Seconds stepping = watch.elapsed();
-    const IntegrationCost &integration = integrator.cost();
     cases::Cost cost;
     cost.setup_wall = setup.wall;
     cost.setup_cpu = setup.cpu;
     cost.stepping_wall = stepping.wall;
     cost.stepping_cpu = stepping.cpu;
     cost.steps = integration.steps;
-    cost.unknowns = run_description.unknowns;
+    cost.unknowns = most_unknowns;
     cost.work = integration.work;
     cost.solver_iterations = integration.iterations;
     cost.most_iterations = integration.most_iterations;

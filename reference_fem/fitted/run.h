@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_fitted_run_h
 
 #include <cases/stopwatch.h>
+#include <reference_fem/fitted/events/timeline.h>
 #include <reference_fem/fitted/fitted_problem.h>
 #include <reference_fem/fitted/setup.h>
 #include <reference_fem/fitted/sites.h>
@@ -11,7 +12,8 @@
 
 namespace meltfront::reference_fem::fitted
 {
-  /** A run of `fem-fitted` from a state with a front. */
+  /** A run of `fem-fitted`; in one dimension also from one phase, and on to the end of
+   * one. */
   class FittedRun
   {
   public:
@@ -23,9 +25,11 @@ namespace meltfront::reference_fem::fitted
   private:
     cases::RunDescription description() const;
     IntegrationOptions integration_options() const;
+    void enter(const Stretch &stretch);
+    IntegrationCost integrate(cases::Observer &observer);
+    IntegrationCost integrate_events(cases::Observer &observer);
     double clock_step() const;
-    void check_temperatures(long step, double time,
-                            const dealii::Vector<double> &u) const;
+    void check_temperatures(long step, double time, const dealii::Vector<double> &u);
     void report(cases::Observer &observer, long step, double time,
                 const dealii::Vector<double> &u, bool always);
     void observe(cases::Observer &observer, long step, double time,
@@ -38,10 +42,12 @@ namespace meltfront::reference_fem::fitted
     cases::Stopwatch watch;
     RunOptions options;
     cases::TemperatureBounds bounds;
-    std::unique_ptr<FittedProblem> problem;
+    std::shared_ptr<FittedProblem> problem;
     std::unique_ptr<Sites> sites;
     dealii::Vector<double> initial_state;
     double initial_heat = 0;
+    HeatContent before; ///< of meshes before the present one
+    long most_unknowns = 0;
   };
 } // namespace meltfront::reference_fem::fitted
 

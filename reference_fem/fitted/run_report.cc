@@ -43,10 +43,10 @@ namespace meltfront::reference_fem::fitted
     snapshot.step = step;
     sites->read(time, u, snapshot);
     const HeatContent heat = problem->heat(time, u);
-    snapshot.heat.stored = heat.sensible;
-    snapshot.heat.latent = heat.latent;
-    snapshot.heat.boundary = heat.walls;
-    snapshot.heat.sources = heat.sources;
+    snapshot.heat.stored = heat.sensible + before.sensible;
+    snapshot.heat.latent = heat.latent + before.latent;
+    snapshot.heat.boundary = heat.walls + before.walls;
+    snapshot.heat.sources = heat.sources + before.sources;
     snapshot.heat.initial = initial_heat;
     observer.observe(snapshot);
   }
