@@ -7,8 +7,6 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/grid_generator.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -53,17 +51,12 @@ namespace meltfront::reference_fem::cut
                  : outer;
     }
 
-    void make_cartesian_mesh(const cases::Domain &domain, int n, int refinement,
+    void make_cartesian_mesh(const cases::Domain &domain, int n,
                              dealii::Triangulation<dim> &triangulation)
     {
       if(domain.dimension != dim)
         throw cases::Refusal("fem-cut simulates boxes, disks and annuli in two "
                              "dimensions: no slabs, and not in three dimensions");
-      const int coarsening = 1 << refinement;
-      if(n % coarsening != 0)
-        throw cases::Refusal(fmt::format("fem-cut with {} levels of refinement needs a "
-                                         "multiple of {} cells along the side, not {}",
-                                         refinement, coarsening, n));
       Point lower{-domain.radius, -domain.radius}, upper{domain.radius, domain.radius};
       if(!domain.round())
         for(int d = 0; d < dim; ++d)
@@ -72,13 +65,12 @@ namespace meltfront::reference_fem::cut
           upper[d] = domain.upper[d];
         }
       std::vector<unsigned int> repetitions(dim);
-      const double cell = (upper[0] - lower[0]) * coarsening / n;
+      const double cell = (upper[0] - lower[0]) / n;
       for(int d = 0; d < dim; ++d)
         repetitions[d] = static_cast<unsigned int>(
             std::max(1L, std::lround((upper[d] - lower[d]) / cell)));
       dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions, lower,
                                                         upper, true);
-      triangulation.refine_global(refinement);
     }
 
     std::vector<unsigned int>
@@ -110,8 +102,8 @@ namespace meltfront::reference_fem::cut
     }
   } // namespace
 
-  BackgroundMesh::BackgroundMesh(const cases::Scene &scene, int n, int refinement,
-                                 int degree, int level_set_degree)
+  BackgroundMesh::BackgroundMesh(const cases::Scene &scene, int n, int degree,
+                                 int level_set_degree)
     : element(degree)
     , level_set_element(level_set_degree)
     , domain(scene.domain)
@@ -120,7 +112,7 @@ namespace meltfront::reference_fem::cut
   {
     // Sums over threads would round differently from run to run.
     dealii::MultithreadInfo::set_thread_limit(1);
-    make_cartesian_mesh(domain, n, refinement, triangulation);
+    make_cartesian_mesh(domain, n, triangulation);
     number();
   }
 

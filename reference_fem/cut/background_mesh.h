@@ -97,14 +97,12 @@ namespace meltfront::reference_fem::cut
   {
   public:
     /**
-     * @param n cells along the domain's side, if all had the size of the finest
-     * @param refinement levels between the coarsest and the finest cells
+     * @param n cells along the domain's side
      * @param degree of the temperature's elements, 1 or 2
      * @param level_set_degree of the level set's elements, 1 or 2
      * @throws cases::Refusal for a scene that is not two-dimensional
      */
-    BackgroundMesh(const cases::Scene &scene, int n, int refinement, int degree,
-                   int level_set_degree);
+    BackgroundMesh(const cases::Scene &scene, int n, int degree, int level_set_degree);
 
     const dealii::FE_Q<dim> element, level_set_element;
     std::vector<Cell> cells;

@@ -17,7 +17,6 @@ namespace meltfront::reference_fem::cut
     explicit RunOptions(const cases::Options &options);
 
     int degree, level_set_degree;
-    int refinement;
     double step_factor;
     long fewest_steps;
     int solves;

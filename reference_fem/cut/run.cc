@@ -44,8 +44,7 @@ namespace meltfront::reference_fem::cut
     , effects(effects)
     , resolution(resolution)
     , options(resolution.options)
-    , mesh(scene, resolution.n, options.refinement, options.degree,
-           options.level_set_degree)
+    , mesh(scene, resolution.n, options.degree, options.level_set_degree)
     , heat(scene, mesh, options.stabilization, options.smoothing)
     , bounds(cases::temperature_bounds(scene))
   {
