@@ -220,9 +220,10 @@ namespace meltfront::reference_fem::fitted
     result.steps = lengthening_steps(clock.clock(result.time),
                                      clock.clock(scene.end_time), setting.options.steps,
                                      clock.root ? lengthening : 2 * lengthening);
-    result.cause = fmt::format("a front starts at {} at t = {:g} s, {:.3g} m away at "
-                               "first, from the similarity solution",
-                               start.cause, scene.start_time, width);
+    result.event = {scene.start_time,
+                    fmt::format("a front starts at {}, {:.3g} m away at first, from the "
+                                "similarity solution",
+                                start.cause, width)};
     return result;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -15,6 +15,13 @@ namespace meltfront::reference_fem::fitted
     double end = 0, step = 0;
   };
 
+  /** What made a stretch begin. */
+  struct Event
+  {
+    double time = 0;  ///< s
+    std::string text; ///< one clause; empty for the start of the run
+  };
+
   /** A part of a run with one mesh: one phase, or two with a front between them. */
   struct Stretch
   {
@@ -27,7 +34,7 @@ namespace meltfront::reference_fem::fitted
     HeatContent before;
 
     std::vector<StepRange> steps;
-    std::string cause; ///< what made it begin, for the description of the run
+    Event event;
   };
 
   /**

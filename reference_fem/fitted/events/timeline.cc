@@ -71,17 +71,24 @@ namespace meltfront::reference_fem::fitted
     const HeatContent heat = first.problem->heat(first.time, first.state);
     initial_heat = heat.sensible + heat.latent;
     std::optional<Stretch> stretch = std::move(first);
-    listener.begin(*stretch);
+    begin(*stretch);
     listener.step(0, stretch->time, stretch->state, false);
     if(!stretch->problem->mesh().has_front())
       if(const auto start = sudden_start(setting))
       {
         stretch = seeded_stretch(setting, *start, initial_heat);
-        listener.begin(*stretch);
+        begin(*stretch);
       }
     while((stretch = integrate(*stretch)))
-      listener.begin(*stretch);
+      begin(*stretch);
     total.steps = steps;
+  }
+
+  void Timeline::begin(const Stretch &stretch)
+  {
+    if(!stretch.event.text.empty())
+      happened.push_back(stretch.event);
+    listener.begin(stretch);
   }
 
   IntegrationOptions Timeline::options_for(const Stretch &stretch) const
@@ -171,7 +178,8 @@ namespace meltfront::reference_fem::fitted
     };
     const double at_start = wall_excess(problem, u, inner), at_end = excess_at(after);
     double crossing = before;
-    if(at_start != 0)
+    // A step may end on the melting temperature, up to rounding.
+    if(at_start * at_end < 0)
     {
       std::uintmax_t iterations = 60;
       const auto bracket = boost::math::tools::toms748_solve(

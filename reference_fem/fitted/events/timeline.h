@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace meltfront::reference_fem::fitted
 {
@@ -32,6 +33,12 @@ namespace meltfront::reference_fem::fitted
     /** Run from a stretch to the end of the scene. */
     void run(Stretch first);
 
+    /** What has happened, in the order of time. */
+    const std::vector<Event> &events() const
+    {
+      return happened;
+    }
+
     const IntegrationCost &cost() const
     {
       return total;
@@ -50,12 +57,14 @@ namespace meltfront::reference_fem::fitted
      */
     bool crossed(const Stretch &stretch, const dealii::Vector<double> &u,
                  bool inner) const;
+    void begin(const Stretch &stretch);
     void accept(const Stretch &stretch, const AcceptedStep &step);
 
     EventScene setting;
     IntegrationOptions options;
     Listener listener;
     IntegrationCost total;
+    std::vector<Event> happened;
     long steps = 0;
     double initial_heat = 0;
   };

@@ -22,7 +22,7 @@ namespace meltfront::reference_fem::fitted
     /** Fewest steps of a stretch. */
     constexpr int fewest_steps = 20;
 
-    constexpr double lengthening = 3;
+    constexpr double lengthening = 2;
 
     /** Secant steps for the front's place: its heat is all but linear in it. */
     constexpr int balance_steps = 6;
@@ -246,10 +246,9 @@ namespace meltfront::reference_fem::fitted
     result.steps = lengthening_steps(physics.clock.clock(time),
                                      physics.clock.clock(scene.end_time),
                                      steps_for(setting, crossing), lengthening);
-    result.cause
-        = fmt::format("the wall {} passes the melting temperature at t = {:.12g} s, and "
-                      "a front starts there",
-                      side_name(setting, inner), crossing);
+    result.event = {crossing, fmt::format("the wall {} passes the melting temperature "
+                                          "and a front starts there",
+                                          side_name(setting, inner))};
     return result;
   }
 
@@ -291,12 +290,12 @@ namespace meltfront::reference_fem::fitted
     result.before.latent -= now.latent;
     const double end = physics.clock.clock(setting.scene.end_time);
     result.steps = {{end, (end - physics.clock.clock(time)) / steps_for(setting, time)}};
-    result.cause = fmt::format(
-        "the front reaches {} at t = {:.12g} s",
-        inner_vanishes && old.mesh().has_centre()
-            ? "the centre"
-            : fmt::format("the wall {}", side_name(setting, inner_vanishes)),
-        time);
+    result.event
+        = {time, fmt::format("the front reaches {}",
+                             inner_vanishes && old.mesh().has_centre()
+                                 ? "the centre"
+                                 : fmt::format("the wall {}",
+                                               side_name(setting, inner_vanishes)))};
     return result;
   }
 } // namespace meltfront::reference_fem::fitted

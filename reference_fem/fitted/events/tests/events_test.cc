@@ -1,0 +1,269 @@
+#include <reference_fem/enthalpy/enthalpy.h>
+#include <reference_fem/enthalpy/tests/support.h>
+#include <reference_fem/fitted/events/timeline.h>
+#include <reference_fem/fitted/fitted.h>
+
+#include <cases/error.h>
+#include <cases/exact/line_sink.h>
+#include <cases/exact/planar_neumann.h>
+#include <cases/exact/point_sink.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meltfront::reference_fem::fitted
+{
+  namespace
+  {
+    using cases::Side;
+    using reference_fem::tests::ball;
+    using reference_fem::tests::exact_wall;
+    using reference_fem::tests::fixed_wall;
+    using reference_fem::tests::flux_wall;
+    using reference_fem::tests::set_boundary;
+    using reference_fem::tests::slab;
+    using reference_fem::tests::varying_wall;
+    using reference_fem::tests::water;
+
+    /** Every step of a run. */
+    class Recorder : public cases::Observer
+    {
+    public:
+      bool wants(long, double) override
+      {
+        return true;
+      }
+
+      void observe(const cases::Snapshot &snapshot) override
+      {
+        time.push_back(snapshot.time);
+        front.push_back(snapshot.front[0].empty() ? -1 : snapshot.front[0][0]);
+        double volume = 0;
+        for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
+          volume += snapshot.weights[i] * snapshot.solid_fraction[i];
+        solid.push_back(volume);
+        defect = std::max(defect, snapshot.heat.defect());
+        heat = snapshot.heat;
+      }
+
+      std::vector<double> time, front, solid;
+      double defect = 0;
+      cases::HeatBudget heat;
+      cases::Cost cost;
+    };
+
+    Recorder run(const cases::Method &method, const cases::Scene &scene, const int n,
+                 const std::string &steps = "0")
+    {
+      Recorder recorder;
+      cases::Resolution resolution;
+      resolution.n = n;
+      resolution.options = cases::Options(method.option_declarations());
+      if(steps != "0")
+        resolution.options.set("steps", steps);
+      const cases::EffectSet effects = cases::effects_called_for(scene);
+      recorder.cost = method.solve(cases::simulated_scene(scene, effects), effects,
+                                   resolution, recorder);
+      return recorder;
+    }
+
+    Recorder run(const cases::Scene &scene, const int n, const std::string &steps = "0")
+    {
+      return run(*make_fem_fitted(), scene, n, steps);
+    }
+
+    /** k = c = rho = L = 1 with T_m = 0. */
+    cases::Material plain()
+    {
+      cases::Material material;
+      material.latent_heat = 1;
+      return material;
+    }
+
+    /** Largest difference of the fronts, over the exact front at the end. */
+    double worst_error(const Recorder &record, const cases::ExactSolution &exact,
+                       const double mirror = 0)
+    {
+      double worst = 0;
+      for(std::size_t i = 0; i < record.time.size(); ++i)
+        if(record.front[i] >= 0)
+          worst = std::max(
+              worst, std::abs((mirror > 0 ? mirror - record.front[i] : record.front[i])
+                              - exact.front(record.time[i])));
+      return worst / exact.front(record.time.back());
+    }
+
+    TEST(ColdStart, FollowsNeumannsSolutionFromEitherWallFreezingOrMelting)
+    {
+      for(const bool freezes : {true, false})
+        for(const Side side : {Side::x_min, Side::x_max})
+        {
+          const double wall = freezes ? -1 : 1, far = freezes ? 0.5 : -0.5;
+          const cases::PlanarNeumann exact(plain(), wall, far);
+          cases::Scene scene = slab(plain(), 4, far, 0, 0.05);
+          set_boundary(scene, side, fixed_wall(wall));
+          const Recorder record = run(scene, 32);
+          EXPECT_LE(worst_error(record, exact, side == Side::x_max ? 4 : 0), 2e-8)
+              << freezes << to_string(side);
+          EXPECT_LE(record.defect, 1e-12);
+          EXPECT_EQ(record.time.front(), 0.);
+          EXPECT_EQ(record.solid.front(), freezes ? 0. : 4.);
+          EXPECT_LE(record.cost.most_iterations, 8);
+        }
+    }
+
+    TEST(ColdStart, FollowsSinksFromTheMomentTheyAreSwitchedOn)
+    {
+      const cases::LineSink line(water(), 0.15, 10);
+      const cases::PointSink point(water(), 0.15, 10);
+      for(const int dimension : {2, 3})
+      {
+        const cases::ExactSolution &exact
+            = dimension == 2 ? static_cast<const cases::ExactSolution &>(line) : point;
+        cases::Scene scene = ball(water(), dimension, 0.5, 10, 475000);
+        cases::PointSource sink;
+        sink.power = [&](const double t)
+        { return dimension == 2 ? -line.strength() : -point.strength(t); };
+        sink.energy = [&](const double t)
+        { return dimension == 2 ? -line.strength() * t : -point.energy(t); };
+        scene.sources.push_back(sink);
+        set_boundary(scene, Side::outer,
+                     exact_wall(std::shared_ptr<const cases::ExactSolution>(
+                         std::shared_ptr<void>(), &exact)));
+        const Recorder record = run(scene, 24);
+        EXPECT_NEAR(record.front.back() / exact.front(475000), 1, 2e-9) << dimension;
+        EXPECT_LE(worst_error(record, exact), 1e-7) << dimension;
+        EXPECT_LE(record.defect, 1e-12) << dimension;
+      }
+    }
+
+    cases::Scene cooled_bar(const double end)
+    {
+      cases::Scene scene = slab(plain(), 1, 0, 0, end);
+      scene.initial.temperature.constant = false;
+      scene.initial.temperature.value = [](const cases::Position &p, double)
+      { return 0.6 - (1 - p[0]) * (1 - p[0]) / 2; };
+      set_boundary(scene, Side::x_min, flux_wall(-1));
+      return scene;
+    }
+
+    TEST(LateStart, BehindAFluxFollowsTheLawOfEarlyTimesAndConverges)
+    {
+      const Recorder coarse = run(cooled_bar(0.9), 32), fine = run(cooled_bar(0.9), 64);
+      // The wall is at 0.1 - t until it freezes; then s = 4/3 tau^(3/2)/sqrt(pi).
+      int early = 0;
+      for(std::size_t i = 0; i < fine.time.size(); ++i)
+      {
+        const double since = fine.time[i] - 0.1;
+        EXPECT_EQ(fine.front[i] >= 0, since > 1e-12);
+        if(since <= 1e-12 || since > 1e-4)
+          continue;
+        ++early;
+        EXPECT_NEAR(fine.front[i]
+                        / (4. / 3 * std::pow(since, 1.5) / std::sqrt(std::numbers::pi)),
+                    1, 2e-2);
+      }
+      EXPECT_GE(early, 3);
+      EXPECT_NEAR(coarse.front.back(), fine.front.back(), 5e-8);
+      EXPECT_LE(fine.defect, 1e-12);
+    }
+
+    TEST(LateStart, IsFoundToRoundOff)
+    {
+      const cases::Scene scene = cooled_bar(0.2);
+      cases::Resolution resolution;
+      resolution.n = 16;
+      resolution.options = cases::Options(fitted_options());
+      const cases::EffectSet effects = cases::effects_called_for(scene);
+      const RunOptions options(scene, resolution);
+      const EventScene setting{scene, effects, options, rays_of(scene, options)};
+      Timeline timeline(setting, {},
+                        {[](const Stretch &) {},
+                         [](long, double, const dealii::Vector<double> &, bool) {}});
+      timeline.run(one_phase_stretch(setting));
+      ASSERT_EQ(timeline.events().size(), 1u);
+      EXPECT_NEAR(timeline.events()[0].time, 0.1, 1e-13);
+      EXPECT_NE(timeline.events()[0].text.find("x_min"), std::string::npos);
+    }
+
+    TEST(LateStart, AgreesWithTheEnthalpyMethod)
+    {
+      const auto enthalpy = make_fem_enthalpy();
+      EXPECT_NEAR(run(cooled_bar(0.9), 16).solid.back(),
+                  run(*enthalpy, cooled_bar(0.9), 256).solid.back(), 1e-3);
+      // A wall that cools through the melting temperature at t = 0.3.
+      cases::Scene ramp = slab(plain(), 1, 0.3, 0, 1);
+      set_boundary(ramp, Side::x_max, varying_wall([](double t) { return 0.3 - t; }));
+      const Recorder record = run(ramp, 16);
+      EXPECT_NEAR(record.solid.back(), run(*enthalpy, ramp, 256).solid.back(), 1e-3);
+      EXPECT_NEAR(record.solid.back(), run(ramp, 32).solid.back(), 1e-5);
+      EXPECT_LE(record.defect, 1e-12);
+    }
+
+    TEST(Vanishing, LiquidFreezesToTheLastDropAndTheRestCools)
+    {
+      cases::Scene scene = slab(plain(), 1, 0.3, 0, 7);
+      set_boundary(scene, Side::x_min, fixed_wall(-1));
+      double arrival[2];
+      int which = 0;
+      for(const int n : {16, 32})
+      {
+        const Recorder record = run(scene, n, "200");
+        for(std::size_t i = 0; i < record.time.size(); ++i)
+          if(record.front[i] >= 0)
+            arrival[which] = record.time[i];
+        ++which;
+        EXPECT_EQ(record.front.back(), -1);
+        EXPECT_NEAR(record.solid.back(), 1, 1e-12);
+        EXPECT_LE(record.defect, 1e-12);
+        // All is at -1 in the end: 0.3 + 1 of sensible heat and 1 of latent heat left.
+        EXPECT_NEAR(record.heat.boundary, -2.3, 1e-6);
+      }
+      EXPECT_NEAR(arrival[0] / arrival[1], 1, 1e-5);
+    }
+
+    TEST(Vanishing, ALiquidCoreFreezesToItsCentre)
+    {
+      cases::Scene scene = ball(plain(), 3, 1, 0.2, 0.6);
+      set_boundary(scene, Side::outer, fixed_wall(-1));
+      const Recorder record = run(scene, 32);
+      EXPECT_EQ(record.front.back(), -1);
+      EXPECT_NEAR(record.solid.back(), 4 * std::numbers::pi / 3, 1e-8);
+      EXPECT_LE(record.defect, 1e-12);
+    }
+
+    TEST(Events, AreRefusedWhereOneFrontIsNotEnough)
+    {
+      cases::Scene two_walls = slab(plain(), 1, 0.3, 0, 1);
+      set_boundary(two_walls, Side::x_min, fixed_wall(-1));
+      set_boundary(two_walls, Side::x_max, fixed_wall(-1));
+      EXPECT_THROW(run(two_walls, 8), cases::Refusal);
+      cases::Scene at_melting = slab(plain(), 1, 0, 0, 1);
+      set_boundary(at_melting, Side::x_min, flux_wall(-1));
+      EXPECT_THROW(run(at_melting, 8), cases::Refusal);
+    }
+
+    TEST(Stretch, StepsLengthenAndCellsWiden)
+    {
+      const auto steps = lengthening_steps(0.001, 2, 10, 3);
+      ASSERT_EQ(steps.size(), 10u);
+      EXPECT_EQ(steps.back().end, 2);
+      double last = 0.001;
+      for(const StepRange &range : steps)
+      {
+        EXPECT_NEAR(range.end - range.step, last, 1e-15);
+        last = range.end;
+      }
+      EXPECT_NEAR(std::cbrt(steps[1].end) - std::cbrt(steps[0].end),
+                  std::cbrt(steps[9].end) - std::cbrt(steps[8].end), 1e-12);
+      const auto forward = widening_shares(1e-4, 1.5, 0.1, true),
+                 backward = widening_shares(1e-4, 1.5, 0.1, false);
+      EXPECT_EQ(forward.front(), 0.);
+      EXPECT_NEAR(forward.back(), 1, 1e-15);
+      EXPECT_NEAR(forward[2] - forward[1], 1.5 * forward[1], 1e-15);
+      EXPECT_NEAR(1 - backward[backward.size() - 2], forward[1], 1e-15);
+    }
+  } // namespace
+} // namespace meltfront::reference_fem::fitted
