@@ -18,6 +18,7 @@ namespace meltfront::reference_fem::fitted
      * compared at 50 times at least. */
     constexpr int fewest_steps = 50;
     constexpr int steps_per_cell = 2;
+    constexpr int fewest_cells_around = 8;
 
     int choose_dimension(const cases::Scene &scene, const cases::Options &options)
     {
@@ -37,6 +38,15 @@ namespace meltfront::reference_fem::fitted
             fmt::format("fem-fitted simulates this scene in {} dimensions, not in {}",
                         fmt::join(possible, " or "), wanted));
       return wanted;
+    }
+  } // namespace
+
+  namespace
+  {
+    int choose_cells_around(const cases::Options &options, int cells)
+    {
+      const int wanted = static_cast<int>(options.get_integer("cells_around"));
+      return wanted > 0 ? wanted : std::max(fewest_cells_around, cells);
     }
   } // namespace
 
@@ -60,6 +70,7 @@ namespace meltfront::reference_fem::fitted
       steps = resolution.options.get_string("refine") == "space"
                   ? 200
                   : std::max(fewest_steps, steps_per_cell * resolution.n);
+    cells_around = choose_cells_around(resolution.options, cells);
   }
 
   std::vector<cases::OptionDeclaration> fitted_options()
@@ -91,6 +102,10 @@ namespace meltfront::reference_fem::fitted
          {"both", "space", "time"}},
         {"cells", "1", 32L, "Cells along the domain's side where n refines time.", 2,
          1e5},
+        {"cells_around", "1", 0L,
+         "Cells around a round front in 2D and 3D (4 for each edge of a sphere's cube); "
+         "0: n.",
+         0, 1e5},
         {"clock",
          "",
          std::string("auto"),

@@ -21,7 +21,8 @@ namespace meltfront::reference_fem::fitted
 
     int dimension;
     int degree;
-    int cells; ///< along the domain's side
+    int cells;            ///< along the domain's side
+    int cells_around = 0; ///< a round front
     int steps;
     bool refines_time; ///< n counts steps, not cells
     double grading;

@@ -20,8 +20,6 @@ namespace meltfront::reference_fem::fitted
     using cases::Side;
     using cases::Symmetry;
 
-    constexpr int fewest_cells_around = 8;
-
     /** Points of a ray at which a front is looked for. */
     constexpr int samples_on_ray = 256;
 
@@ -65,8 +63,9 @@ namespace meltfront::reference_fem::fitted
       if(domain.round())
         return options.dimension == 2
                    ? FrontSurface::circle(options.degree,
-                                          std::max(fewest_cells_around, n))
-                   : FrontSurface::sphere(options.degree, std::max(1, n / 4));
+                                          std::max(2, options.cells_around))
+                   : FrontSurface::sphere(options.degree,
+                                          std::max(1, options.cells_around / 4));
       const bool periodic_y = is_periodic(scene, Side::y_min, Side::y_max);
       if(options.dimension == 2)
         return FrontSurface::line(options.degree, cells_across(domain, 1, n),

@@ -4,6 +4,7 @@
 #include <reference_fem/enthalpy/tests/support.h>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,35 @@ namespace meltfront::reference_fem::fitted::tests
     double worst_front_error() const; ///< over the exact front at the end
     double final_front_error() const;
   };
+
+  using reference_fem::tests::ExactPointer;
+
+  /** A scene with the exact solution that it starts from and that its walls follow. */
+  struct ExactScene
+  {
+    cases::Scene scene;
+    ExactPointer exact;
+  };
+
+  /** Neumann's solution with the front from 0.1 to 0.5 of a slab. */
+  ExactScene started_slab();
+
+  /** Water under ice of another density. */
+  ExactScene lighter_ice();
+
+  /** Ice around a sink on the axis of a disk or at the centre of a ball. */
+  ExactScene line_sink_disk();
+  ExactScene point_sink_ball();
+
+  /** Growth of solid into undercooled liquid, in 2 or 3 dimensions. */
+  ExactScene frank(int dimension);
+
+  /** Ice with a perturbed front on the inner wall of an annulus: T is a function of a
+   * harmonic function that vanishes on the front. */
+  cases::Scene perturbed_annulus(double end);
+
+  /** A front with a wave along y, and along z in 3D, between a cold and a warm wall. */
+  cases::Scene wavy_box(int dimension, double end);
 
   using Texts = std::map<std::string, std::string>;
 
