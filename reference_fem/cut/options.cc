@@ -20,7 +20,7 @@ namespace meltfront::reference_fem::cut
              "Radius in cells of a front that is seeded around a sink in liquid.", 1.5,
              100},
             {"penalty", "1", 40., "Nitsche's penalty on front and walls.", 1, 1e4},
-            {"ghost_penalty", "1", 0.01,
+            {"ghost_penalty", "1", 0.04,
              "Penalty on jumps of the normal derivative between the cells at the front.",
              1e-4, 1e2}};
   }

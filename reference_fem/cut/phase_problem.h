@@ -40,7 +40,7 @@ namespace meltfront::reference_fem::cut
   {
     /** Nitsche's penalty for linear elements; grows with the square of the degree. */
     double penalty = 40;
-    double ghost = 0.01; ///< ghost penalty on jumps of the normal derivative
+    double ghost = 0.04; ///< ghost penalty on jumps of the normal derivative
     double extension
         = 2.5; ///< width of the band into which a phase is extended, in cells
   };
