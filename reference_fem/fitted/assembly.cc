@@ -1,0 +1,190 @@
+#include <reference_fem/fitted/fitted_problem.h>
+
+#include <cmath>
+#include <utility>
+
+namespace meltfront::reference_fem::fitted
+{
+  using cases::BoundaryKind;
+  using dealii::Vector;
+
+  struct FittedProblem::Matrices
+  {
+    dealii::SparseMatrix<double> &mass, &flow, &rate;
+  };
+
+  void FittedProblem::assemble(double clock, const Vector<double> &u,
+                               const Vector<double> &rate, Vector<double> &mass,
+                               Vector<double> &flow, Matrices *matrices) const
+  {
+    const double time = laws.clock.time(clock);
+    mass.reinit(n_unknowns);
+    flow.reinit(n_unknowns);
+    for(unsigned int l = 0; l < rays.layers.size(); ++l)
+    {
+      CellPhysics physics = cell_physics(l, time);
+      physics.time_rate = laws.clock.rate(clock);
+      for(unsigned int s = 0; s < rays.surface.cells.size(); ++s)
+      {
+        const CellState state = cell_state(s, l, time, u, rate);
+        const CellIntegrals integrals(tables(l), s, rays.layers[l], rays.surface, physics,
+                                      state);
+        const CellVectors local = integrals.vectors();
+        const std::vector<unsigned int> nodes = nodes_of(s, l);
+        for(std::size_t i = 0; i < nodes.size(); ++i)
+        {
+          mass[nodes[i]] += local.mass[i];
+          flow[nodes[i]] += local.flow[i];
+        }
+        if(matrices)
+          scatter(s, l, time, u, integrals.matrices(), *matrices);
+      }
+    }
+    add_walls(clock, u, mass, flow, matrices);
+    if(outflow_account != RayMesh::none)
+    {
+      mass[outflow_account] -= u[outflow_account];
+      if(matrices)
+        matrices->mass.add(outflow_account, outflow_account, -1);
+      add_outflow(u, rate, flow, matrices);
+    }
+  }
+
+  void FittedProblem::scatter(unsigned int surface_cell, unsigned int layer, double time,
+                              const Vector<double> &u, const CellMatrices &local,
+                              Matrices &matrices) const
+  {
+    const std::vector<unsigned int> &cell = rays.surface.cells[surface_cell];
+    const std::vector<unsigned int> nodes = nodes_of(surface_cell, layer);
+    const unsigned int per_ray = rays.surface.degree + 1;
+    const SourceField field = source(rays.layers[layer].phase, time);
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      for(std::size_t j = 0; j < nodes.size(); ++j)
+      {
+        double mass = local.mass_temperature(i, j), flow = local.flow_temperature(i, j);
+        const unsigned int level = layer * rays.surface.degree + j % per_ray;
+        // On the front theta = -S(h).
+        if(rays.has_front() && level == rays.front_level())
+        {
+          const double factor = -field.slope(u[nodes[j]]);
+          mass *= factor;
+          flow *= factor;
+        }
+        matrices.mass.add(nodes[i], nodes[j], mass);
+        matrices.flow.add(nodes[i], nodes[j], flow);
+      }
+      for(std::size_t a = 0; rays.has_front() && a < cell.size(); ++a)
+      {
+        const unsigned int column = rays.front_node(cell[a]);
+        matrices.mass.add(nodes[i], column, local.mass_front(i, a));
+        matrices.flow.add(nodes[i], column, local.flow_front(i, a));
+        matrices.rate.add(nodes[i], column, local.flow_rate(i, a));
+      }
+    }
+  }
+
+  void FittedProblem::add_walls(double clock, const Vector<double> &u,
+                                Vector<double> &mass, Vector<double> &flow,
+                                Matrices *matrices) const
+  {
+    const double time = laws.clock.time(clock);
+    for(const Wall &wall : walls)
+    {
+      if(wall.boundary && wall.boundary->kind == BoundaryKind::flux)
+        add_flux(wall, clock, flow);
+      for(unsigned int ray = 0;
+          wall.first_account != RayMesh::none && ray < rays.surface.n_rays(); ++ray)
+      {
+        const unsigned int node = rays.node(ray, wall.level);
+        const unsigned int account = wall.first_account + ray;
+        mass[node] -= u[account];
+        flow[account] = wall.boundary->value(rays.position(ray, wall.r), time)
+                        - laws.melting_temperature - u[node];
+        if(matrices)
+        {
+          matrices->mass.add(node, account, -1);
+          matrices->flow.add(account, node, -1);
+        }
+      }
+    }
+    if(source_account != RayMesh::none)
+    {
+      const double heat = laws.clock.rate(clock) * laws.power(time);
+      flow[rays.node(0, 0)] += heat;
+      flow[source_account] -= heat;
+    }
+    for(const unsigned int account : {flux_account, source_account})
+      if(account != RayMesh::none)
+      {
+        mass[account] -= u[account];
+        if(matrices)
+          matrices->mass.add(account, account, -1);
+      }
+  }
+
+  void FittedProblem::add_flux(const Wall &wall, double clock, Vector<double> &flow) const
+  {
+    const double time = laws.clock.time(clock);
+    const double area = laws.clock.rate(clock) * std::pow(wall.r, rays.surface.exponent);
+    for(std::size_t s = 0; s < rays.surface.cells.size(); ++s)
+    {
+      const SurfaceRule::Cell &cell = surface_rule.cells[s];
+      for(std::size_t q = 0; q < cell.points.size(); ++q)
+      {
+        cases::Position position{};
+        for(int d = 0; d < 3; ++d)
+          position[d] = cell.points[q].base[d] + wall.r * cell.points[q].direction[d];
+        const double heat = cell.weight[q] * area * wall.boundary->value(position, time);
+        for(std::size_t a = 0; a < rays.surface.cells[s].size(); ++a)
+          flow[rays.node(rays.surface.cells[s][a], wall.level)]
+              += heat * surface_rule.value(q, a);
+        flow[flux_account] -= heat;
+      }
+    }
+  }
+
+  /** What liquid takes along through the outer wall; one ray only. */
+  void FittedProblem::add_outflow(const Vector<double> &u, const Vector<double> &rate,
+                                  Vector<double> &flow, Matrices *matrices) const
+  {
+    const unsigned int front = rays.front_node(0);
+    const unsigned int node = rays.node(0, walls[1].level);
+    const int exponent = rays.surface.exponent;
+    const double volume_by_rate
+        = total_measure * laws.displacement * std::pow(u[front], exponent);
+    const double volume = volume_by_rate * rate[front];
+    const double heat = laws.phases[1].latent + laws.phases[1].capacity * u[node];
+    flow[node] -= heat * volume;
+    flow[outflow_account] += heat * volume;
+    if(!matrices)
+      return;
+    for(const auto &[row, sign] : {std::pair(node, -1.), std::pair(outflow_account, 1.)})
+    {
+      matrices->flow.add(row, node, sign * laws.phases[1].capacity * volume);
+      if(exponent > 0)
+        matrices->flow.add(row, front, sign * heat * volume * exponent / u[front]);
+      matrices->rate.add(row, front, sign * heat * volume_by_rate);
+    }
+  }
+
+  void FittedProblem::evaluate(double clock, const Vector<double> &u,
+                               const Vector<double> &rate, Vector<double> &mass,
+                               Vector<double> &flow) const
+  {
+    assemble(clock, u, rate, mass, flow, nullptr);
+  }
+
+  void FittedProblem::linearize(double clock, const Vector<double> &u,
+                                const Vector<double> &rate, Vector<double> &mass,
+                                Vector<double> &flow, dealii::SparseMatrix<double> &by_u,
+                                dealii::SparseMatrix<double> &flow_by_u,
+                                dealii::SparseMatrix<double> &flow_by_rate) const
+  {
+    by_u = 0;
+    flow_by_u = 0;
+    flow_by_rate = 0;
+    Matrices matrices{by_u, flow_by_u, flow_by_rate};
+    assemble(clock, u, rate, mass, flow, &matrices);
+  }
+} // namespace meltfront::reference_fem::fitted
