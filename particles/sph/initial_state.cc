@@ -18,13 +18,14 @@ namespace meltfront::particles
              / ((upper - lower) * scene.material.solid.density);
     }
 
-    /** Part of a cell that lies within the front, by points on a fine grid in the cell.
-     */
-    double inner_fraction(const Discretisation &dis, const cases::Position &centre)
+    /** Part of a cell in which a level set is negative, by points on a fine grid in the
+     * cell. */
+    double negative_fraction(const Discretisation &dis, const cases::Position &centre,
+                             const cases::Field &level)
     {
       const int points = dis.dimension == 2 ? 32 : 12;
       const int points_z = dis.dimension > 2 ? points : 1;
-      int inside = 0;
+      int negative = 0;
       for(int k = 0; k < points_z; ++k)
         for(int j = 0; j < points; ++j)
           for(int i = 0; i < points; ++i)
@@ -33,10 +34,9 @@ namespace meltfront::particles
             p[0] += ((i + 0.5) / points - 0.5) * dis.spacing;
             p[1] += ((j + 0.5) / points - 0.5) * dis.spacing;
             p[2] += ((k + 0.5) / points_z - 0.5) * (points_z > 1 ? dis.spacing : 0);
-            inside
-                += dis.scene.initial.exact->signed_distance(p, dis.scene.start_time) < 0;
+            negative += level(p, dis.scene.start_time) < 0;
           }
-      return double(inside) / (points * points * points_z);
+      return double(negative) / (points * points * points_z);
     }
 
     double from_exact(const Discretisation &dis, const cases::Position &position)
@@ -48,12 +48,45 @@ namespace meltfront::particles
       const double distance = exact.signed_distance(position, scene.start_time);
       double inner = 0;
       if(std::abs(distance) <= 0.5 * std::sqrt(double(dis.dimension)) * dis.spacing)
-        inner = inner_fraction(dis, position);
+        inner = negative_fraction(dis, position,
+                                  {"", [&exact](const cases::Position &p, double time)
+                                   { return exact.signed_distance(p, time); }});
       if(inner == 0 || inner == 1)
         return scene.material.enthalpy(exact.temperature(position, scene.start_time),
                                        scene.initial.solid_fraction_at_melting);
       const double solid = exact.solid_at_origin() ? inner : 1 - inner;
       return scene.material.enthalpy(scene.material.melting_temperature, solid);
+    }
+    /** Whether a level set changes its sign between a cell's centre and its corners. */
+    bool cuts(const Discretisation &dis, const cases::Position &centre,
+              const cases::Field &level)
+    {
+      const double time = dis.scene.start_time;
+      const bool negative = level(centre, time) < 0;
+      for(int corner = 0; corner < 1 << dis.dimension; ++corner)
+      {
+        cases::Position p = centre;
+        for(int d = 0; d < dis.dimension; ++d)
+          p[d] += (corner >> d & 1 ? 0.5 : -0.5) * dis.spacing;
+        if((level(p, time) < 0) != negative)
+          return true;
+      }
+      return false;
+    }
+
+    /** The scene's own front decides on the phase; a cell that it cuts is at the melting
+     * temperature. */
+    double from_front(const Discretisation &dis, const cases::Position &position)
+    {
+      const cases::Scene &scene = dis.scene;
+      const cases::Field &level = *scene.initial.front;
+      const bool cut = dis.dimension > 1 && cuts(dis, position, level);
+      const double solid = cut ? negative_fraction(dis, position, level)
+                               : double(level(position, scene.start_time) < 0);
+      return scene.material.enthalpy(
+          cut ? scene.material.melting_temperature
+              : scene.initial.temperature(position, scene.start_time),
+          solid);
     }
   } // namespace
 
@@ -64,8 +97,9 @@ namespace meltfront::particles
     for(std::size_t i = 0; i < enthalpy.size(); ++i)
     {
       const cases::Position position = dis.particles.point(i);
-      enthalpy[i] = scene.initial.exact
-                        ? from_exact(dis, position)
+      enthalpy[i] = scene.initial.exact ? from_exact(dis, position)
+                    : scene.initial.front
+                        ? from_front(dis, position)
                         : scene.material.enthalpy(
                             scene.initial.temperature(position, scene.start_time),
                             scene.initial.solid_fraction_at_melting);

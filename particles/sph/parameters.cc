@@ -87,6 +87,10 @@ namespace meltfront::particles
 
     int resolve_dimension(const SphPolicy &policy, const cases::Scene &scene, long wanted)
     {
+      if(scene.domain.shape == cases::DomainShape::shell)
+        throw cases::Refusal(fmt::format(
+            "{} does not simulate a shell: it has no particles along an inner round wall",
+            policy.name));
       if(scene.domain.shape == cases::DomainShape::slab)
         return wanted > 0 ? static_cast<int>(wanted) : (policy.as_published ? 2 : 1);
       if(wanted > 0 && wanted != scene.domain.dimension)

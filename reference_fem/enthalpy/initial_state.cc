@@ -1,98 +1,130 @@
+#include <cases/exact/heat_quadrature.h>
 #include <reference_fem/enthalpy/initial_state.h>
 
 #include <boost/math/quadrature/gauss.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
 namespace meltfront::reference_fem
 {
   namespace
   {
-    using cases::ExactSolution;
-    using cases::Material;
     using cases::Position;
     using cases::Symmetry;
 
-    /** Enthalpy per volume of a coordinate's phase: the front decides, not the sign of a
+    /** What the averages are made of: the front decides on the phase, not the sign of a
      * temperature that may be the melting point's. */
-    double phase_enthalpy(const Material &material, const ExactSolution &exact,
-                          bool solid, double coordinate, double time)
+    class Start
     {
-      const double excess
-          = exact.temperature(coordinate, time) - material.melting_temperature;
-      if(solid)
-        return material.solid.volumetric_heat_capacity() * std::min(excess, 0.);
-      return material.solid.density * material.latent_heat
-             + material.liquid.volumetric_heat_capacity() * std::max(excess, 0.);
-    }
+    public:
+      Start(const cases::Scene &scene, const cases::Field &front)
+        : scene(scene)
+        , front(front)
+      {
+      }
 
-    /** Average of the enthalpy between two coordinates with the measure of a symmetry. */
-    double average(const cases::Scene &scene, Symmetry measure, double lower,
-                   double upper)
-    {
-      const ExactSolution &exact = *scene.initial.exact;
-      const double time = scene.start_time;
-      const double front = std::clamp(exact.front(time), lower, upper);
-      const auto piece = [&](bool inner, double from, double to)
+      /** Enthalpy per volume at a point. */
+      double operator()(const Position &p) const
+      {
+        return enthalpy(p, front(p, scene.start_time) < 0);
+      }
+
+      /** Average between two coordinates on the axis of x with the measure of a symmetry,
+       * each phase integrated up to the front. */
+      double average(Symmetry measure, double lower, double upper) const
+      {
+        const double split = front_between(lower, upper);
+        return (integral(measure, lower, split) + integral(measure, split, upper))
+               / cases::volume_between(measure, lower, upper);
+      }
+
+    private:
+      double level(double x) const
+      {
+        return front({x, 0, 0}, scene.start_time);
+      }
+
+      double enthalpy(const Position &p, bool solid) const
+      {
+        const cases::Material &material = scene.material;
+        const double excess = scene.initial.temperature(p, scene.start_time)
+                              - material.melting_temperature;
+        if(solid)
+          return material.solid.volumetric_heat_capacity() * std::min(excess, 0.);
+        return material.solid.density * material.latent_heat
+               + material.liquid.volumetric_heat_capacity() * std::max(excess, 0.);
+      }
+
+      /** By bisection; the upper end where the front is elsewhere. */
+      double front_between(double lower, double upper) const
+      {
+        const bool solid_below = level(lower) < 0;
+        if(solid_below == (level(upper) < 0))
+          return upper;
+        for(double width = upper - lower; width > 1e-15 * upper; width /= 2)
+        {
+          const double middle = (lower + upper) / 2;
+          (solid_below == (level(middle) < 0) ? lower : upper) = middle;
+        }
+        return upper;
+      }
+
+      double integral(Symmetry measure, double from, double to) const
       {
         if(from >= to)
-          return 0.;
-        const bool solid = inner == exact.solid_at_origin();
+          return 0;
+        const bool solid = level((from + to) / 2) < 0;
         return boost::math::quadrature::gauss<double, 7>::integrate(
-            [&](double x)
-            {
-              const double jacobian = measure == Symmetry::cylindrical ? x
-                                      : measure == Symmetry::spherical ? x * x
-                                                                       : 1;
-              return jacobian * phase_enthalpy(scene.material, exact, solid, x, time);
+            [&](double x) {
+              return cases::surface(measure, x) * enthalpy({x, 0, 0}, solid);
             },
             from, to);
-      };
-      const double factor = measure == Symmetry::cylindrical ? 2 * std::numbers::pi
-                            : measure == Symmetry::spherical ? 4 * std::numbers::pi
-                                                             : 1;
-      return factor * (piece(true, lower, front) + piece(false, front, upper))
-             / cases::volume_between(measure, lower, upper);
+      }
+
+      const cases::Scene &scene;
+      const cases::Field &front;
+    };
+
+    /** The level set of the front at the start, where the scene has one. */
+    std::optional<cases::Field> initial_front(const cases::Scene &scene)
+    {
+      const auto &exact = scene.initial.exact;
+      if(!(scene.material.latent_heat > 0)
+         || (exact && !(scene.start_time > exact->start_time())))
+        return {};
+      if(scene.initial.front || !exact)
+        return scene.initial.front;
+      const double sign = exact->solid_at_origin() ? 1 : -1;
+      return cases::Field{"exact", [exact, sign](const Position &p, double time)
+                          { return sign * exact->signed_distance(p, time); }};
     }
 
-    std::vector<double> averages(const cases::Scene &scene, const Mesh &mesh,
-                                 const Discretization &discretization)
+    std::vector<double> averages(const cases::Scene &scene, const Start &start,
+                                 const Mesh &mesh, const Discretization &discretization)
     {
       const std::size_t n = discretization.volume.size();
-      std::vector<double> result(n);
       const Symmetry measure = discretization.measure;
       const double length = scene.domain.side(), half = discretization.spacing / 2;
-      if(measure != Symmetry::none)
-      {
-        double volume = 0, lower = 0;
-        for(std::size_t i = 0; i < n; ++i)
+      if(measure == Symmetry::none && scene.domain.shape != cases::DomainShape::slab)
+        return mesh.node_averages(start);
+      std::vector<double> result(n);
+      double lower = scene.domain.inner_radius;
+      double volume = cases::volume_between(measure, 0, lower);
+      for(std::size_t i = 0; i < n; ++i)
+        if(measure == Symmetry::none)
+        {
+          const double x = discretization.positions[i][0];
+          result[i] = start.average(Symmetry::planar, std::max(x - half, 0.),
+                                    std::min(x + half, length));
+        }
+        else
         {
           volume += discretization.volume[i];
           const double upper = cases::enclosing_coordinate(measure, volume);
-          result[i] = average(scene, measure, lower, upper);
+          result[i] = start.average(measure, lower, upper);
           lower = upper;
         }
-      }
-      else if(scene.domain.shape == cases::DomainShape::slab)
-        for(std::size_t i = 0; i < n; ++i)
-        {
-          const double x = discretization.positions[i][0];
-          result[i] = average(scene, measure, std::max(x - half, 0.),
-                              std::min(x + half, length));
-        }
-      else
-      {
-        const ExactSolution &exact = *scene.initial.exact;
-        result = mesh.node_averages(
-            [&](const Position &p)
-            {
-              const double distance = exact.signed_distance(p, scene.start_time);
-              return phase_enthalpy(
-                  scene.material, exact, (distance < 0) == exact.solid_at_origin(),
-                  cases::coordinate(exact.symmetry(), p), scene.start_time);
-            });
-      }
       return result;
     }
   } // namespace
@@ -102,19 +134,19 @@ namespace meltfront::reference_fem
                                        const std::vector<char> &free)
   {
     const std::size_t n = discretization.volume.size();
-    const auto &exact = scene.initial.exact;
-    const bool has_front = exact && scene.start_time > exact->start_time()
-                           && scene.material.latent_heat > 0;
+    const std::optional<cases::Field> front = initial_front(scene);
     std::vector<double> result
-        = has_front ? averages(scene, mesh, discretization) : std::vector<double>(n);
+        = front ? averages(scene, Start(scene, *front), mesh, discretization)
+                : std::vector<double>(n);
     for(std::size_t i = 0; i < n; ++i)
-      if(!has_front || !free[i])
+      if(!front || !free[i])
       {
-        const double temperature
-            = scene.initial.temperature(discretization.positions[i], scene.start_time);
+        const Position &p = discretization.positions[i];
+        const double solid = front ? double((*front)(p, scene.start_time) < 0)
+                                   : scene.initial.solid_fraction_at_melting;
         result[i] = scene.material.solid.density
-                    * scene.material.enthalpy(temperature,
-                                              scene.initial.solid_fraction_at_melting);
+                    * scene.material.enthalpy(
+                        scene.initial.temperature(p, scene.start_time), solid);
       }
     return result;
   }

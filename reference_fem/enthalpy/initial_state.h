@@ -11,11 +11,12 @@ namespace meltfront::reference_fem
   /**
    * Enthalpy per volume (J/m^3) of the nodes at the start.
    *
-   * Where the scene starts from an exact solution with a front, a node that is free takes
-   * the average over the volume it stands for, each phase integrated up to the front:
-   * point values would misplace the front by up to half a cell. The average is made of
-   * the simulated material and the exact temperature, so that it stays right where an
-   * effect is taken out of the scene. Elsewhere the point value is taken.
+   * Where the scene states its front at the start, or starts from an exact solution with
+   * one, a node that is free takes the average over the volume it stands for, each phase
+   * up to the front: point values would misplace the front by up to half a cell. The
+   * average is made of the simulated material and the initial temperature, so that it
+   * stays right where an effect is taken out of the scene. Elsewhere the point value is
+   * taken.
    */
   std::vector<double> initial_enthalpy(const cases::Scene &scene, const Mesh &mesh,
                                        const Discretization &discretization,

@@ -78,7 +78,9 @@ namespace meltfront::reference_fem
    *
    * Slab: an interval, or in 2D/3D a strip four cells wide, periodic across. Symmetric
    * ball in 1D: the radius. Box: a Cartesian mesh, cells as near to cubes as the sides
-   * allow. Ball in 2D/3D: an unstructured mesh of 4 2^k cells along the diameter.
+   * allow. Ball in 2D/3D: an unstructured mesh of 4 2^k cells along the diameter. Shell:
+   * the interval between its radii, or rings of cells near to squares (2D) or layers of a
+   * cube's faces (3D) as near to that size as they come.
    * On Cartesian meshes mass and stiffness are integrated at the vertices, which makes K
    * an M-matrix for any aspect ratio; elsewhere the masses are row sums, so that the
    * volumes add up to the mesh's volume.

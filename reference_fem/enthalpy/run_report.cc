@@ -10,10 +10,11 @@ namespace meltfront::reference_fem
   std::string EnthalpyRun::mesh_in_words() const
   {
     const char *shape
-        = mesh.measure == cases::Symmetry::cylindrical     ? "radial, weight 2 pi r"
-          : mesh.measure == cases::Symmetry::spherical     ? "radial, weight 4 pi r^2"
-          : scene.domain.shape == cases::DomainShape::ball ? "unstructured"
-                                                           : "Cartesian";
+        = mesh.measure == cases::Symmetry::cylindrical      ? "radial, weight 2 pi r"
+          : mesh.measure == cases::Symmetry::spherical      ? "radial, weight 4 pi r^2"
+          : scene.domain.shape == cases::DomainShape::ball  ? "unstructured"
+          : scene.domain.shape == cases::DomainShape::shell ? "rings"
+                                                            : "Cartesian";
     return fmt::format("{} cells, {} nodes, {}D, {}", mesh.cells.size() >> mesh.dimension,
                        mesh.volume.size(), mesh.dimension, shape);
   }

@@ -5,12 +5,14 @@
 #include <cases/scene.h>
 
 #include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/manifold_lib.h>
 #include <deal.II/grid/tria.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace meltfront::reference_fem
@@ -35,15 +37,19 @@ namespace meltfront::reference_fem
     void mesh_block(const cases::Scene &scene, int n);
     void mesh_radius(const cases::Scene &scene, int n);
     void mesh_ball(const cases::Scene &scene, int n);
+    void mesh_shell(const cases::Domain &domain, int n);
+    void number_round_walls(const cases::Domain &domain);
   };
 
   template <int dim>
   ShapedTriangulation<dim>::ShapedTriangulation(const cases::Scene &scene, int n)
-    : cartesian(scene.domain.shape != cases::DomainShape::ball)
+    : cartesian(!scene.domain.round())
     , curved(!cartesian && dim > 1)
   {
     if(cartesian)
       mesh_block(scene, n);
+    else if(curved && scene.domain.shape == cases::DomainShape::shell)
+      mesh_shell(scene.domain, n);
     else if(curved)
       mesh_ball(scene, n);
     else
@@ -83,19 +89,17 @@ namespace meltfront::reference_fem
   {
     if constexpr(dim == 1)
     {
-      const unsigned int cells = std::max(1, (n + 1) / 2);
+      const double inner = scene.domain.inner_radius;
+      const double length = scene.domain.radius - inner;
+      const unsigned int cells
+          = std::max(1L, std::lround(length / scene.domain.side() * (n + n % 2)));
       dealii::GridGenerator::subdivided_hyper_rectangle(
-          triangulation, std::vector<unsigned int>{cells}, dealii::Point<1>(0),
+          triangulation, std::vector<unsigned int>{cells}, dealii::Point<1>(inner),
           dealii::Point<1>(scene.domain.radius));
-      spacing = scene.domain.radius / cells;
+      spacing = length / cells;
       measure = scene.domain.dimension == 2 ? cases::Symmetry::cylindrical
                                             : cases::Symmetry::spherical;
-      for(const auto &cell : triangulation.active_cell_iterators())
-        for(const auto face : cell->face_indices())
-          if(cell->at_boundary(face) && cell->face(face)->center()[0] > 0)
-            cell->face(face)->set_boundary_id(
-                static_cast<unsigned int>(cases::Side::outer));
-      sides = {cases::Side::outer};
+      number_round_walls(scene.domain);
     }
   }
 
@@ -115,12 +119,79 @@ namespace meltfront::reference_fem
       dealii::GridGenerator::hyper_ball_balanced(triangulation, dealii::Point<dim>(),
                                                  scene.domain.radius);
       triangulation.refine_global(refinements);
-      for(const auto &face : triangulation.active_face_iterators())
-        if(face->at_boundary())
-          face->set_boundary_id(static_cast<unsigned int>(cases::Side::outer));
       spacing = scene.domain.side() / n;
-      sides = {cases::Side::outer};
+      number_round_walls(scene.domain);
     }
+  }
+
+  /** In 2D cells in rings, square in the middle between the walls; in 3D layers of the
+   * six faces of a cube, halved. */
+  template <int dim>
+  void ShapedTriangulation<dim>::mesh_shell(const cases::Domain &domain, int n)
+  {
+    const double inner = domain.inner_radius, thickness = domain.radius - inner;
+    const double middle = inner + thickness / 2, wanted = domain.side() / n;
+    if constexpr(dim == 2)
+    {
+      const auto layers
+          = static_cast<unsigned int>(std::max(1L, std::lround(thickness / wanted)));
+      // A multiple of eight: the mesh has the symmetries of a square.
+      const auto around = static_cast<unsigned int>(
+          8 * std::max(1L, std::lround(2 * std::numbers::pi * middle / wanted / 8)));
+      std::vector<dealii::Point<2>> vertices;
+      std::vector<dealii::CellData<2>> cells;
+      for(unsigned int i = 0; i < around; ++i)
+        for(unsigned int j = 0; j <= layers; ++j)
+        {
+          const double angle = 2 * std::numbers::pi * i / around;
+          const double r = inner + thickness * j / layers;
+          vertices.emplace_back(r * std::cos(angle), r * std::sin(angle));
+          if(j == layers)
+            continue;
+          const unsigned int here = i * (layers + 1) + j;
+          const unsigned int next = (i + 1) % around * (layers + 1) + j;
+          cells.emplace_back();
+          cells.back().vertices = {here, here + 1, next, next + 1};
+        }
+      triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
+      triangulation.set_all_manifold_ids(0);
+      triangulation.set_manifold(0, dealii::SphericalManifold<2>());
+      spacing = thickness / layers;
+    }
+    else if constexpr(dim == 3)
+    {
+      const double quarter = std::numbers::pi / 2 * middle;
+      const int refinements
+          = std::max(0, static_cast<int>(std::lround(std::log2(quarter / wanted))));
+      const auto layers = static_cast<unsigned int>(
+          std::max(1L, std::lround(thickness / wanted / (1 << refinements))));
+      dealii::GridGenerator::concentric_hyper_shells(triangulation, dealii::Point<3>(),
+                                                     inner, domain.radius, layers, 0., 6);
+      triangulation.refine_global(refinements);
+      spacing = thickness / (layers << refinements);
+    }
+    number_round_walls(domain);
+  }
+
+  template <int dim>
+  void ShapedTriangulation<dim>::number_round_walls(const cases::Domain &domain)
+  {
+    const double middle = (domain.inner_radius + domain.radius) / 2;
+    for(const auto &cell : triangulation.active_cell_iterators())
+      for(const auto face : cell->face_indices())
+        if(cell->at_boundary(face))
+        {
+          const double distance = cell->face(face)->center().norm();
+          if(distance > middle)
+            cell->face(face)->set_boundary_id(
+                static_cast<unsigned int>(cases::Side::outer));
+          else if(domain.shape == cases::DomainShape::shell)
+            cell->face(face)->set_boundary_id(
+                static_cast<unsigned int>(cases::Side::inner));
+        }
+    sides = {cases::Side::outer};
+    if(domain.shape == cases::DomainShape::shell)
+      sides.push_back(cases::Side::inner);
   }
 } // namespace meltfront::reference_fem
 

@@ -176,6 +176,35 @@ namespace meltfront::cases
     EXPECT_THROW(from_profile.front(0.009), InputError);
   }
 
+  /** Between two round walls from a profile whose wall values set off at once: the number
+   * of nodes does not matter. */
+  TEST(Oracle, SolvesAShellFromAProfile)
+  {
+    const auto profile = [](double r)
+    {
+      return r < 0.5 ? (1 - std::pow(r / 0.5, -0.4)) / 0.4
+                     : 0.25 * (1 - std::pow(r / 0.5, -1.6));
+    };
+    OracleProblem problem;
+    problem.symmetry = Symmetry::cylindrical;
+    problem.material = {{2, 1, 1}, {1, 2, 1}, 2, 0};
+    problem.inner = 0.3;
+    problem.end_time = 0.12;
+    problem.inner_wall
+        = {BoundaryKind::fixed_temperature, [&](double) { return profile(0.3); }};
+    problem.outer_wall
+        = {BoundaryKind::fixed_temperature, [&](double) { return profile(1); }};
+    problem.initial_front = 0.5;
+    problem.initial_temperature = profile;
+    const double front = SpectralOracle(problem).front(0.12);
+    EXPECT_NEAR(front, 0.63204736885, 1e-11);
+    for(const int nodes : {40, 60})
+    {
+      problem.nodes = nodes;
+      EXPECT_NEAR(SpectralOracle(problem).front(0.12), front, 1e-12);
+    }
+  }
+
   TEST(Oracle, RejectsIncompleteProblems)
   {
     const auto exact = std::make_shared<PlanarNeumann>(unit_material(), unit_wall, 1.2);

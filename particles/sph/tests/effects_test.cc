@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace meltfront::particles::testing
 {
@@ -124,6 +125,49 @@ namespace meltfront::particles::testing
       problem.scene.boundaries[1] = fixed(10);
       problem.scene.material.solid.density = 917;
       EXPECT_THROW(run(*make_sph(), problem, 20), cases::Refusal);
+    }
+
+    /** All at the melting temperature: only the scene's front tells ice from water. */
+    TEST(Effects, TheSceneSaysWhereItsFrontStarts)
+    {
+      Problem problem;
+      problem.scene = unit_box(2, unit_material(), 0, 0.01);
+      problem.scene.initial.front
+          = cases::Field{"", [](const cases::Position &p, double)
+                         { return p[0] * p[0] + p[1] * p[1] - 0.09; }};
+      const Outcome outcome = run(*make_sph(), problem, 20);
+      double ice = 0;
+      for(std::size_t i = 0; i < outcome.weights.size(); ++i)
+        ice += outcome.weights[i] * outcome.solid_fraction[i];
+      EXPECT_NEAR(ice, std::numbers::pi * 0.09, 2e-3 * 0.09);
+    }
+
+    TEST(Effects, ShellsAndUndercooledLiquidAreRefused)
+    {
+      Problem problem;
+      problem.scene = unit_box(2, unit_material(), -1, 0.01);
+      problem.scene.initial.front = cases::Field::uniform(1);
+      const auto refusal = [&problem]() -> std::string
+      {
+        try
+        {
+          run(*make_sph(), problem, 20);
+        }
+        catch(const cases::Refusal &error)
+        {
+          return error.what();
+        }
+        return "runs";
+      };
+      EXPECT_EQ(refusal(), "sph does not simulate metastable_phase (liquid is "
+                           "undercooled at the start)");
+      problem.scene.domain = {cases::DomainShape::shell, 2, {}, {}, 1, 0.5};
+      problem.scene.initial.front.reset();
+      problem.scene.boundaries = {};
+      for(const cases::Side side : {cases::Side::inner, cases::Side::outer})
+        problem.scene.boundaries[static_cast<std::size_t>(side)] = insulated();
+      EXPECT_EQ(refusal(), "sph does not simulate a shell: it has no particles along an "
+                           "inner round wall");
     }
 
     TEST(Effects, EveryOneCarriesItsTime)

@@ -145,7 +145,9 @@ namespace meltfront::reference_fem::tests
         for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
           solid += snapshot.weights[i] * snapshot.solid_fraction[i];
         record.time.push_back(snapshot.time);
-        record.front.push_back(enclosing_coordinate(scene.symmetry, solid));
+        const double hollow
+            = volume_between(scene.symmetry, 0, scene.domain.inner_radius);
+        record.front.push_back(enclosing_coordinate(scene.symmetry, hollow + solid));
         record.front_exact.push_back(exact ? exact->front(snapshot.time) : 0);
         record.budget_defect.push_back(snapshot.heat.defect());
         const auto [low, high] = std::minmax_element(snapshot.temperature.begin(),
