@@ -43,10 +43,15 @@ namespace meltfront::reference_fem::fitted
 
   namespace
   {
-    int choose_cells_around(const cases::Options &options, int cells)
+    /** What depends on the radius alone is solved the same with any number of them. */
+    int choose_cells_around(const cases::Scene &scene, const cases::Options &options,
+                            int cells)
     {
       const int wanted = static_cast<int>(options.get_integer("cells_around"));
-      return wanted > 0 ? wanted : std::max(fewest_cells_around, cells);
+      if(wanted > 0)
+        return wanted;
+      return scene.symmetry == Symmetry::none ? std::max(fewest_cells_around, cells)
+                                              : fewest_cells_around;
     }
   } // namespace
 
@@ -70,7 +75,7 @@ namespace meltfront::reference_fem::fitted
       steps = resolution.options.get_string("refine") == "space"
                   ? 200
                   : std::max(fewest_steps, steps_per_cell * resolution.n);
-    cells_around = choose_cells_around(resolution.options, cells);
+    cells_around = choose_cells_around(scene, resolution.options, cells);
   }
 
   std::vector<cases::OptionDeclaration> fitted_options()

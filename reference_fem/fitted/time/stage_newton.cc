@@ -8,7 +8,7 @@ namespace meltfront::reference_fem::fitted
   namespace
   {
     /** Iterations of a step beyond which factors are renewed. */
-    constexpr unsigned int aimed_iterations = 6;
+    constexpr unsigned int aimed_iterations = 5;
 
     /** Corrections below this size need no fresh exact Jacobian: the old one contracts
      * by about as much. */
