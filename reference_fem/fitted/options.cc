@@ -17,6 +17,10 @@ namespace meltfront::reference_fem::fitted
     /** Coarse runs take more steps than the cells call for, so that their fronts can be
      * compared at 50 times at least. */
     constexpr int fewest_steps = 50;
+
+    /** In more dimensions a Jacobian is kept for a step or more, and longer steps would
+     * take too many iterations. */
+    constexpr int fewest_steps_with_kept_jacobian = 100;
     constexpr int steps_per_cell = 2;
     constexpr int fewest_cells_around = 8;
 
@@ -74,7 +78,9 @@ namespace meltfront::reference_fem::fitted
     else if(steps == 0)
       steps = resolution.options.get_string("refine") == "space"
                   ? 200
-                  : std::max(fewest_steps, steps_per_cell * resolution.n);
+                  : std::max(dimension == 1 ? fewest_steps
+                                            : fewest_steps_with_kept_jacobian,
+                             steps_per_cell * resolution.n);
     cells_around = choose_cells_around(scene, resolution.options, cells);
   }
 
@@ -109,7 +115,7 @@ namespace meltfront::reference_fem::fitted
          1e5},
         {"cells_around", "1", 0L,
          "Cells around a round front in 2D and 3D (4 for each edge of a sphere's cube); "
-         "0: n.",
+         "0: n, at least 8, or 8 where everything depends on the radius alone.",
          0, 1e5},
         {"clock",
          "",

@@ -10,6 +10,10 @@ namespace meltfront::reference_fem::fitted
     /** Iterations of a step beyond which factors are renewed. */
     constexpr unsigned int aimed_iterations = 5;
 
+    /** Factors that needed no more are kept for the next step, as they may need two more
+     * there before it shows that they must be renewed. */
+    constexpr unsigned int easy_iterations = 3;
+
     /** Corrections below this size need no fresh exact Jacobian: the old one contracts
      * by about as much. */
     constexpr double small_correction = 1e-5;
@@ -93,7 +97,7 @@ namespace meltfront::reference_fem::fitted
       if(size * std::clamp(contraction, best_contraction, 1.) <= options.solver_tolerance
          || rounding)
       {
-        factors_serve = result.iterations < aimed_iterations;
+        factors_serve = result.iterations <= easy_iterations;
         return result;
       }
       if(!renew(equations, u, result.iterations, size, contraction))
