@@ -64,6 +64,9 @@ namespace meltfront::reference_fem::fitted
   IntegrationOptions FittedRun::integration_options() const
   {
     IntegrationOptions result;
+    // Matrices of one ray are narrow bands and cheap to factorise anew.
+    if(options.dimension == 1)
+      result.largest_exact_size = std::numeric_limits<unsigned int>::max();
     result.scheme = options.scheme;
     result.tolerance = options.tolerance;
     result.method = method_name;
