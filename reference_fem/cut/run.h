@@ -43,7 +43,6 @@ namespace meltfront::reference_fem::cut
     void collect_sites();
     void add_site(const Point &point, double weight, double temperature, bool solid);
     void add_vertices();
-    double limited_temperature(double temperature) const;
     std::vector<cases::EffectCost> effect_costs() const;
 
     const cases::Scene &scene;

@@ -72,17 +72,12 @@ namespace meltfront::reference_fem::cut
     state = std::move(seeded);
   }
 
-  double CutRun::limited_temperature(double temperature) const
-  {
-    return std::clamp(temperature, bounds.lower, bounds.upper);
-  }
-
   void CutRun::add_site(const Point &point, double weight, double temperature, bool solid)
   {
     for(int d = 0; d < dim; ++d)
       site_positions[d].push_back(point[d]);
     weights.push_back(weight);
-    temperatures.push_back(limited_temperature(temperature));
+    temperatures.push_back(temperature);
     solid_fractions.push_back(solid ? 1 : 0);
   }
 

@@ -18,9 +18,9 @@ namespace meltfront::reference_fem::fitted
      * compared at 50 times at least. */
     constexpr int fewest_steps = 50;
 
-    /** In more dimensions a Jacobian is kept for a step or more, and longer steps would
-     * take too many iterations. */
-    constexpr int fewest_steps_with_kept_jacobian = 100;
+    /** In more dimensions a Jacobian is kept for a step or more. Short steps take few
+     * iterations each, so that many of them cost no more than few. */
+    constexpr int fewest_steps_with_kept_jacobian = 300;
     constexpr int steps_per_cell = 2;
     constexpr int fewest_cells_around = 8;
 
@@ -99,9 +99,9 @@ namespace meltfront::reference_fem::fitted
          0,
          {"bdf2", "bdf3", "bdf4", "radau3", "radau5"}},
         {"steps", "1", 0L,
-         "Time steps over the run; 0: two for each of the n cells and 50 at least, or "
-         "200 "
-         "where only space is refined.",
+         "Time steps over the run; 0: two for each of the n cells and at least 50 (300 "
+         "in "
+         "2D and 3D), or 200 where only space is refined.",
          0, 1e7},
         {"refine",
          "",
