@@ -129,13 +129,14 @@ namespace meltfront::reference_fem::fitted
       {
         Integrator integrator(problem, options_of(GetParam(), exact ? 400 : 0));
         integrator.start(0, initial);
-        integrator.advance_to(0.5, 0.0125);
+        integrator.advance_to(0.5, 0.00625);
         states[exact] = integrator.state();
         // The source is switched on in the first step.
         EXPECT_LE(integrator.cost().most_iterations, 7) << exact;
         EXPECT_LE(integrator.cost().iterations, 6 * integrator.cost().steps) << exact;
         if(!exact)
         {
+          // Steps this short are easy enough for factors to be kept.
           EXPECT_LT(integrator.cost().factorizations, integrator.cost().steps);
         }
       }
