@@ -40,17 +40,21 @@ namespace meltfront::verification
       return nullptr;
     }
 
-    /** Share of the run's wall time in per cent; NaN if it was not measured. */
+    /** Share of the run's wall time in per cent; NaN if it was not measured, as by a
+     * method that assembles its effects in one pass and gives no time to any of them. */
     double share_of_time(const RunRecord &run, const cases::EffectCost &cost)
     {
       const double all = run.cost.setup_wall + run.cost.stepping_wall;
-      return all > 0 ? 100 * cost.seconds / all : std::nan("");
+      const bool timed = std::any_of(run.cost.effects.begin(), run.cost.effects.end(),
+                                     [](const cases::EffectCost &effect)
+                                     { return effect.seconds > 0; });
+      return timed && all > 0 ? 100 * cost.seconds / all : std::nan("");
     }
 
     std::string percent(double value)
     {
       if(!std::isfinite(value))
-        return "n/a";
+        return "not timed";
       if(value == 0)
         return "0 %";
       if(value > 0 && value < 0.1)
