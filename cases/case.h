@@ -73,6 +73,11 @@ namespace meltfront::cases
     /** Times at which the volume that is solid is measured, at most four (s), ascending;
      * the end beside them. */
     std::vector<double> marks;
+    /**
+     * Absolute zero on the scene's scale of temperature, -273.15 for degrees Celsius: the
+     * entropy is measured, which must never fall in an isolated scene. Absent: it is not.
+     */
+    std::optional<double> absolute_zero;
   };
 
   /** A scene, what is known of its solution, what to measure and what to accept. */

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace meltfront::cases
@@ -110,6 +111,54 @@ namespace meltfront::cases
                     "no phase is beyond the melting temperature at the start");
     }
 
+    /** The solutes of which there is some at the start. */
+    std::string solutes_present(const Scene &scene)
+    {
+      std::string names;
+      for(std::size_t s = 0; scene.alloy && s < scene.alloy->solutes.size(); ++s)
+        if(initially_present(scene, s))
+          names += fmt::format("{}{}", names.empty() ? "" : ", ",
+                               scene.alloy->solutes[s].name);
+      return names;
+    }
+
+    EffectDecision solute(const Scene &scene)
+    {
+      const std::string present = solutes_present(scene);
+      return decide(Effect::solute, !present.empty(),
+                    fmt::format("the melt holds {}", present),
+                    scene.alloy ? "the alloy holds no solute at the start"
+                                : "the substance is pure");
+    }
+
+    EffectDecision solute_diffusion(const Scene &scene)
+    {
+      bool diffuses = false;
+      for(std::size_t s = 0; scene.alloy && s < scene.alloy->solutes.size(); ++s)
+        diffuses
+            |= scene.alloy->solutes[s].diffusivity > 0 && initially_present(scene, s);
+      return decide(Effect::solute_diffusion, diffuses,
+                    "solute that the melt holds diffuses",
+                    "no solute that the melt holds diffuses");
+    }
+
+    EffectDecision eutectic(const Scene &scene)
+    {
+      if(solutes_present(scene).empty())
+        return decide(Effect::eutectic, false, {}, "there is no solute");
+      const double temperature = scene.alloy->eutectic_temperature;
+      const double coldest = temperature_bounds(scene).lower;
+      return decide(
+          Effect::eutectic, coldest < temperature,
+          fmt::format("the scene may fall below the eutectic temperature {:.6g}",
+                      temperature),
+          std::isfinite(temperature)
+              ? fmt::format("the scene stays above the eutectic temperature "
+                            "{:.6g}",
+                            temperature)
+              : "the alloy has no eutectic temperature");
+    }
+
     constexpr Rule rules[] = {
         {Effect::phase_change, "phase_change", "Latent heat is exchanged at the front.",
          phase_change},
@@ -128,7 +177,14 @@ namespace meltfront::cases
         {Effect::metastable_phase, "metastable_phase",
          "A phase lies beyond the melting temperature: undercooled liquid or superheated "
          "solid, which only a tracked front can hold.",
-         metastable_phase}};
+         metastable_phase},
+        {Effect::solute, "solute",
+         "A dissolved substance lowers the melting temperature; crystals reject it.",
+         solute},
+        {Effect::solute_diffusion, "solute_diffusion", "Solute spreads in the liquid.",
+         solute_diffusion},
+        {Effect::eutectic, "eutectic",
+         "What is left of the liquid freezes at the eutectic temperature.", eutectic}};
     static_assert(std::size(rules) == n_effects);
 
     const Rule &rule(Effect effect)
@@ -195,6 +251,25 @@ namespace meltfront::cases
     return EffectSet(std::move(decisions));
   }
 
+  namespace
+  {
+    void leave_out_of_alloy(const EffectSet &effects, Scene &scene)
+    {
+      if(!effects.contains(Effect::solute))
+      {
+        scene.alloy.reset();
+        scene.initial.concentration.clear();
+      }
+      if(!scene.alloy)
+        return;
+      if(!effects.contains(Effect::eutectic))
+        scene.alloy->eutectic_temperature = Alloy().eutectic_temperature;
+      if(!effects.contains(Effect::solute_diffusion))
+        for(Solute &solute : scene.alloy->solutes)
+          solute.diffusivity = 0;
+    }
+  } // namespace
+
   Scene simulated_scene(const Scene &scene, const EffectSet &effects)
   {
     Scene result = scene;
@@ -220,6 +295,7 @@ namespace meltfront::cases
       insulate(BoundaryKind::fixed_temperature);
     if(!effects.contains(Effect::wall_flux))
       insulate(BoundaryKind::flux);
+    leave_out_of_alloy(effects, result);
     return result;
   }
 } // namespace meltfront::cases

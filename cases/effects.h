@@ -19,9 +19,12 @@ namespace meltfront::cases
     wall_temperature,    ///< a wall with a prescribed temperature
     wall_flux,           ///< a wall with a prescribed heat flux
     liquid_motion,       ///< freezing displaces liquid because the densities differ
-    metastable_phase     ///< a phase lies beyond the melting temperature
+    metastable_phase,    ///< a phase lies beyond the melting temperature
+    solute,              ///< dissolved substance lowers the melting temperature
+    solute_diffusion,    ///< solute spreads in the liquid
+    eutectic             ///< what is left of the liquid freezes at one temperature
   };
-  inline constexpr std::size_t n_effects = 8;
+  inline constexpr std::size_t n_effects = 11;
 
   /** The word for an effect in case files and tables, `phase_change` and so on. */
   const char *to_string(Effect effect);

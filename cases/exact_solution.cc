@@ -4,6 +4,11 @@
 
 namespace meltfront::cases
 {
+  double ExactSolution::solid_fraction(double coordinate, double time) const
+  {
+    return (coordinate < front(time)) == solid_at_origin() ? 1 : 0;
+  }
+
   double ExactSolution::solid_volume(double lower, double upper, double time) const
   {
     const double split = std::clamp(front(time), lower, upper);

@@ -44,9 +44,27 @@ namespace meltfront::cases
      */
     virtual double heat_content(double lower, double upper, double time) const = 0;
 
-    /** Volume that is solid between the two coordinates, in the same measure (m, m^2,
-     * m^3). */
-    double solid_volume(double lower, double upper, double time) const;
+    /**
+     * Volume of which the mass is solid between the two coordinates, in the same measure
+     * (m, m^2, m^3): the integral of solid_fraction().
+     */
+    virtual double solid_volume(double lower, double upper, double time) const;
+
+    /** Whether solid and liquid are mixed behind the front: the front is then where the
+     * first crystals stand. */
+    virtual bool mushy() const
+    {
+      return false;
+    }
+
+    /** Mass fraction of solid: 0 or 1 but in a mush. */
+    virtual double solid_fraction(double coordinate, double time) const;
+
+    /** Mass of the first solute over all the mass at a coordinate. */
+    virtual double concentration(double, double) const
+    {
+      return 0;
+    }
 
     /** The same temperature at a point of space. */
     double temperature(const Position &position, double time) const

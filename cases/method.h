@@ -62,6 +62,14 @@ namespace meltfront::cases
     virtual bool wants(long step, double time) = 0;
 
     virtual void observe(const Snapshot &snapshot) = 0;
+
+    /** Something that happened between snapshots, at its own time (s): a phase appeared
+     * or vanished, a mesh was made anew. One clause. */
+    virtual void note(double time, const std::string &event)
+    {
+      static_cast<void>(time);
+      static_cast<void>(event);
+    }
   };
 
   /** What one effect cost in a run. */

@@ -210,6 +210,17 @@ namespace meltfront::cases
     return warmest_solid > round_off ? "solid is superheated" : nullptr;
   }
 
+  bool initially_present(const Scene &scene, std::size_t solute)
+  {
+    if(solute >= scene.initial.concentration.size())
+      return false;
+    const Field &concentration = scene.initial.concentration[solute];
+    bool present = false;
+    visit_points(scene.domain, [&](const Position &p)
+                 { present |= concentration(p, scene.start_time) != 0; });
+    return present;
+  }
+
   void check_temperature(const TemperatureBounds &bounds, double lowest, double highest,
                          const std::string &method, long step, double time,
                          double tolerance)

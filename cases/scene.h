@@ -1,6 +1,7 @@
 #ifndef meltfront_cases_scene_h
 #define meltfront_cases_scene_h
 
+#include <cases/alloy.h>
 #include <cases/effects.h>
 #include <cases/exact_solution.h>
 #include <cases/material.h>
@@ -118,6 +119,8 @@ namespace meltfront::cases
      * side of the melting temperature (undercooled liquid, superheated solid).
      */
     std::optional<Field> front;
+    /** Of each solute of the alloy: mass fraction of all that is at a point. */
+    std::vector<Field> concentration;
   };
 
   /** Physics to simulate: no parameter of any method stands here. SI units, or as `units`
@@ -128,7 +131,8 @@ namespace meltfront::cases
     std::string units = "SI";
     Symmetry symmetry = Symmetry::none;
     Domain domain;
-    Material material;
+    Material material;          ///< of an alloy: the solvent
+    std::optional<Alloy> alloy; ///< absent: a pure substance
     InitialState initial;
     std::array<std::optional<Boundary>, n_sides>
         boundaries; ///< by Side; those the shape has
@@ -161,6 +165,9 @@ namespace meltfront::cases
   /** `liquid is undercooled` or `solid is superheated` where the scene's initial front
    * says so, else null; sampled over the domain. */
   const char *metastable_initial_phase(const Scene &scene);
+
+  /** Whether there is any of a solute at the start; sampled over the domain. */
+  bool initially_present(const Scene &scene, std::size_t solute);
 
   /**
    * Throw NumericalError unless lowest and highest are finite and within the bounds,

@@ -17,4 +17,13 @@ namespace meltfront::cases
       return 0;
     return std::abs(imbalance) / scale;
   }
+
+  double SubstanceBudget::defect() const
+  {
+    if(!std::isfinite(now) || !std::isfinite(initial))
+      return std::numeric_limits<double>::infinity();
+    if(initial == 0)
+      return now == 0 ? 0 : std::numeric_limits<double>::infinity();
+    return std::abs((now - initial) / initial);
+  }
 } // namespace meltfront::cases

@@ -25,6 +25,20 @@ namespace meltfront::cases
     double defect() const;
   };
 
+  /** Most solutes of an alloy. */
+  inline constexpr std::size_t most_solutes = 2;
+
+  /** How much of a substance there is, in the measure of the scene (kg, kg/m or kg/m^2);
+   * no substance crosses a wall. */
+  struct SubstanceBudget
+  {
+    double now = 0;
+    double initial = 0;
+
+    /** |now - initial| / initial; zero of nothing. */
+    double defect() const;
+  };
+
   /**
    * The state at a time in the form that every method shares. Views into the method's own
    * arrays, valid during Observer::observe only.
@@ -60,6 +74,13 @@ namespace meltfront::cases
     std::array<std::span<const double>, 3> front{};
 
     HeatBudget heat;
+
+    /** Of an alloy, for each solute: its mass over all the mass at a site; the liquid
+     * there holds this over 1 - solid_fraction. Empty for a solute that is not simulated.
+     */
+    std::array<std::span<const double>, most_solutes> concentration{};
+    SubstanceBudget mass; ///< of an alloy: all substances
+    std::array<SubstanceBudget, most_solutes> solute{};
   };
 } // namespace meltfront::cases
 

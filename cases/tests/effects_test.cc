@@ -32,6 +32,11 @@ namespace
     scene.boundaries[1] = Boundary{BoundaryKind::flux, Field::uniform(7)};
     scene.sources.resize(2);
     scene.initial.front = Field::uniform(-1); // solid, though too warm
+    scene.alloy.emplace();
+    scene.alloy->solutes.push_back(
+        {.name = "salt", .liquidus_slope = 1, .diffusivity = 1});
+    scene.alloy->eutectic_temperature = 1e6;
+    scene.initial.concentration = {Field::uniform(0.1)};
     return scene;
   }
 
@@ -102,6 +107,18 @@ TEST(Effects, EachPropertyCallsForItsOwnEffectOnly)
   scene = bare_scene();
   scene.material.latent_heat = 1e-300;
   EXPECT_EQ(called_for(scene), std::vector{Effect::phase_change});
+}
+
+TEST(Effects, ASoluteOfWhichThereIsNoneIsNotSimulated)
+{
+  Scene scene = full_scene();
+  scene.initial.concentration = {Field::uniform(0)};
+  const EffectSet effects = effects_called_for(scene);
+  for(const Effect effect : {Effect::solute, Effect::solute_diffusion, Effect::eutectic})
+    EXPECT_FALSE(effects.contains(effect)) << to_string(effect);
+  const Scene simulated = simulated_scene(scene, effects);
+  EXPECT_FALSE(simulated.alloy);
+  EXPECT_TRUE(simulated.initial.concentration.empty());
 }
 
 TEST(Effects, AChoiceOverridesTheRuleAndSaysSo)
