@@ -31,6 +31,8 @@ namespace
     scene.boundaries[0] = Boundary{BoundaryKind::fixed_temperature, Field::uniform(-1)};
     scene.boundaries[1] = Boundary{BoundaryKind::flux, Field::uniform(7)};
     scene.sources.resize(2);
+    for(PointSource &source : scene.sources)
+      source.power = [](double) { return 1.; };
     scene.initial.front = Field::uniform(-1); // solid, though too warm
     scene.alloy.emplace();
     scene.alloy->solutes.push_back(
