@@ -1,3 +1,4 @@
+#include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_checks.h>
 
 #include <fmt/format.h>
@@ -283,6 +284,11 @@ namespace meltfront::cases
     };
   } // namespace
 
+  std::vector<Position> sample_points(const Domain &domain)
+  {
+    return interior_points(domain);
+  }
+
   void check_effects(const PrmFile &prm, const Scene &scene)
   {
     const auto demand = [&](Effect effect, bool fulfilled, const std::string &missing)
@@ -338,6 +344,8 @@ namespace meltfront::cases
     check_initial(scene.initial.temperature, "temperature");
     if(scene.initial.front)
       check_initial(*scene.initial.front, "front");
+    for(std::size_t s = 0; s < scene.initial.concentration.size(); ++s)
+      check_initial(scene.initial.concentration[s], concentration_key(s));
     for(const Side side : scene.sides())
     {
       const Boundary &boundary = scene.boundary(side);

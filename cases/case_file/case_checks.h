@@ -13,6 +13,9 @@ namespace meltfront::cases
    */
   void check_effects(const PrmFile &prm, const Scene &scene);
 
+  /** Points all over a domain at which values are checked. */
+  std::vector<Position> sample_points(const Domain &domain);
+
   /**
    * Expressions must be finite, and symmetric where the scene is: temperatures are
    * sampled over the domain and its walls. @throws InputError

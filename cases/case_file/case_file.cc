@@ -1,3 +1,4 @@
+#include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_checks.h>
 #include <cases/case_file/case_file.h>
 #include <cases/case_file/case_keys.h>
@@ -61,6 +62,8 @@ namespace meltfront::cases
       measurement.front_mode = static_cast<int>(prm.get_integer(here, "front mode"));
       if(prm.given(here, "marks"))
         measurement.marks = prm.get_numbers(here, "marks");
+      if(prm.given(here, "absolute zero"))
+        measurement.absolute_zero = prm.get_number(here, "absolute zero");
       return measurement;
     }
 
@@ -68,6 +71,12 @@ namespace meltfront::cases
     void check_measurement(const PrmFile &prm, const Case &c)
     {
       const std::string here = "Measure";
+      const double coldest = temperature_bounds(c.scene).lower;
+      if(c.measurement.absolute_zero && !(coldest > *c.measurement.absolute_zero))
+        throw prm.error(here, "absolute zero",
+                        fmt::format("({:.6g}) must lie below every temperature of the "
+                                    "scene, which may fall to {:.6g}",
+                                    *c.measurement.absolute_zero, coldest));
       double before = c.scene.start_time;
       for(const double mark : c.measurement.marks)
       {
@@ -136,6 +145,7 @@ namespace meltfront::cases
       complete_scene(prm, known, c.scene);
       check_effects(prm, c.scene);
       check_fields(prm, c.scene);
+      check_alloy(prm, c.scene, sample_points(c.scene.domain));
       check_exact_solution(prm, c);
       c.reference = read_reference(prm, c);
       check_measurement(prm, c);

@@ -1,3 +1,4 @@
+#include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_keys.h>
 #include <cases/effects.h>
 #include <cases/scene.h>
@@ -227,6 +228,10 @@ namespace meltfront::cases
                                "measured beside the end.");
       marks.most_values = 4;
       prm.declare(measure, marks);
+      prm.declare(measure, number("absolute zero", "", "K or degrees Celsius",
+                                  "Absolute zero on the scene's scale of temperature, "
+                                  "-273.15 for degrees Celsius: the entropy is measured; "
+                                  "it is not where the key is not given."));
       prm.declare("Reference", text("method", "The run that others are held against "
                                               "where there is no exact solution: METHOD "
                                               "or METHOD[KEY=VALUE,KEY=VALUE]."));
@@ -250,6 +255,7 @@ namespace meltfront::cases
     declare_domain(prm);
     declare_material(prm);
     declare_state_and_walls(prm);
+    declare_alloy(prm);
     declare_effects(prm);
     declare_exact_solution(prm);
     declare_measures(prm);

@@ -256,6 +256,9 @@ namespace meltfront::cases
     if(kind != "oracle")
       for(const char *key : {"start", "start time", "initial front"})
         prm.forbid(exact_keys, key, "it is a key of the oracle");
+    if(scene.alloy && kind != "none")
+      throw prm.error(exact_keys, "kind",
+                      fmt::format("cannot be '{}' for an alloy", kind));
     if(kind == "none")
     {
       for(const char *key : {"wall temperature", "far temperature", "lambda"})

@@ -118,12 +118,12 @@ namespace meltfront::cases
       check_commas(text);
     }
 
-    void check_names(const std::vector<std::string> &names, const std::string &variables)
+    void check_names(const std::vector<std::string> &names,
+                     const std::vector<std::string> &variables)
     {
       std::vector<std::string> valid = functions;
       valid.push_back("pi");
-      for(const char c : variables)
-        valid.emplace_back(1, c);
+      valid.insert(valid.end(), variables.begin(), variables.end());
       for(const std::string &name : names)
         if(std::find(valid.begin(), valid.end(), name) == valid.end())
         {
@@ -172,6 +172,21 @@ namespace meltfront::cases
       }
     };
 
+    /** A formula of one variable; may be evaluated by several threads at once. */
+    class FunctionOfOne : private dealii::FunctionParser<1>
+    {
+    public:
+      FunctionOfOne(const std::string &text, const std::string &variable)
+      {
+        initialize(variable, text, {{"pi", std::numbers::pi}});
+      }
+
+      double value(double argument) const
+      {
+        return do_value(dealii::Point<1>(argument), 0, 0);
+      }
+    };
+
     /** What the parser says, on one line. */
     std::string reason(const dealii::ExceptionBase &error)
     {
@@ -189,7 +204,10 @@ namespace meltfront::cases
   {
     check_characters(expression);
     const std::vector<std::string> names = names_in(expression);
-    check_names(names, variables);
+    std::vector<std::string> letters;
+    for(const char c : variables)
+      letters.emplace_back(1, c);
+    check_names(names, letters);
     const SilentErrors silent;
     try
     {
@@ -208,6 +226,24 @@ namespace meltfront::cases
       Field field = Field::uniform(probe);
       field.expression = expression;
       return field;
+    }
+    catch(const dealii::ExceptionBase &error)
+    {
+      throw InputError(fmt::format("cannot be parsed: {}", reason(error)));
+    }
+  }
+
+  std::function<double(double)> parse_function(const std::string &expression,
+                                               const std::string &variable)
+  {
+    check_characters(expression);
+    check_names(names_in(expression), {variable});
+    const SilentErrors silent;
+    try
+    {
+      const auto formula = std::make_shared<const FunctionOfOne>(expression, variable);
+      formula->value(0); // a text that cannot be parsed shows when it is first evaluated
+      return [formula](double argument) { return formula->value(argument); };
     }
     catch(const dealii::ExceptionBase &error)
     {

@@ -19,6 +19,13 @@ namespace meltfront::cases
   Field parse_field(const std::string &expression, const std::string &variables);
 
   /**
+   * Read an expression of one variable and pi; may be evaluated by several threads at
+   * once. @throws InputError as parse_field() does
+   */
+  std::function<double(double)> parse_function(const std::string &expression,
+                                               const std::string &variable);
+
+  /**
    * Integral of a function of time from `start`, for times up to `end`: Gauss-Kronrod
    * quadrature over 64 panels whose sums are kept, so that differences of two results are
    * those of one and the same function.

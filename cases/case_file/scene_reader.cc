@@ -1,3 +1,4 @@
+#include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_keys.h>
 #include <cases/case_file/expression.h>
 #include <cases/case_file/scene_reader.h>
@@ -334,6 +335,7 @@ namespace meltfront::cases
     scene.material = read_material(prm);
     read_walls(prm, scene);
     read_initial_state(prm, scene);
+    read_alloy(prm, scene);
     for(const std::string &here : opened_sources(prm))
       scene.sources.push_back(read_source(prm, here, scene));
     for(const Effect effect : all_effects())
@@ -373,7 +375,10 @@ namespace meltfront::cases
       require_solution(initial_keys, "kind");
       scene.initial.exact = known.solution;
       scene.initial.temperature = temperature();
-      scene.initial.front = exact_level_set(known.solution);
+      if(scene.alloy)
+        scene.initial.concentration = known.concentration;
+      else
+        scene.initial.front = exact_level_set(known.solution);
     }
     const std::vector<std::string> subsections = opened_sources(prm);
     for(std::size_t i = 0; i < subsections.size(); ++i)
