@@ -1,4 +1,5 @@
 #include <verification/matrix/end_profile.h>
+#include <verification/measure/mush_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -69,6 +70,14 @@ namespace meltfront::verification
         profile.picture_temperature.push_back(snapshot.temperature[i]);
       }
     }
+    void add_exact_mush(const cases::ExactSolution &exact, double coordinate, double time,
+                        RunProfile &profile)
+    {
+      const double solid = exact.solid_fraction(coordinate, time);
+      profile.solid_fraction_exact.push_back(solid);
+      profile.concentration_exact.push_back(
+          liquid_concentration(exact.concentration(coordinate, time), solid));
+    }
   } // namespace
 
   RunProfile make_end_profile(const cases::Snapshot &snapshot,
@@ -88,11 +97,16 @@ namespace meltfront::verification
       profile.coordinate.push_back(coordinates[i]);
       profile.temperature.push_back(snapshot.temperature[i]);
       profile.solid_fraction.push_back(snapshot.solid_fraction[i]);
+      if(!snapshot.concentration[0].empty())
+        profile.concentration.push_back(liquid_concentration(snapshot.concentration[0][i],
+                                                             snapshot.solid_fraction[i]));
       if(!exact)
         continue;
       const double expected = exact->temperature(coordinates[i], snapshot.time);
       profile.temperature_exact.push_back(
           std::isfinite(expected) ? expected : std::numeric_limits<double>::quiet_NaN());
+      if(exact->mushy())
+        add_exact_mush(*exact, coordinates[i], snapshot.time, profile);
     }
     if(snapshot.dimension > 1)
       add_picture(snapshot, spacing, profile);

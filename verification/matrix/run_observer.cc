@@ -24,7 +24,7 @@ namespace meltfront::verification
     /** Relative to the span of the temperature's bounds: how far beyond them a method may
      * go. Round-off for methods that obey the maximum principle; polynomials that are
      * continuous across a steep profile overshoot it on coarse meshes. */
-    constexpr double overshoot_of_round_off = 1e-9, overshoot_of_elements = 0.1;
+    constexpr double overshoot_of_round_off = 1e-9, overshoot_of_elements = 0.02;
 
     double partly_frozen_fraction(const cases::Snapshot &snapshot)
     {
@@ -74,6 +74,7 @@ namespace meltfront::verification
   {
     run_description = description;
     reader.emplace(scene, exact, description.spacing, description.smoothing_length);
+    alloy.emplace(the_case, scene, description.spacing);
     if(second)
       second->begin(description);
   }
@@ -123,6 +124,13 @@ namespace meltfront::verification
     last_time = snapshot.time;
   }
 
+  void RunObserver::note(double time, const std::string &event)
+  {
+    run_events.push_back({time, event});
+    if(second)
+      second->note(time, event);
+  }
+
   void RunObserver::judge(const cases::Snapshot &snapshot, double lowest,
                           double highest) const
   {
@@ -152,6 +160,7 @@ namespace meltfront::verification
     volume_course.add(volumes.back());
     keep_frame(snapshot);
     const FrontReading reading = reader->read(snapshot);
+    alloy->add(snapshot, reader->coordinates(snapshot));
     course.add(reading.latent_heat);
     worst_defect = std::fmax(worst_defect, snapshot.heat.defect());
     // Steps that are wanted for a mark only would weigh its neighbourhood.
@@ -227,6 +236,7 @@ namespace meltfront::verification
   {
     const std::vector<double> &coordinates = reader->coordinates(snapshot);
     end_profile = make_end_profile(snapshot, coordinates, exact, run_description.spacing);
+    alloy->measure_end(snapshot, coordinates);
     at_end["front_end_position"] = run_series.front.back();
     at_end["front_row_solid_fraction"] = partly_frozen_fraction(snapshot);
     at_end["solid_volume_end"] = volumes.back();
@@ -273,6 +283,16 @@ namespace meltfront::verification
     return end_profile;
   }
 
+  std::vector<RunProfile> RunObserver::mark_profiles() const
+  {
+    return alloy ? alloy->profiles() : std::vector<RunProfile>();
+  }
+
+  const std::vector<RunEvent> &RunObserver::events() const
+  {
+    return run_events;
+  }
+
   const std::vector<FrontFrame> &RunObserver::frames() const
   {
     return front_frames;
@@ -280,34 +300,40 @@ namespace meltfront::verification
 
   const std::vector<std::string> &RunObserver::quantity_names()
   {
-    static const std::vector<std::string> names{"front_rms",
-                                                "front_max",
-                                                "front_end",
-                                                "front_end_position",
-                                                "front_rms_relative",
-                                                "front_end_relative",
-                                                "front_late_max_relative",
-                                                "front_isotherm_rms",
-                                                "front_max_ice_rms",
-                                                "front_heat_loss_rms",
-                                                "front_points_rms",
-                                                "front_points_max",
-                                                "roundness_end",
-                                                "front_row_solid_fraction",
-                                                "front_backsteps",
-                                                "front_mode_end",
-                                                "front_floor",
-                                                "solid_volume_end",
-                                                "solid_volume_1",
-                                                "solid_volume_2",
-                                                "solid_volume_3",
-                                                "solid_volume_4",
-                                                "solid_volume_backsteps",
-                                                "temperature_l2",
-                                                "temperature_max",
-                                                "temperature_rmse",
-                                                "temperature_overshoot",
-                                                "budget_defect"};
+    static const std::vector<std::string> names = []
+    {
+      std::vector<std::string> list{"front_rms",
+                                    "front_max",
+                                    "front_end",
+                                    "front_end_position",
+                                    "front_rms_relative",
+                                    "front_end_relative",
+                                    "front_late_max_relative",
+                                    "front_isotherm_rms",
+                                    "front_max_ice_rms",
+                                    "front_heat_loss_rms",
+                                    "front_points_rms",
+                                    "front_points_max",
+                                    "roundness_end",
+                                    "front_row_solid_fraction",
+                                    "front_backsteps",
+                                    "front_mode_end",
+                                    "front_floor",
+                                    "solid_volume_end",
+                                    "solid_volume_1",
+                                    "solid_volume_2",
+                                    "solid_volume_3",
+                                    "solid_volume_4",
+                                    "solid_volume_backsteps",
+                                    "temperature_l2",
+                                    "temperature_max",
+                                    "temperature_rmse",
+                                    "temperature_overshoot",
+                                    "budget_defect"};
+      const std::vector<std::string> &of_alloys = AlloyMeasures::quantity_names();
+      list.insert(list.end(), of_alloys.begin(), of_alloys.end());
+      return list;
+    }();
     return names;
   }
 
@@ -332,6 +358,9 @@ namespace meltfront::verification
       values[name] = nan;
     for(const auto &[name, value] : at_end)
       values[name] = value;
+    if(alloy)
+      for(const auto &[name, value] : alloy->quantities())
+        values[name] = value;
     // Fewer steps than that are no average over the run.
     const double rms = front.samples() >= fewest_samples ? front.root_mean_square() : nan;
     values["front_rms"] = rms;

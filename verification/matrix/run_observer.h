@@ -3,6 +3,7 @@
 
 #include <cases/case.h>
 #include <cases/method.h>
+#include <verification/matrix/alloy_measures.h>
 #include <verification/matrix/run_record.h>
 #include <verification/matrix/run_statistics.h>
 #include <verification/measure/front_reader.h>
@@ -23,8 +24,8 @@ namespace meltfront::verification
    * around each of Measurement::marks. Each is judged: a state that is not finite or
    * breaks the maximum principle ends the run with a NumericalError. Elements that carry
    * or cut a tracked front (Snapshot::front) obey the principle in the limit only: they
-   * may overshoot by a tenth of the bounds' span, and temperature_overshoot tells by how
-   * much they did.
+   * may overshoot by a fiftieth of the bounds' span, and temperature_overshoot tells by
+   * how much they did.
    */
   class RunObserver : public cases::Observer
   {
@@ -43,6 +44,7 @@ namespace meltfront::verification
     void begin(const cases::RunDescription &description) override;
     bool wants(long step, double time) override;
     void observe(const cases::Snapshot &snapshot) override;
+    void note(double time, const std::string &event) override;
 
     /** @throws NumericalError if the method did not take the run to its end. */
     void require_end() const;
@@ -50,6 +52,12 @@ namespace meltfront::verification
     const cases::RunDescription &description() const;
     const RunSeries &series() const;
     const RunProfile &profile() const;
+
+    /** States of an alloy at the marks. */
+    std::vector<RunProfile> mark_profiles() const;
+
+    /** What the method reported between snapshots. */
+    const std::vector<RunEvent> &events() const;
 
     /** Tracked points on the front at the marks and at the end. */
     const std::vector<FrontFrame> &frames() const;
@@ -80,7 +88,8 @@ namespace meltfront::verification
      * temperature_l2, temperature_max, temperature_rmse: TemperatureError at the end;
      * temperature_overshoot: farthest beyond the bounds of the maximum principle in any
      * snapshot, over their span; 0 within them, NaN where they are not both finite;
-     * budget_defect: largest of any snapshot.
+     * budget_defect: largest of any snapshot;
+     * those of AlloyMeasures.
      */
     std::map<std::string, double> quantities() const;
 
@@ -111,6 +120,7 @@ namespace meltfront::verification
 
     cases::RunDescription run_description;
     std::optional<FrontReader> reader;
+    std::optional<AlloyMeasures> alloy;
     int samples;         ///< times equidistant on the clock at which the series is kept
     int next_sample = 0; ///< index of the next of them
     long last_step = -1;
@@ -118,6 +128,7 @@ namespace meltfront::verification
     RunSeries run_series;
     RunProfile end_profile;
     std::vector<FrontFrame> front_frames;
+    std::vector<RunEvent> run_events;
     FrontCourse course, volume_course;
     ErrorStatistics front, late_front, isotherm, max_ice, heat_loss, front_points;
     double farthest_point; ///< NaN as long as no point was tracked

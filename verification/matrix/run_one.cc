@@ -83,6 +83,7 @@ namespace meltfront::verification
       {
         record.description = observer.description();
         record.series = observer.series();
+        record.events = observer.events();
         record.peak_memory_mb = peak_memory_mb();
       };
       try
@@ -97,6 +98,7 @@ namespace meltfront::verification
       }
       keep_course();
       record.profile = observer.profile();
+      record.mark_profiles = observer.mark_profiles();
       record.frames = observer.frames();
       record.quantities = observer.quantities();
       record.status = RunStatus::finished;

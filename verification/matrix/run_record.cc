@@ -131,6 +131,22 @@ namespace meltfront::verification
       return frames;
     }
 
+    json json_of(const std::vector<RunEvent> &events)
+    {
+      json list = json::array();
+      for(const RunEvent &event : events)
+        list.push_back({{"time", json_of(event.time)}, {"what", event.what}});
+      return list;
+    }
+
+    std::vector<RunEvent> events_in(const json &json)
+    {
+      std::vector<RunEvent> events;
+      for(const auto &event : json)
+        events.push_back({number_in(event.at("time")), event.at("what")});
+      return events;
+    }
+
     /** A list that records of runs made before it was kept lack. */
     json list_in(const json &json, const char *name)
     {
@@ -158,10 +174,30 @@ namespace meltfront::verification
       visit("temperature", profile.temperature);
       visit("solid_fraction", profile.solid_fraction);
       visit("temperature_exact", profile.temperature_exact);
+      visit("concentration", profile.concentration);
+      visit("concentration_exact", profile.concentration_exact);
+      visit("solid_fraction_exact", profile.solid_fraction_exact);
       visit("picture_x", profile.picture_x);
       visit("picture_y", profile.picture_y);
       visit("picture_solid_fraction", profile.picture_solid_fraction);
       visit("picture_temperature", profile.picture_temperature);
+    }
+
+    json json_of(const RunProfile &profile)
+    {
+      json result = {{"time", json_of(profile.time)}};
+      visit_profile(profile, [&](const char *name, const std::vector<double> &values)
+                    { result[name] = json_of(values); });
+      return result;
+    }
+
+    RunProfile profile_in(const json &json)
+    {
+      RunProfile profile;
+      profile.time = number_in(json.at("time"));
+      visit_profile(profile, [&](const char *name, std::vector<double> &values)
+                    { values = numbers_in(list_in(json, name)); });
+      return profile;
     }
 
     /** The run's row of the convergence table at the top level, for readers of the file;
@@ -215,11 +251,12 @@ namespace meltfront::verification
     auto &series = json["series"];
     visit_series(record.series, [&](const char *name, const std::vector<double> &values)
                  { series[name] = json_of(values); });
-    auto &profile = json["profile"];
-    profile["time"] = json_of(record.profile.time);
-    visit_profile(record.profile, [&](const char *name, const std::vector<double> &values)
-                  { profile[name] = json_of(values); });
+    json["profile"] = json_of(record.profile);
+    json["mark_profiles"] = nlohmann::json::array();
+    for(const RunProfile &profile : record.mark_profiles)
+      json["mark_profiles"].push_back(json_of(profile));
     json["frames"] = json_of(record.frames);
+    json["events"] = json_of(record.events);
     json["provenance"] = record.provenance;
   }
 
@@ -243,10 +280,11 @@ namespace meltfront::verification
     record.quantities = named_numbers_in(json.at("quantities"));
     visit_series(record.series, [&](const char *name, std::vector<double> &values)
                  { values = numbers_in(list_in(json.at("series"), name)); });
-    record.profile.time = number_in(json.at("profile").at("time"));
-    visit_profile(record.profile, [&](const char *name, std::vector<double> &values)
-                  { values = numbers_in(json.at("profile").at(name)); });
+    record.profile = profile_in(json.at("profile"));
+    for(const auto &profile : list_in(json, "mark_profiles"))
+      record.mark_profiles.push_back(profile_in(profile));
     record.frames = frames_in(list_in(json, "frames"));
+    record.events = events_in(list_in(json, "events"));
     json.at("provenance").get_to(record.provenance);
   }
 } // namespace meltfront::verification

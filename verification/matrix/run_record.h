@@ -40,6 +40,9 @@ namespace meltfront::verification
     std::vector<double> temperature;
     std::vector<double> solid_fraction;
     std::vector<double> temperature_exact; ///< empty without an exact solution
+    /** Mass fraction of the first solute in the liquid; NaN where there is no liquid,
+     * empty without solute. The exact ones where the exact solution is a mush. */
+    std::vector<double> concentration, concentration_exact, solid_fraction_exact;
     /** Sites in the plane for a picture (2D sites, or the slice nearest z = 0), at most
      * 6000. */
     std::vector<double> picture_x, picture_y, picture_solid_fraction, picture_temperature;
@@ -51,6 +54,13 @@ namespace meltfront::verification
   {
     double time = 0;
     std::vector<double> x, y;
+  };
+
+  /** Something that happened in a run between its snapshots. */
+  struct RunEvent
+  {
+    double time = 0; ///< s
+    std::string what;
   };
 
   /** Everything needed to repeat a run, and everything that is reported of it. */
@@ -83,7 +93,9 @@ namespace meltfront::verification
     std::map<std::string, double> quantities;
     RunSeries series;
     RunProfile profile;
-    std::vector<FrontFrame> frames; ///< at Measurement::marks and at the end
+    std::vector<RunProfile> mark_profiles; ///< of an alloy at Measurement::marks
+    std::vector<FrontFrame> frames;        ///< at Measurement::marks and at the end
+    std::vector<RunEvent> events;
 
     /** case_text, case_hash, program_version, compiler, flags, cpu, packages, date,
      * command_line. */

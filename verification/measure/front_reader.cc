@@ -139,11 +139,28 @@ namespace meltfront::verification
     return coordinate[k - 1] + part * (coordinate[k] - coordinate[k - 1]);
   }
 
+  namespace
+  {
+    /** Temperature at which what stands at the origin begins to freeze. */
+    double initial_liquidus(const cases::Scene &scene)
+    {
+      if(!scene.alloy)
+        return scene.material.melting_temperature;
+      double concentration[cases::most_solutes] = {};
+      for(std::size_t s = 0; s < scene.alloy->solutes.size(); ++s)
+        concentration[s]
+            = scene.initial.concentration[s](cases::Position{}, scene.start_time);
+      return cases::PhaseDiagram(scene.material, *scene.alloy)
+          .liquidus(concentration[0], concentration[1]);
+    }
+  } // namespace
+
   FrontReader::FrontReader(const cases::Scene &scene, const cases::ExactSolution *exact,
                            double spacing, double smoothing_length)
     : symmetry(measured_symmetry(scene, exact))
     , solid_at_origin(solid_holds_origin(scene, exact))
-    , melting_temperature(scene.material.melting_temperature)
+    , alloy(scene.alloy.has_value())
+    , melting_temperature(initial_liquidus(scene))
     , spacing(spacing)
     , smoothing_length(smoothing_length)
     , site_coordinates(symmetry)
@@ -245,8 +262,8 @@ namespace meltfront::verification
   {
     const std::vector<double> &coordinate = coordinates(snapshot);
     FrontReading reading;
-    reading.latent_heat = by_latent_heat(snapshot);
     reading.isotherm = by_isotherm(snapshot, coordinate);
+    reading.latent_heat = alloy ? reading.isotherm : by_latent_heat(snapshot);
     read_extreme_sites(snapshot, coordinate, reading);
     return reading;
   }

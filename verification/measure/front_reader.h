@@ -17,9 +17,10 @@ namespace meltfront::verification
    * a reading finds none. */
   struct FrontReading
   {
-    double latent_heat; ///< encloses the volume that is solid: sum of weight x solid
-                        ///< fraction, and the hole of a shell
-    double isotherm;    ///< where T = T_m
+    /** Encloses the volume that is solid: sum of weight x solid fraction, and the hole of
+     * a shell. In an alloy, whose mush no volume tells from the liquid: the isotherm. */
+    double latent_heat;
+    double isotherm; ///< where T = T_m; in an alloy, the initial liquidus temperature
     /** Largest coordinate of a fully frozen site plus half the smoothing length (Error-1
      * of Monaghan, Huppert and Worster 2005, Table 1). */
     double max_ice;
@@ -103,7 +104,8 @@ namespace meltfront::verification
     double origin = 0;        ///< of the coordinate in a planar scene (m)
     double cross_section = 1; ///< by which a box's volume is divided to give a length
     double hole = 0;          ///< of a shell, in the measure of the scene
-    double melting_temperature;
+    bool alloy;
+    double melting_temperature; ///< of an alloy: where the melt begins to freeze
     double spacing;
     double smoothing_length;
     SiteCoordinates site_coordinates;

@@ -61,6 +61,7 @@ namespace meltfront::verification::tests
     cases::Snapshot snapshot;
     std::array<std::vector<double>, 3> positions;
     std::vector<double> weights, temperature, solid_fraction;
+    std::array<std::vector<double>, cases::most_solutes> concentration;
 
     const cases::Snapshot &view(int dimension, double time)
     {
@@ -71,6 +72,8 @@ namespace meltfront::verification::tests
       snapshot.weights = weights;
       snapshot.temperature = temperature;
       snapshot.solid_fraction = solid_fraction;
+      for(std::size_t s = 0; s < concentration.size(); ++s)
+        snapshot.concentration[s] = concentration[s];
       return snapshot;
     }
   };
