@@ -84,6 +84,16 @@ namespace meltfront::particles
         apply_to_slice(slice, pair, result.data());
     }
 
+    /** Another pair function in all rows. */
+    template <typename Pair>
+    void apply_pairs(const Pair &pair, std::span<double> result, int threads) const
+    {
+      double *sums = result.data();
+#pragma omp parallel for schedule(static) num_threads(threads) if(threads > 1)
+      for(std::size_t slice = 0; slice < slices(); ++slice)
+        apply_to_slice(slice, pair, sums);
+    }
+
     /**
      * For each slice the slices that hold neighbours of its rows, itself included:
      * ascending, flat, with offsets.

@@ -67,15 +67,8 @@ namespace meltfront::particles
 
   double WallTemperature::hold(double fraction, std::span<double> enthalpy)
   {
-    double heat = 0;
-    for(std::size_t i = 0; i < held.size(); ++i)
-    {
-      double &own = enthalpy[held[i]];
-      const double wall = material.enthalpy(values.at(held_links[i].point, fraction));
-      heat += held_weights[i] * (wall - own);
-      own = wall;
-    }
-    return heat;
+    return hold(fraction, enthalpy, [this](std::uint32_t, double temperature)
+                { return material.enthalpy(temperature); });
   }
 
   cases::EffectCost WallTemperature::cost() const

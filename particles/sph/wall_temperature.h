@@ -60,6 +60,22 @@ namespace meltfront::particles
      */
     double hold(double fraction, std::span<double> enthalpy);
 
+    /** The same where enthalpy_at(row, temperature) gives the enthalpy (J/kg). */
+    template <typename EnthalpyAt>
+    double hold(double fraction, std::span<double> enthalpy,
+                const EnthalpyAt &enthalpy_at) const
+    {
+      double heat = 0;
+      for(std::size_t i = 0; i < held.size(); ++i)
+      {
+        double &own = enthalpy[held[i]];
+        const double wall = enthalpy_at(held[i], values.at(held_links[i].point, fraction));
+        heat += held_weights[i] * (wall - own);
+        own = wall;
+      }
+      return heat;
+    }
+
     /** Links to walls, the entries that one pass touches. */
     std::size_t size() const
     {

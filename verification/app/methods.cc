@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <particles/alloy/alloy.h>
 #include <particles/sph/sph.h>
 #include <reference_fem/cut/cut.h>
 #include <reference_fem/enthalpy/enthalpy.h>
@@ -16,6 +17,7 @@ namespace meltfront::verification
       std::vector<std::unique_ptr<cases::Method>> list;
       list.push_back(particles::make_sph());
       list.push_back(particles::make_sph_2005());
+      list.push_back(particles::make_sph_mixture());
       list.push_back(reference_fem::make_fem_enthalpy());
       list.push_back(reference_fem::make_fem_fitted());
       list.push_back(reference_fem::make_fem_cut());

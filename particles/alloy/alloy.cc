@@ -1,0 +1,62 @@
+#include <cases/scene.h>
+#include <particles/alloy/alloy.h>
+#include <particles/alloy/mixture_run.h>
+#include <particles/alloy/parameters.h>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    /** A run without options of its own uses the declared defaults. */
+    cases::Resolution complete(const cases::Method &method,
+                               const cases::Resolution &resolution)
+    {
+      cases::Resolution result = resolution;
+      if(result.options.declarations().empty())
+        result.options = cases::Options(method.option_declarations());
+      return result;
+    }
+
+    class MixtureMethod : public cases::Method
+    {
+    public:
+      std::string name() const override
+      {
+        return "sph-mixture";
+      }
+
+      std::string summary() const override
+      {
+        return "Smoothed particle hydrodynamics of alloys: each particle is a mixture of "
+               "crystals and liquid in local equilibrium.";
+      }
+
+      std::vector<cases::Effect> supported_effects() const override
+      {
+        using cases::Effect;
+        return {
+            Effect::phase_change, Effect::phase_conductivity, Effect::phase_heat_capacity,
+            Effect::heat_sources, Effect::wall_temperature,   Effect::wall_flux,
+            Effect::solute,       Effect::solute_diffusion,   Effect::eutectic};
+      }
+
+      std::vector<cases::OptionDeclaration> option_declarations() const override
+      {
+        return mixture_options();
+      }
+
+      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
+                        const cases::Resolution &resolution,
+                        cases::Observer &observer) const override
+      {
+        cases::require_effects(*this, effects);
+        return run_mixture(scene, effects, complete(*this, resolution), observer);
+      }
+    };
+  } // namespace
+
+  std::unique_ptr<cases::Method> make_sph_mixture()
+  {
+    return std::make_unique<MixtureMethod>();
+  }
+} // namespace meltfront::particles

@@ -1,0 +1,397 @@
+#include <cases/error.h>
+#include <cases/scene.h>
+#include <cases/snapshot.h>
+#include <cases/stopwatch.h>
+#include <particles/alloy/mixture_flow.h>
+#include <particles/alloy/mixture_run.h>
+#include <particles/alloy/mixture_state.h>
+#include <particles/sph/careful_sum.h>
+#include <particles/sph/time_stepping.h>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    constexpr const char *method_name = "sph-mixture";
+
+    /** One run: the state and its advance in time. */
+    class MixtureRun
+    {
+    public:
+      MixtureRun(const cases::Scene &scene, const cases::EffectSet &effects,
+                 const cases::Resolution &resolution)
+        : scene(scene)
+        , parameters(resolve_mixture_parameters(scene, resolution))
+        , dis(scene, parameters.sph)
+        , n(dis.particles.size())
+        , substance(scene, method_name)
+        , initial(dis, substance)
+        , flows(dis, substance, effects, parameters, initial.uniform())
+        , size(flows.padded_size())
+        , bounds(cases::temperature_bounds(scene))
+        , particle_mass(dis.particle_volume * substance.density)
+        , plan(plan_steps(parameters.sph, scene, flows.monotone_step(particle_mass),
+                          dis.kernel.smoothing_length()))
+        , super_step(plan.stages)
+        , temperature(n)
+        , solid_fraction(n)
+      {
+        const std::size_t solutes = substance.n_solutes();
+        // Without diffusion concentrations never change: they take no part in the steps.
+        fields = 1 + (flows.diffuses() ? solutes : 0);
+        state.assign(fields * size, 0.);
+        std::copy(initial.enthalpy.begin(), initial.enthalpy.end(), state.begin());
+        for(std::size_t s = 0; flows.diffuses() && s < solutes; ++s)
+          std::copy(initial.concentration[s].begin(), initial.concentration[s].end(),
+                    state.begin() + (s + 1) * size);
+        flow.resize(state.size());
+        if(plan.stages > 1)
+          for(auto *array : {&start, &before, &start_flow})
+            array->resize(state.size());
+        flows.prepare_step(scene.start_time, time_of(1));
+        flows.hold_walls(0, view());
+        extremes = flows.follow(view());
+        initial_heat = heat_content();
+        for(std::size_t s = 0; s < solutes; ++s)
+          initial_solute[s] = mass_of(s);
+        initial_mass = mass();
+      }
+
+      cases::Cost run(cases::Observer &observer, const cases::Stopwatch &watch)
+      {
+        const cases::Stopwatch::Seconds setup = watch.elapsed();
+        observer.begin(describe());
+        observer.observe(snapshot(0, scene.start_time));
+        cases::Stopwatch stepping;
+        for(long step = 1; step <= plan.steps; ++step)
+        {
+          const double end = time_of(step);
+          advance(step, time_of(step - 1), end);
+          check(step, end);
+          if(observer.wants(step, end) || step == plan.steps)
+            stepping.without([&] { observer.observe(snapshot(step, end)); });
+        }
+        return cost(setup, stepping.elapsed());
+      }
+
+    private:
+      /** Time after a step; the end exactly. */
+      double time_of(long step) const
+      {
+        return step == plan.steps ? scene.end_time : scene.start_time + step * plan.step;
+      }
+
+      std::span<const double> concentration(std::size_t solute) const
+      {
+        return flows.diffuses()
+                   ? std::span<const double>(state).subspan((solute + 1) * size, n)
+                   : std::span<const double>(initial.concentration[solute]);
+      }
+
+      MixtureView view()
+      {
+        const std::size_t solutes = substance.n_solutes();
+        for(std::size_t s = 0; s < solutes; ++s)
+          composition[s] = concentration(s);
+        return {std::span(state).first(n), std::span(composition).first(solutes)};
+      }
+
+      void advance(long step, double begin, double end)
+      {
+        flows.prepare_step(begin, end);
+        const bool super = plan.stages > 1 && step > plan.resolved_steps;
+        double wall_heat = super ? take_super_step(end - begin)
+                                 : take_euler_steps(end - begin, plan.euler_substeps);
+        finish_step();
+        if(super && breaks_bounds())
+        {
+          // Only convex combinations keep the maximum principle for certain: repeat the
+          // step with these.
+          std::swap(state, start);
+          flows.follow(view());
+          wall_heat = take_euler_steps(end - begin, plan.euler_substeps);
+          finish_step();
+          ++repeated_steps;
+        }
+        boundary_heat.add(wall_heat / dis.cross_section);
+        boundary_heat.add(held_heat);
+      }
+
+      void finish_step()
+      {
+        held_heat = flows.hold_walls(1, view());
+        extremes = flows.follow(view());
+      }
+
+      /** Flows of heat and solutes. @return heat flow through walls. */
+      double evaluate(double fraction, std::vector<double> &result)
+      {
+        const std::span<double> all(result);
+        const double walls = flows.heat(fraction, all.first(size));
+        for(std::size_t field = 1; field < fields; ++field)
+          flows.solute(field - 1, all.subspan(field * size, size));
+        return walls;
+      }
+
+      /** @return heat through walls. */
+      double take_euler_steps(double duration, int steps)
+      {
+        const double step = duration / steps;
+        double wall_heat = 0;
+        for(int i = 0; i < steps; ++i)
+        {
+          if(i > 0)
+            flows.follow(view());
+          wall_heat += step * evaluate(double(i) / steps, flow);
+          add_flow(state, step / particle_mass, flow);
+        }
+        return wall_heat;
+      }
+
+      /** One step of RKL2. @return heat through walls, by the same recursion. */
+      double take_super_step(double duration)
+      {
+        const double factor = duration / particle_mass;
+        start = state;
+        before = state;
+        const double start_rate = evaluate(0, start_flow);
+        double wall_before = 0;
+        double wall = super_step.first_rate * duration * start_rate;
+        add_flow(state, super_step.first_rate * factor, start_flow);
+        for(const SuperStage &stage : super_step.stages)
+        {
+          flows.follow(view());
+          const double rate = evaluate(stage.fraction, flow);
+          combine(stage, factor);
+          std::swap(before, state);
+          const double wall_next
+              = stage.previous * wall + stage.before * wall_before
+                + duration * (stage.rate * rate + stage.start_rate * start_rate);
+          wall_before = wall;
+          wall = wall_next;
+        }
+        return wall;
+      }
+
+      void add_flow(std::vector<double> &array, double factor,
+                    const std::vector<double> &added) const
+      {
+        const int threads = flows.threads();
+        double *y = array.data();
+        const double *f = added.data();
+#pragma omp parallel for simd schedule(static) num_threads(threads) if(threads > 1)
+        for(std::size_t i = 0; i < array.size(); ++i)
+          y[i] += factor * f[i];
+      }
+
+      /** Y_j, into the array of Y_(j-2). */
+      void combine(const SuperStage &stage, double factor)
+      {
+        const int threads = flows.threads();
+        const double *previous = state.data(), *first = start.data();
+        const double *f = flow.data(), *first_flow = start_flow.data();
+        double *next = before.data();
+#pragma omp parallel for simd schedule(static) num_threads(threads) if(threads > 1)
+        for(std::size_t i = 0; i < state.size(); ++i)
+          next[i] = stage.previous * previous[i] + stage.before * next[i]
+                    + stage.start * first[i]
+                    + factor * (stage.rate * f[i] + stage.start_rate * first_flow[i]);
+      }
+
+      static constexpr double bound_tolerance = 1e-9;
+
+      bool breaks_bounds() const
+      {
+        const double span = bounds.upper - bounds.lower;
+        const double slack = 0.5 * bound_tolerance * (std::isfinite(span) ? span : 0);
+        return !extremes.finite || extremes.lowest < bounds.lower - slack
+               || extremes.highest > bounds.upper + slack || least_concentration() < 0;
+      }
+
+      double least_concentration() const
+      {
+        double least = 0;
+        for(std::size_t field = 1; field < fields; ++field)
+          for(std::size_t a = 0; a < n; ++a)
+            least = std::min(least, state[field * size + a]);
+        return least;
+      }
+
+      void check(long step, double time) const
+      {
+        constexpr double broken = std::numeric_limits<double>::quiet_NaN();
+        cases::check_temperature(bounds, extremes.finite ? extremes.lowest : broken,
+                                 extremes.finite ? extremes.highest : broken, method_name,
+                                 step, time, bound_tolerance);
+        const double least = least_concentration();
+        if(least < -1e-12)
+          throw cases::NumericalError(method_name, step, time, "concentration",
+                                      fmt::format("is {:.6g}, below zero", least));
+      }
+
+      double mass() const
+      {
+        CarefulSum sum;
+        for(std::size_t a = 0; a < n; ++a)
+          sum.add(dis.weights[a] * substance.density);
+        return sum.value();
+      }
+
+      double mass_of(std::size_t solute) const
+      {
+        const std::span<const double> c = concentration(solute);
+        CarefulSum sum;
+        for(std::size_t a = 0; a < n; ++a)
+          sum.add(dis.weights[a] * substance.density * c[a]);
+        return sum.value();
+      }
+
+      cases::HeatBudget heat_content() const
+      {
+        const double latent_heat = scene.material.latent_heat;
+        const std::span<const double> liquid = flows.liquid_fraction();
+        CarefulSum stored, latent;
+        for(std::size_t a = 0; a < n; ++a)
+        {
+          const double weight = dis.weights[a] * substance.density;
+          latent.add(weight * latent_heat * liquid[a]);
+          stored.add(weight * (state[a] - latent_heat * liquid[a]));
+        }
+        cases::HeatBudget heat;
+        heat.stored = stored.value();
+        heat.latent = latent.value();
+        heat.initial = heat.stored + heat.latent;
+        return heat;
+      }
+
+      cases::Snapshot snapshot(long step, double time)
+      {
+        const std::span<const double> excess = flows.temperature_excess();
+        const std::span<const double> liquid = flows.liquid_fraction();
+        for(std::size_t a = 0; a < n; ++a)
+        {
+          temperature[a] = scene.material.melting_temperature + excess[a];
+          solid_fraction[a] = 1 - liquid[a];
+        }
+        cases::Snapshot result;
+        result.step = step;
+        result.time = time;
+        result.dimension = dis.dimension;
+        for(int d = 0; d < dis.dimension; ++d)
+          result.positions[d] = dis.particles.position[d];
+        result.weights = dis.weights;
+        result.temperature = temperature;
+        result.solid_fraction = solid_fraction;
+        result.heat = heat_content();
+        result.heat.initial = initial_heat.initial;
+        result.heat.boundary = boundary_heat.value();
+        result.heat.sources = flows.source_heat(time) / dis.cross_section;
+        if(substance.n_solutes() == 0)
+          return result;
+        result.mass = {mass(), initial_mass};
+        for(std::size_t s = 0; s < substance.n_solutes(); ++s)
+        {
+          result.concentration[substance.numbers[s]] = concentration(s);
+          result.solute[substance.numbers[s]] = {mass_of(s), initial_solute[s]};
+        }
+        return result;
+      }
+
+      long unknowns() const
+      {
+        return static_cast<long>(fields * (n - dis.held.size()));
+      }
+
+      cases::RunDescription describe() const
+      {
+        cases::RunDescription description;
+        description.dimension = dis.dimension;
+        description.spacing = dis.spacing;
+        description.smoothing_length = dis.kernel.smoothing_length();
+        description.time_step = plan.step;
+        description.unknowns = unknowns();
+        const auto add
+            = [&](const char *what, const std::string &value, const char *unit) {
+                description.parameters.push_back({what, value, unit});
+              };
+        add("kernel", kernel_names()[static_cast<std::size_t>(parameters.sph.kernel)],
+            "");
+        add("smoothing length / spacing", fmt::format("{:.6g}", parameters.sph.smoothing),
+            "1");
+        add("layout",
+            dis.layout == LatticeLayout::on_edge ? "particles on the edge"
+                                                 : "cell-centred",
+            "");
+        if(dis.displaced)
+          add("jitter", fmt::format("{:.6g}", parameters.sph.jitter), "spacings");
+        add("particles", fmt::format("{}", n), "1");
+        for(const cases::Parameter &parameter : flows.describe())
+          description.parameters.push_back(parameter);
+        add("time scheme",
+            plan.stages > 1 ? fmt::format("RKL2, {} stages", plan.stages)
+                            : "explicit Euler",
+            "");
+        add("largest explicit step that keeps the maximum principle",
+            fmt::format("{:.6g}", plan.monotone), "s");
+        return description;
+      }
+
+      cases::Cost cost(const cases::Stopwatch::Seconds &setup,
+                       const cases::Stopwatch::Seconds &stepping) const
+      {
+        cases::Cost result;
+        result.setup_wall = setup.wall;
+        result.setup_cpu = setup.cpu;
+        result.stepping_wall = stepping.wall;
+        result.stepping_cpu = stepping.cpu;
+        result.steps = plan.steps;
+        result.unknowns = unknowns();
+        result.work = flows.work();
+        result.capped_steps = repeated_steps;
+        const std::size_t arrays = flows.diffuses() ? (plan.stages > 1 ? 6 : 3) : 1;
+        result.effects = flows.effect_costs(arrays * size * sizeof(double));
+        return result;
+      }
+
+      const cases::Scene &scene;
+      MixtureParameters parameters;
+      Discretisation dis;
+      std::size_t n; ///< particles
+      AlloySubstance substance;
+      MixtureState initial;
+      MixtureFlow flows;
+      std::size_t size; ///< of an array with its padding
+      cases::TemperatureBounds bounds;
+      double particle_mass;
+      StepPlan plan;
+      SuperStep super_step;
+
+      std::size_t fields; ///< that steps change: enthalpy, then concentrations
+      std::vector<double> state, flow;               ///< field after field
+      std::vector<double> start, before, start_flow; ///< Y_0, Y_(j-2), F(Y_0) of RKL2
+      std::array<std::span<const double>, cases::most_solutes> composition;
+      std::vector<double> temperature, solid_fraction; ///< for snapshots
+      Extremes extremes{};                             ///< of the temperature
+      cases::HeatBudget initial_heat;
+      double initial_mass = 0;
+      std::array<double, cases::most_solutes> initial_solute{};
+      CarefulSum boundary_heat;
+      double held_heat = 0; ///< of the step's new wall temperatures
+      long repeated_steps = 0;
+    };
+  } // namespace
+
+  cases::Cost run_mixture(const cases::Scene &scene, const cases::EffectSet &effects,
+                          const cases::Resolution &resolution, cases::Observer &observer)
+  {
+    const cases::Stopwatch setup;
+    MixtureRun run(scene, effects, resolution);
+    return run.run(observer, setup);
+  }
+} // namespace meltfront::particles

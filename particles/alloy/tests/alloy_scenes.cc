@@ -1,0 +1,175 @@
+#include <particles/alloy/tests/alloy_scenes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace meltfront::particles::testing
+{
+  using namespace cases;
+
+  Material nitrate_solvent()
+  {
+    Material material;
+    material.solid = {2.408, 2006, nitrate_density};
+    material.liquid = {0.498, 4180, nitrate_density};
+    material.latent_heat = 334400;
+    return material;
+  }
+
+  Alloy nitrate()
+  {
+    Alloy alloy;
+    Solute salt;
+    salt.name = "sodium nitrate";
+    salt.liquidus_slope = nitrate_slope;
+    alloy.solutes.push_back(salt);
+    alloy.crystal_density = 917;
+    return alloy;
+  }
+
+  MushyLayer nitrate_layer()
+  {
+    return {nitrate_solvent(), nitrate_slope * nitrate_concentration,
+            nitrate_density / 917, -16.5, 14.7};
+  }
+
+  Scene nitrate_slab(double end_time, double diffusivity)
+  {
+    const auto exact = std::make_shared<MushySimilarity>(nitrate_layer());
+    Scene scene;
+    scene.symmetry = Symmetry::planar;
+    scene.domain.upper = {0.5, 0, 0};
+    scene.material = nitrate_solvent();
+    scene.alloy = nitrate();
+    scene.alloy->solutes[0].diffusivity = diffusivity;
+    scene.initial.temperature = Field::uniform(14.7);
+    scene.initial.concentration = {Field::uniform(nitrate_concentration)};
+    scene.boundaries[0]
+        = Boundary{BoundaryKind::fixed_temperature, Field::uniform(-16.5), false};
+    scene.boundaries[1] = Boundary{BoundaryKind::fixed_temperature,
+                                   {"similarity",
+                                    [exact](const Position &p, double t) {
+                                      return t > 0 ? exact->temperature(p[0], t) : 14.7;
+                                    },
+                                    false},
+                                   true};
+    scene.end_time = end_time;
+    return scene;
+  }
+
+  namespace
+  {
+    /** Entropy of heat and of mixing (J/K), temperatures in degrees Celsius. */
+    double entropy(const Snapshot &s, const Scene &scene)
+    {
+      const Material &m = scene.material;
+      double sum = 0;
+      for(std::size_t i = 0; i < s.weights.size(); ++i)
+      {
+        const double mass = s.weights[i] * m.solid.density;
+        const double liquid = 1 - s.solid_fraction[i];
+        sum += mass * m.liquid.specific_heat_capacity * liquid
+               * std::log(s.temperature[i] + 273.15);
+        sum += mass * m.solid.specific_heat_capacity * s.solid_fraction[i]
+               * std::log(s.temperature[i] + 273.15);
+        sum += mass * liquid * m.latent_heat / 273.15;
+      }
+      return sum;
+    }
+
+    class AlloyWatcher : public Observer
+    {
+    public:
+      AlloyWatcher(const Scene &scene, long every, AlloyOutcome &outcome)
+        : scene(scene)
+        , every(every)
+        , outcome(outcome)
+      {
+      }
+
+      void begin(const RunDescription &description) override
+      {
+        outcome.description = description;
+      }
+
+      bool wants(long step, double) override
+      {
+        return step % every == 0;
+      }
+
+      void observe(const Snapshot &s) override
+      {
+        const auto keep = [](std::span<const double> from, std::vector<double> &to)
+        { to.assign(from.begin(), from.end()); };
+        keep(s.positions[0], outcome.x);
+        keep(s.weights, outcome.weights);
+        keep(s.temperature, outcome.temperature);
+        keep(s.solid_fraction, outcome.solid_fraction);
+        outcome.concentration.resize(most_solutes);
+        outcome.solid = 0;
+        for(std::size_t i = 0; i < s.weights.size(); ++i)
+          outcome.solid += s.weights[i] * s.solid_fraction[i];
+        for(std::size_t solute = 0; solute < most_solutes; ++solute)
+        {
+          keep(s.concentration[solute], outcome.concentration[solute]);
+          outcome.solute_defect
+              = std::max(outcome.solute_defect, s.solute[solute].defect());
+        }
+        outcome.heat_defect = std::max(outcome.heat_defect, s.heat.defect());
+        outcome.mass_defect = std::max(outcome.mass_defect, s.mass.defect());
+        const auto [low, high]
+            = std::minmax_element(s.temperature.begin(), s.temperature.end());
+        const bool first = outcome.times.empty();
+        outcome.lowest = first ? *low : std::min(outcome.lowest, *low);
+        outcome.highest = first ? *high : std::max(outcome.highest, *high);
+        outcome.heat = s.heat;
+        outcome.times.push_back(s.time);
+        outcome.solids.push_back(outcome.solid);
+        outcome.entropies.push_back(entropy(s, scene));
+      }
+
+    private:
+      const Scene &scene;
+      long every;
+      AlloyOutcome &outcome;
+    };
+  } // namespace
+
+  AlloyOutcome run(const Method &method, const Scene &whole, int n,
+                   const OptionTexts &options, long every, int threads)
+  {
+    Resolution resolution;
+    resolution.n = n;
+    resolution.threads = threads;
+    resolution.options = Options(method.option_declarations());
+    for(const auto &[key, text] : options)
+      resolution.options.set(key, text);
+    const EffectSet effects = effects_called_for(whole);
+    const Scene scene = simulated_scene(whole, effects);
+    AlloyOutcome outcome;
+    AlloyWatcher watcher(whole, every, outcome);
+    outcome.cost = method.solve(scene, effects, resolution, watcher);
+    return outcome;
+  }
+
+  MushErrors compare(const AlloyOutcome &outcome, const MushyLayer &layer, double time)
+  {
+    const MushySimilarity exact(layer);
+    MushErrors errors{};
+    for(std::size_t i = 0; i < outcome.x.size(); ++i)
+    {
+      const double t = outcome.temperature[i] - exact.temperature(outcome.x[i], time);
+      const double theta
+          = layer.expansion
+            * (outcome.solid_fraction[i] - exact.solid_fraction(outcome.x[i], time));
+      errors.temperature += t * t;
+      errors.theta += theta * theta;
+      errors.largest = std::max(errors.largest, std::abs(t));
+    }
+    errors.temperature = std::sqrt(errors.temperature / outcome.x.size());
+    errors.theta = std::sqrt(errors.theta / outcome.x.size());
+    errors.ice = outcome.solid / exact.solid_length(time) - 1;
+    return errors;
+  }
+} // namespace meltfront::particles::testing
