@@ -189,16 +189,30 @@ namespace meltfront::verification
              + front_frames(context, runs);
     }
 
-    Markup profile_and_budget(const ReportContext &context, const CaseRuns &runs)
+    /** Front of every resolution of one method: of the first that was published, else of
+     * the first that has three. */
+    Markup front_of_all_resolutions(const ReportContext &context, const CaseRuns &runs)
     {
-      return pair(
-          context.plots.figure(runs.record->name + "-temperature",
-                               temperature_profile(runs, context.styles),
-                               text("Temperature at the end, each method's finest run.")),
-          context.plots.figure(
-              runs.record->name + "-budget", budget_against_time(runs, context.styles),
-              text("Defect of the heat budget, relative to its largest term; "
-                   "drawn at 10⁻¹⁷ where it is less.")));
+      const LabelRuns *chosen = nullptr;
+      for(const LabelRuns &label : runs.labels)
+        if(label.levels.size() >= 3 && label.refinement.symbol() == "h"
+           && (!chosen
+               || (label.label.find("-2005") != std::string::npos
+                   && chosen->label.find("-2005") == std::string::npos)))
+          chosen = &label;
+      if(!chosen)
+        return {};
+      return context.plots.figure(
+          runs.record->name + "-front-resolutions", front_of_resolutions(runs, *chosen),
+          text("Front against time of " + chosen->label + " at all its resolutions."));
+    }
+
+    Markup budget(const ReportContext &context, const CaseRuns &runs)
+    {
+      return context.plots.figure(
+          runs.record->name + "-budget", budget_against_time(runs, context.styles),
+          text("Defect of the heat budget, relative to its largest term; "
+               "drawn at 10⁻¹⁷ where it is less."));
     }
 
     Markup parameters(const CaseRuns &runs)
@@ -296,9 +310,10 @@ namespace meltfront::verification
                + yardstick(context, runs) + element("h3", "Convergence")
                + convergence(context, runs) + error_plots(context, runs)
                + element("h3", "Front") + front_plots(context, runs)
-               + element("h3", "Temperature and heat budget")
-               + profile_and_budget(context, runs) + printed(context, runs)
-               + criteria(context, record) + limits(runs);
+               + element("h3", "Temperature, solid and heat budget")
+               + profiles_of_case(context, runs)
+               + pair(budget(context, runs), front_of_all_resolutions(context, runs))
+               + printed(context, runs) + criteria(context, record) + limits(runs);
     return element("section", {{"id", case_anchor(record.name)}}, content) + Markup("\n");
   }
 } // namespace meltfront::verification

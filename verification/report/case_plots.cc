@@ -2,6 +2,7 @@
 
 #include <verification/report/convergence_table.h>
 #include <verification/report/curve_labels.h>
+#include <verification/report/plot_data.h>
 
 #include <fmt/format.h>
 
@@ -12,36 +13,6 @@ namespace meltfront::verification
 {
   namespace
   {
-    std::string with_unit(const std::string &quantity, const std::string &unit)
-    {
-      return unit.empty() ? quantity : fmt::format("{} ({})", quantity, unit);
-    }
-
-    std::string coordinate_name(const CaseRecord &record)
-    {
-      return radial_front(record) ? "r" : "x";
-    }
-
-    /** Indices of at most `most` entries, evenly spread, first and last among them. */
-    std::vector<std::size_t> thinned(std::size_t size, std::size_t most)
-    {
-      std::vector<std::size_t> indices;
-      if(size <= most)
-        for(std::size_t i = 0; i < size; ++i)
-          indices.push_back(i);
-      else
-        for(std::size_t i = 0; i < most; ++i)
-          indices.push_back(i * (size - 1) / (most - 1));
-      return indices;
-    }
-
-    constexpr std::size_t most_points = 240;
-
-    double entry(const std::vector<double> &values, std::size_t i)
-    {
-      return i < values.size() ? values[i] : std::nan("");
-    }
-
     /** A curve over the finest run of every label. */
     template <typename Value>
     void add_finest(Plot &plot, const CaseRuns &runs, const MethodStyles &styles,
@@ -53,7 +24,7 @@ namespace meltfront::verification
           Curve &curve = plot.curves.emplace_back();
           curve.label = label.label;
           curve.style = styles.style(label.label);
-          for(const std::size_t i : thinned(run->series.time.size(), most_points))
+          for(const std::size_t i : thinned(run->series.time.size()))
           {
             curve.x.push_back(run->series.time[i]);
             curve.y.push_back(value(run->series, i));
@@ -76,7 +47,7 @@ namespace meltfront::verification
       Curve &curve = plot.curves.emplace_back();
       curve.label = "exact";
       curve.markers = false;
-      for(const std::size_t i : thinned(longest->time.size(), most_points))
+      for(const std::size_t i : thinned(longest->time.size()))
       {
         curve.x.push_back(longest->time[i]);
         curve.y.push_back(entry(longest->front_exact, i));
@@ -214,6 +185,34 @@ namespace meltfront::verification
     return plot;
   }
 
+  Plot front_of_resolutions(const CaseRuns &runs, const LabelRuns &label)
+  {
+    Plot plot;
+    plot.description = "Front against time of all resolutions, " + runs.record->name;
+    plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
+    plot.y.label = with_unit("front", unit_of(*runs.record, "m"));
+    std::vector<std::string> names;
+    for(const Level &level : label.levels)
+      names.push_back(fmt::format("n = {}", level.n));
+    const MethodStyles styles(names);
+    for(const Level &level : label.levels)
+    {
+      if(!level.finished)
+        continue;
+      Curve &curve = plot.curves.emplace_back();
+      curve.label = fmt::format("n = {}", level.n);
+      curve.style = styles.style(curve.label);
+      const RunSeries &series = level.finished->series;
+      for(const std::size_t i : thinned(series.time.size()))
+      {
+        curve.x.push_back(series.time[i]);
+        curve.y.push_back(entry(series.front, i));
+      }
+    }
+    add_exact_front(plot, runs);
+    return plot;
+  }
+
   Plot front_error_against_time(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot;
@@ -255,80 +254,6 @@ namespace meltfront::verification
                  return std::isnan(defect) ? defect
                                            : std::max(std::abs(defect), round_off);
                });
-    return plot;
-  }
-
-  namespace
-  {
-    void add_profile(Plot &plot, const std::vector<double> &coordinate,
-                     const std::vector<double> &temperature, Curve curve)
-    {
-      for(const std::size_t i : thinned(coordinate.size(), most_points))
-      {
-        curve.x.push_back(coordinate[i]);
-        curve.y.push_back(entry(temperature, i));
-      }
-      plot.curves.push_back(std::move(curve));
-    }
-
-    Curve exact_curve()
-    {
-      Curve curve;
-      curve.label = "exact";
-      curve.markers = false;
-      return curve;
-    }
-  } // namespace
-
-  Plot temperature_profile(const CaseRuns &runs, const MethodStyles &styles)
-  {
-    Plot plot;
-    plot.description = "Temperature at the end, " + runs.record->name;
-    plot.x.label = with_unit(coordinate_name(*runs.record), unit_of(*runs.record, "m"));
-    plot.y.label = with_unit("temperature", unit_of(*runs.record, "K or °C"));
-    const RunProfile *exact = nullptr;
-    for(const LabelRuns &label : runs.labels)
-      if(const RunRecord *run = label.finest())
-      {
-        Curve curve;
-        curve.label = label.label;
-        curve.style = styles.style(label.label);
-        curve.line = run->description.dimension == 1; // else sites scatter
-        add_profile(plot, run->profile.coordinate, run->profile.temperature, curve);
-        const RunProfile &profile = run->profile;
-        if(!profile.temperature_exact.empty()
-           && (!exact || profile.coordinate.size() > exact->coordinate.size()))
-          exact = &profile;
-      }
-    if(exact)
-      add_profile(plot, exact->coordinate, exact->temperature_exact, exact_curve());
-    return plot;
-  }
-
-  Plot run_profile(const RunRecord &run, const CaseRecord &record)
-  {
-    const MethodStyles styles({run.label});
-    const RunProfile &profile = run.profile;
-    Plot plot;
-    plot.description = "Temperature at the end, " + record.name;
-    plot.x.label = with_unit(coordinate_name(record), unit_of(record, "m"));
-    plot.y.label = with_unit("temperature", unit_of(record, "K or °C"));
-    if(!profile.temperature_exact.empty())
-      add_profile(plot, profile.coordinate, profile.temperature_exact, exact_curve());
-    // Solid filled, liquid open, as in pictures of particles.
-    for(const bool solid : {true, false})
-    {
-      Curve curve;
-      curve.label = solid ? "solid" : "liquid";
-      curve.style = styles.style(run.label);
-      curve.style.open = !solid;
-      curve.line = false;
-      std::vector<double> temperature = profile.temperature;
-      for(std::size_t i = 0; i < temperature.size(); ++i)
-        if((entry(profile.solid_fraction, i) >= 0.5) != solid)
-          temperature[i] = std::nan("");
-      add_profile(plot, profile.coordinate, temperature, curve);
-    }
     return plot;
   }
 } // namespace meltfront::verification

@@ -24,21 +24,18 @@ namespace meltfront::verification
   /** Front against time: the finest run of every label and the exact front. */
   Plot front_against_time(const CaseRuns &runs, const MethodStyles &styles);
 
+  /** Front against time of all resolutions of one label, and the exact front. */
+  Plot front_of_resolutions(const CaseRuns &runs, const LabelRuns &label);
+
   /** |front - exact front| against time, finest runs. */
   Plot front_error_against_time(const CaseRuns &runs, const MethodStyles &styles);
 
   /** Volume that is solid against time, finest runs. */
   Plot solid_against_time(const CaseRuns &runs, const MethodStyles &styles);
 
-  /** Temperature at the end, finest runs, and the exact one. */
-  Plot temperature_profile(const CaseRuns &runs, const MethodStyles &styles);
-
   /** Relative defect of the heat budget against time, finest runs. Defects below 1e-17
    * are drawn there. */
   Plot budget_against_time(const CaseRuns &runs, const MethodStyles &styles);
-
-  /** Temperature of one run at the end over its coordinate, with the exact one. */
-  Plot run_profile(const RunRecord &run, const CaseRecord &record);
 } // namespace meltfront::verification
 
 #endif

@@ -66,6 +66,10 @@ namespace meltfront::verification
    * suffices, and to the file beside the page. */
   Markup linked_csv(const ReportContext &context, const std::string &name,
                     const std::string &csv);
+
+  /** Profiles of temperature and solid fraction, and of an alloy's concentration too, at
+   * the marks and at the end. */
+  Markup profiles_of_case(const ReportContext &context, const CaseRuns &runs);
 } // namespace meltfront::verification
 
 #endif

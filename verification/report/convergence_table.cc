@@ -50,7 +50,21 @@ namespace meltfront::verification
         {"front_mode_end_error", "amplitude's error, end", "m", true, false, always, 2},
         {"temperature_l2", "temperature, L2", "relative", true},
         {"temperature_max", "temperature, maximum", "relative", true},
+        {"temperature_rms", "temperature, RMS", "K", true, false, when_asked, 2},
+        {"temperature_rms_1", "temperature, RMS, mark 1", "K", true, false, when_asked,
+         2},
+        {"solid_fraction_rms", "solid fraction, RMS", "", true, false, always, 2},
+        {"solid_fraction_rms_1", "solid fraction, RMS, mark 1", "", true, false,
+         when_asked, 2},
+        {"concentration_rms", "concentration, RMS", "", true, false, always, 2},
+        {"ice_error", "solid, end", "relative", true, false, always, 2},
+        {"ice_error_1", "solid, mark 1", "relative", true, false, when_asked, 2},
         {"budget_defect", "heat budget defect", "relative"},
+        {"mass_defect", "mass defect", "relative", false, false, always, 2},
+        {"solute_defect", "solute defect", "relative", false, false, always, 2},
+        {"entropy_fall", "fall of entropy", "relative", false, false, always, 2},
+        {"mixing_entropy_fall", "fall of mixing entropy", "relative", false, false,
+         when_asked, 2},
         {"iterations_per_step", "iterations per step", "", false, false, always, 2},
         {"most_iterations", "most in a step", "", false, true, always, 2},
         {"cpu_seconds", "CPU", "s"},
@@ -152,7 +166,8 @@ namespace meltfront::verification
     {
       if(quantity.unit == "volume")
         return unit_of(record, volume_unit(record));
-      return quantity.unit == "m" ? unit_of(record, "m") : quantity.unit;
+      return quantity.unit == "m" || quantity.unit == "K" ? unit_of(record, quantity.unit)
+                                                          : quantity.unit;
     }
 
     std::vector<FilledColumn> filled_columns(const CaseRuns &runs)

@@ -1,6 +1,6 @@
-#include <verification/report/case_plots.h>
 #include <verification/report/gnuplot.h>
 #include <verification/report/plot_folder.h>
+#include <verification/report/profile_plots.h>
 #include <verification/report/report.h>
 #include <verification/report/scene_picture.h>
 
