@@ -95,6 +95,21 @@ namespace meltfront::particles
     }
 
     /**
+     * Two pair functions over the same coefficients in one sweep, which reads the
+     * operator once: what a pair exchanges of two substances, as of heat and a solute.
+     */
+    template <typename First, typename Second>
+    void apply_pairs(const First &first, const Second &second,
+                     std::span<double> first_result, std::span<double> second_result,
+                     int threads) const
+    {
+      double *first_sums = first_result.data(), *second_sums = second_result.data();
+#pragma omp parallel for schedule(static) num_threads(threads) if(threads > 1)
+      for(std::size_t slice = 0; slice < slices(); ++slice)
+        apply_to_slice(slice, first, second, first_sums, second_sums);
+    }
+
+    /**
      * For each slice the slices that hold neighbours of its rows, itself included:
      * ascending, flat, with offsets.
      */
@@ -117,6 +132,30 @@ namespace meltfront::particles
       }
       for(std::size_t lane = 0; lane < lanes; ++lane)
         result[row + lane] = sum[lane];
+    }
+
+    template <typename First, typename Second>
+    void apply_to_slice(std::size_t slice, const First &first, const Second &second,
+                        double *first_result, double *second_result) const
+    {
+      const std::size_t row = slice * lanes;
+      double first_sum[lanes] = {}, second_sum[lanes] = {};
+      for(std::size_t e = slice_begin[slice]; e < slice_begin[slice + 1]; e += lanes)
+      {
+        const std::uint32_t *neighbour = neighbours_of.data() + e;
+        const double *factor = coefficient.data() + e;
+#pragma omp simd
+        for(std::size_t lane = 0; lane < lanes; ++lane)
+        {
+          first_sum[lane] += factor[lane] * first(row + lane, neighbour[lane]);
+          second_sum[lane] += factor[lane] * second(row + lane, neighbour[lane]);
+        }
+      }
+      for(std::size_t lane = 0; lane < lanes; ++lane)
+      {
+        first_result[row + lane] = first_sum[lane];
+        second_result[row + lane] = second_sum[lane];
+      }
     }
 
     std::size_t n_rows = 0;

@@ -117,16 +117,20 @@ namespace meltfront::particles
     double from_wall(std::size_t a, double other) const
     {
       const double own = state.u[a];
-      const bool differ = melting_is_liquid
-                              ? (own < 0) != (other < 0)
-                              : (own < 0 && other > 0) || (own > 0 && other < 0);
-      return differ ? scaled(other) - scaled(own) : other - own;
+      return exchanges_across(own, other) ? other * scale(other) - own * scale(own)
+                                          : other - own;
     }
 
-  private:
-    double scaled(double u) const
+    /** Whether the harmonic mean holds between two values. */
+    bool exchanges_across(double own, double other) const
     {
-      return u * (u < 0 ? solid_scale : liquid_scale);
+      return melting_is_liquid ? (own < 0) != (other < 0)
+                               : (own < 0 && other > 0) || (own > 0 && other < 0);
+    }
+
+    double scale(double u) const
+    {
+      return u < 0 ? solid_scale : liquid_scale;
     }
   };
 
@@ -155,6 +159,12 @@ namespace meltfront::particles
         return use(SubParticlePair{state, latent_heat});
       return use(
           HarmonicPair{state, solid_scale, liquid_scale, rule == FrontRule::liquid});
+    }
+
+    /** The slices near fronts, as of the last apply(). */
+    std::span<const std::uint32_t> front_slices() const
+    {
+      return fronts;
     }
 
     /** Interactions that apply() touched so far. */

@@ -97,8 +97,7 @@ namespace meltfront::particles
   double HeatFlow::evaluate(std::span<const double> enthalpy, double fraction,
                             std::span<double> flow)
   {
-    const std::span<const double> w
-        = variable.mapped() ? std::span<const double>(mapped) : enthalpy;
+    const std::span<const double> w = conduction_variable(enthalpy);
     const FrontState state{w.data(), enthalpy.data()};
     conduction.rows.apply(w, flow, thread_count);
     ++evaluations;

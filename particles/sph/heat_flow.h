@@ -47,6 +47,21 @@ namespace meltfront::particles
     double evaluate(std::span<const double> enthalpy, double fraction,
                     std::span<double> flow);
 
+    /**
+     * Prepare products with the derivative of the flows by the enthalpy, at the enthalpy
+     * and the fraction that evaluate() was last called with.
+     */
+    void linearise(std::span<const double> enthalpy, double fraction);
+
+    /** How the flows follow a change of the enthalpy, to first order. */
+    void apply_derivative(std::span<const double> change, std::span<double> flow_change);
+
+    /** How each particle's flow follows its own enthalpy. */
+    std::span<const double> derivative_diagonal() const
+    {
+      return derivative.diagonal;
+    }
+
     /** Unit of the flows (W for 1). */
     double scale() const
     {
@@ -85,7 +100,25 @@ namespace meltfront::particles
       return effects.contains(exchange_effect);
     }
 
+    /** What products with the derivative need; empty until the first linearise(). */
+    struct Derivative
+    {
+      const double *enthalpy = nullptr;
+      std::vector<double> slope;         ///< dw/dH
+      std::vector<double> change;        ///< of w
+      std::vector<double> wall_diagonal; ///< of the heat from walls
+      std::vector<double> diagonal;
+    };
+
+    std::span<const double> conduction_variable(std::span<const double> enthalpy) const
+    {
+      return variable.mapped() ? std::span<const double>(mapped) : enthalpy;
+    }
+
     double wall_flow(FrontState state, double fraction, std::span<double> flow);
+
+    template <typename Slope>
+    void differentiate_walls(const Slope &slope, double fraction);
 
     const cases::EffectSet &effects;
     const cases::Material &material;
@@ -101,6 +134,7 @@ namespace meltfront::particles
     std::optional<HeatSources> heat_sources;
     std::optional<WallTemperature> wall_temperature;
     std::optional<WallFlux> wall_flux;
+    Derivative derivative;
     long evaluations = 0;
   };
 } // namespace meltfront::particles

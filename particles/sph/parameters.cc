@@ -4,8 +4,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace meltfront::particles
 {
+  namespace
+  {
+    /** In the order of the enumeration. */
+    const std::vector<std::string> &time_scheme_names()
+    {
+      static const std::vector<std::string> names{"euler", "rkl2", "backward-euler",
+                                                  "crank-nicolson"};
+      return names;
+    }
+  } // namespace
+
   const SphPolicy &corrected_policy()
   {
     static const SphPolicy policy{
@@ -63,13 +76,19 @@ namespace meltfront::particles
          "until it has frozen.",
          0, 0, std::vector<std::string>{"sub_particle", "partner", "liquid"}},
         {"time_scheme", "", policy.time_scheme,
-         "Explicit Euler steps, or Runge-Kutta-Legendre super steps of second order.", 0,
-         0, std::vector<std::string>{"euler", "rkl2"}},
+         "Explicit Euler steps, Runge-Kutta-Legendre super steps of second order, or "
+         "implicit steps of first or second order.",
+         0, 0, time_scheme_names()},
         {"stages", "1", 8L, "Most stages of a super step.", 3, 64},
         {"step_factor", "1", policy.step_factor,
          "Time step over the largest that keeps the maximum principle; 0: as the paper, "
-         "0.15 c rho h^2/k. More than 1 is refused.",
+         "0.15 c rho h^2/k. More than 1 is for implicit steps only.",
          0, 1e6},
+        {"step_error", "1", 0.0,
+         "Wanted relative error of each implicit step, which sets its length; 0: steps "
+         "of "
+         "equal length by step_factor.",
+         0, 1},
         {"jitter", "1", 0.0,
          "Random displacement of each particle, in particle spacings and per direction.",
          0, 0.4},
@@ -85,18 +104,30 @@ namespace meltfront::particles
       return name == "partner" ? FrontRule::partner : FrontRule::liquid;
     }
 
+    TimeScheme time_scheme(const std::string &name)
+    {
+      const auto &names = time_scheme_names();
+      return static_cast<TimeScheme>(std::find(names.begin(), names.end(), name)
+                                     - names.begin());
+    }
+
     int resolve_dimension(const SphPolicy &policy, const cases::Scene &scene, long wanted)
     {
       if(scene.domain.shape == cases::DomainShape::shell)
         throw cases::Refusal(fmt::format(
             "{} does not simulate a shell: it has no particles along an inner round wall",
             policy.name));
+      if(scene.domain.outline
+         && scene.boundary(cases::Side::outer).kind != cases::BoundaryKind::insulated)
+        throw cases::Refusal(fmt::format(
+            "{} simulates what an outline bounds only where its wall is insulated",
+            policy.name));
       if(scene.domain.shape == cases::DomainShape::slab)
         return wanted > 0 ? static_cast<int>(wanted) : (policy.as_published ? 2 : 1);
       if(wanted > 0 && wanted != scene.domain.dimension)
-        throw cases::Refusal(fmt::format(
-            "{} simulates a box or a ball of {} dimensions in these, not in {}",
-            policy.name, scene.domain.dimension, wanted));
+        throw cases::Refusal(
+            fmt::format("{} simulates this scene of {} dimensions in these, not in {}",
+                        policy.name, scene.domain.dimension, wanted));
       return scene.domain.dimension;
     }
   } // namespace
@@ -116,10 +147,15 @@ namespace meltfront::particles
                                                       : LatticeLayout::cell_centred;
     p.moment_correction = options.get_bool("moment_correction");
     p.front = front_rule(options.get_string("front"));
-    p.time_scheme = options.get_string("time_scheme") == "euler" ? TimeScheme::euler
-                                                                 : TimeScheme::rkl2;
+    p.time_scheme = time_scheme(options.get_string("time_scheme"));
     p.stages = static_cast<int>(options.get_integer("stages"));
     p.step_factor = options.get_double("step_factor");
+    p.step_error = options.get_double("step_error");
+    if(p.step_error > 0 && !is_implicit(p.time_scheme))
+      throw cases::Refusal(fmt::format(
+          "{} chooses steps by a wanted error (step_error) for the implicit schemes "
+          "backward-euler and crank-nicolson only",
+          policy.name));
     p.jitter = options.get_double("jitter");
     p.seed = resolution.seed;
     p.threads = resolution.threads;

@@ -23,8 +23,16 @@ namespace meltfront::particles
   enum class TimeScheme
   {
     euler,
-    rkl2
+    rkl2,
+    backward_euler,
+    crank_nicolson
   };
+
+  /** Whether steps of a scheme need the solution of equations. */
+  inline bool is_implicit(TimeScheme scheme)
+  {
+    return scheme == TimeScheme::backward_euler || scheme == TimeScheme::crank_nicolson;
+  }
 
   /**
    * What distinguishes the corrected method from the published one: the same code with
@@ -66,6 +74,7 @@ namespace meltfront::particles
     TimeScheme time_scheme;
     int stages;         ///< most stages of a super step
     double step_factor; ///< 0: the paper's step
+    double step_error;  ///< wanted of each implicit step; 0: steps of equal length
     double jitter;      ///< in particle spacings
     std::uint64_t seed;
     int threads;

@@ -80,6 +80,17 @@ namespace meltfront::particles
         });
   }
 
+  void ConductionVariable::slopes(std::span<const double> enthalpy,
+                                  std::span<double> slope) const
+  {
+    const double latent = material.latent_heat;
+    for(std::size_t i = 0; i < enthalpy.size(); ++i)
+      slope[i] = !is_mapped                            ? 1.
+                 : enthalpy[i] < 0                     ? solid_factor
+                 : enthalpy[i] > latent || latent == 0 ? liquid_factor
+                                                       : 0.;
+  }
+
   std::vector<cases::EffectCost>
   ConductionVariable::costs(const cases::EffectSet &effects, std::size_t bytes) const
   {

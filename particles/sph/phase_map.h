@@ -54,6 +54,9 @@ namespace meltfront::particles
     /** w = w(H) for all particles. */
     Extremes map(std::span<const double> enthalpy, std::span<double> w, int threads);
 
+    /** dw/dH of all particles; zero while they melt. */
+    void slopes(std::span<const double> enthalpy, std::span<double> slope) const;
+
     /** Costs of the effects that call for the map. */
     std::vector<cases::EffectCost> costs(const cases::EffectSet &effects,
                                          std::size_t bytes) const;

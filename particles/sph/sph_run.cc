@@ -4,48 +4,39 @@
 #include <particles/sph/heat_flow.h>
 #include <particles/sph/initial_state.h>
 #include <particles/sph/sph_run.h>
+#include <particles/sph/stepper.h>
 #include <particles/sph/time_stepping.h>
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
+#include <memory>
 
 namespace meltfront::particles
 {
   namespace
   {
-    /** One run: the state and its advance in time. */
+    /** One run: its set-up, its snapshots and its costs. */
     class SphRun
     {
     public:
       SphRun(const SphPolicy &policy, const cases::Scene &scene,
              const cases::EffectSet &effects, const cases::Resolution &resolution)
-        : name(policy.name)
-        , scene(scene)
+        : scene(scene)
         , parameters(resolve_parameters(policy, scene, resolution))
         , dis(scene, parameters)
         , n(dis.particles.size())
         , heat_flow(dis, effects, parameters)
-        , bounds(cases::temperature_bounds(scene))
-        , particle_mass(dis.particle_volume * scene.material.solid.density)
-        , plan(plan_steps(parameters, scene, heat_flow.monotone_step(particle_mass),
-                          dis.kernel.smoothing_length()))
-        , super_step(plan.stages)
+        , plan(plan_steps(
+              parameters, scene,
+              heat_flow.monotone_step(dis.particle_volume * scene.material.solid.density),
+              dis.kernel.smoothing_length()))
+        , stepper(make_stepper(parameters, heat_flow, dis, plan, initial_enthalpy(dis),
+                               policy.name))
         , temperature(n)
         , solid_fraction(n)
+        , initial_heat(heat_content())
       {
-        const std::size_t size = heat_flow.padded_size();
-        enthalpy = initial_enthalpy(dis);
-        enthalpy.resize(size, 0.);
-        flow.resize(size);
-        if(plan.stages > 1)
-          for(auto *array : {&start, &before, &start_flow})
-            array->resize(size);
-        heat_flow.prepare_step(scene.start_time, time_of(1));
-        heat_flow.hold_walls(0, enthalpy);
-        heat_flow.follow(enthalpy);
-        initial_heat = heat_content();
       }
 
       cases::Cost run(cases::Observer &observer, const cases::Stopwatch &watch)
@@ -54,138 +45,29 @@ namespace meltfront::particles
         observer.begin(describe());
         observer.observe(snapshot(0, scene.start_time));
         cases::Stopwatch stepping;
-        for(long step = 1; step <= plan.steps; ++step)
+        double time = scene.start_time;
+        while(time < scene.end_time)
         {
-          const double end = time_of(step);
-          advance(step, time_of(step - 1), end);
-          check(step, end);
-          if(observer.wants(step, end) || step == plan.steps)
-            stepping.without([&] { observer.observe(snapshot(step, end)); });
+          time = stepper->advance(++steps, time);
+          if(observer.wants(steps, time) || time == scene.end_time)
+            stepping.without([&] { observer.observe(snapshot(steps, time)); });
         }
+        report_steps(observer);
         return cost(setup, stepping.elapsed());
       }
 
     private:
-      /** Time after a step; the end exactly. */
-      double time_of(long step) const
+      void report_steps(cases::Observer &observer) const
       {
-        return step == plan.steps ? scene.end_time : scene.start_time + step * plan.step;
-      }
-
-      void advance(long step, double begin, double end)
-      {
-        heat_flow.prepare_step(begin, end);
-        const bool super = plan.stages > 1 && step > plan.resolved_steps;
-        double wall_heat = super ? take_super_step(end - begin)
-                                 : take_euler_steps(end - begin, plan.euler_substeps);
-        finish_step();
-        if(super && breaks_bounds())
-        {
-          // Only convex combinations keep the maximum principle for certain: repeat the
-          // step with these.
-          std::swap(enthalpy, start);
-          heat_flow.follow(enthalpy);
-          wall_heat = take_euler_steps(end - begin, plan.euler_substeps);
-          finish_step();
-          ++repeated_steps;
-        }
-        boundary_heat.add(wall_heat / dis.cross_section);
-        boundary_heat.add(held_heat);
-      }
-
-      void finish_step()
-      {
-        held_heat = heat_flow.hold_walls(1, enthalpy);
-        heat_flow.follow(enthalpy);
-        extremes = heat_flow.temperatures(enthalpy);
-      }
-
-      /** @return heat through walls. */
-      double take_euler_steps(double duration, int steps)
-      {
-        const double step = duration / steps * heat_flow.scale();
-        double wall_heat = 0;
-        for(int i = 0; i < steps; ++i)
-        {
-          if(i > 0)
-            heat_flow.follow(enthalpy);
-          wall_heat += step * heat_flow.evaluate(enthalpy, double(i) / steps, flow);
-          add_flow(enthalpy, step / particle_mass, flow);
-        }
-        return wall_heat;
-      }
-
-      /** One step of RKL2. @return heat through walls, by the same recursion. */
-      double take_super_step(double duration)
-      {
-        const double step = duration * heat_flow.scale();
-        const double factor = step / particle_mass;
-        start = enthalpy;
-        before = enthalpy;
-        const double start_rate = heat_flow.evaluate(enthalpy, 0, start_flow);
-        double wall_before = 0;
-        double wall = super_step.first_rate * step * start_rate;
-        add_flow(enthalpy, super_step.first_rate * factor, start_flow);
-        for(const SuperStage &stage : super_step.stages)
-        {
-          heat_flow.follow(enthalpy);
-          const double rate = heat_flow.evaluate(enthalpy, stage.fraction, flow);
-          combine(stage, factor);
-          std::swap(before, enthalpy);
-          const double wall_next
-              = stage.previous * wall + stage.before * wall_before
-                + step * (stage.rate * rate + stage.start_rate * start_rate);
-          wall_before = wall;
-          wall = wall_next;
-        }
-        return wall;
-      }
-
-      void add_flow(std::vector<double> &array, double factor,
-                    const std::vector<double> &added) const
-      {
-        const int threads = heat_flow.threads();
-        double *h = array.data();
-        const double *f = added.data();
-#pragma omp parallel for simd schedule(static) num_threads(threads) if(threads > 1)
-        for(std::size_t a = 0; a < n; ++a)
-          h[a] += factor * f[a];
-      }
-
-      /** Y_j, into the array of Y_(j-2). */
-      void combine(const SuperStage &stage, double factor)
-      {
-        const int threads = heat_flow.threads();
-        const double *previous = enthalpy.data(), *first = start.data();
-        const double *f = flow.data(), *first_flow = start_flow.data();
-        double *next = before.data();
-#pragma omp parallel for simd schedule(static) num_threads(threads) if(threads > 1)
-        for(std::size_t a = 0; a < n; ++a)
-          next[a] = stage.previous * previous[a] + stage.before * next[a]
-                    + stage.start * first[a]
-                    + factor * (stage.rate * f[a] + stage.start_rate * first_flow[a]);
-      }
-
-      static constexpr double bound_tolerance = 1e-9;
-
-      bool breaks_bounds() const
-      {
-        const double span = bounds.upper - bounds.lower;
-        const double slack = 0.5 * bound_tolerance * (std::isfinite(span) ? span : 0);
-        return !extremes.finite || extremes.lowest < bounds.lower - slack
-               || extremes.highest > bounds.upper + slack;
-      }
-
-      void check(long step, double time) const
-      {
-        constexpr double broken = std::numeric_limits<double>::quiet_NaN();
-        cases::check_temperature(bounds, extremes.finite ? extremes.lowest : broken,
-                                 extremes.finite ? extremes.highest : broken, name, step,
-                                 time, bound_tolerance);
+        if(parameters.step_error > 0)
+          observer.note(scene.end_time,
+                        fmt::format("{} steps were accepted and {} rejected", steps,
+                                    stepper->counts().repeated));
       }
 
       cases::HeatBudget heat_content() const
       {
+        const std::span<const double> enthalpy = stepper->enthalpies();
         const cases::Material &m = scene.material;
         CarefulSum stored, latent;
         for(std::size_t a = 0; a < n; ++a)
@@ -206,6 +88,7 @@ namespace meltfront::particles
       cases::Snapshot snapshot(long step, double time)
       {
         const cases::Material &m = scene.material;
+        const std::span<const double> enthalpy = stepper->enthalpies();
         for(std::size_t a = 0; a < n; ++a)
         {
           temperature[a] = m.temperature(enthalpy[a]);
@@ -222,7 +105,7 @@ namespace meltfront::particles
         result.solid_fraction = solid_fraction;
         result.heat = heat_content();
         result.heat.initial = initial_heat.initial;
-        result.heat.boundary = boundary_heat.value();
+        result.heat.boundary = stepper->boundary_heat();
         result.heat.sources = heat_flow.source_heat(time) / dis.cross_section;
         return result;
       }
@@ -256,13 +139,27 @@ namespace meltfront::particles
         add("particles", fmt::format("{}", n), "1");
         for(const cases::Parameter &parameter : heat_flow.describe())
           description.parameters.push_back(parameter);
-        add("time scheme",
-            plan.stages > 1 ? fmt::format("RKL2, {} stages", plan.stages)
-                            : "explicit Euler",
-            "");
+        add("time scheme", describe_scheme(), "");
+        if(parameters.step_error > 0)
+          add("wanted error of a step", fmt::format("{:.6g}", parameters.step_error),
+              "1");
         add("largest explicit step that keeps the maximum principle",
             fmt::format("{:.6g}", plan.monotone), "s");
         return description;
+      }
+
+      std::string describe_scheme() const
+      {
+        switch(parameters.time_scheme)
+        {
+        case TimeScheme::backward_euler:
+          return "backward Euler";
+        case TimeScheme::crank_nicolson:
+          return "Crank-Nicolson after two steps of backward Euler";
+        default:
+          return plan.stages > 1 ? fmt::format("RKL2, {} stages", plan.stages)
+                                 : "explicit Euler";
+        }
       }
 
       cases::Cost cost(const cases::Stopwatch::Seconds &setup,
@@ -273,34 +170,27 @@ namespace meltfront::particles
         result.setup_cpu = setup.cpu;
         result.stepping_wall = stepping.wall;
         result.stepping_cpu = stepping.cpu;
-        result.steps = plan.steps;
+        const StepCounts counts = stepper->counts();
+        result.steps = steps;
         result.unknowns = unknowns();
         result.work = heat_flow.work();
-        result.capped_steps = repeated_steps;
+        result.solver_iterations = counts.linear_iterations;
+        result.most_iterations = counts.most_iterations;
+        result.capped_steps = counts.repeated;
         result.effects = heat_flow.effect_costs();
         return result;
       }
 
-      std::string name;
       const cases::Scene &scene;
       SphParameters parameters;
       Discretisation dis;
       std::size_t n; ///< particles
       HeatFlow heat_flow;
-      cases::TemperatureBounds bounds;
-      double particle_mass;
       StepPlan plan;
-      SuperStep super_step;
-
-      std::vector<double> enthalpy;                    ///< per mass, the state (J/kg)
-      std::vector<double> flow;                        ///< heat flow into each particle
-      std::vector<double> start, before, start_flow;   ///< Y_0, Y_(j-2), F(Y_0) of RKL2
+      std::unique_ptr<Stepper> stepper;
+      long steps = 0;                                  ///< made so far
       std::vector<double> temperature, solid_fraction; ///< for snapshots
-      Extremes extremes{};                             ///< of the temperature
       cases::HeatBudget initial_heat;
-      CarefulSum boundary_heat;
-      double held_heat = 0; ///< of the step's new wall temperatures
-      long repeated_steps = 0;
     };
   } // namespace
 

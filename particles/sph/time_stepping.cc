@@ -50,6 +50,12 @@ namespace meltfront::particles
     const double euler = p.step_factor > 0
                              ? p.step_factor * monotone
                              : published_step(scene.material, smoothing_length);
+    if(is_implicit(p.time_scheme))
+    {
+      const long steps
+          = std::max(1L, std::lround(std::ceil(duration / euler * (1 - 1e-12))));
+      return {steps, duration / steps, 1, monotone, 1, 0};
+    }
     if(euler > monotone * (1 + 1e-12))
       throw cases::Refusal(fmt::format(
           "a step of {:.6g} s is {:.4g} times the largest one, {:.6g} s, that keeps the "

@@ -31,7 +31,7 @@ namespace meltfront::particles
   {
     long steps;
     double step;         ///< s
-    int stages;          ///< of each step; 1: explicit Euler
+    int stages;          ///< of each step; 1: explicit Euler or implicit
     double monotone;     ///< monotone_step (s)
     int euler_substeps;  ///< Euler steps in place of a super step, where it is resolved
                          ///< or broke a bound
@@ -41,8 +41,9 @@ namespace meltfront::particles
 
   /**
    * Divide a duration into equal steps. Super steps are kept short enough for at least
-   * 200 of them, with fewer stages where these suffice.
-   * @throws cases::Refusal if the step asked for exceeds monotone_step.
+   * 200 of them, with fewer stages where these suffice; implicit steps may be of any
+   * length.
+   * @throws cases::Refusal if an explicit step asked for exceeds monotone_step.
    */
   StepPlan plan_steps(const SphParameters &parameters, const cases::Scene &scene,
                       double monotone, double smoothing_length);

@@ -67,7 +67,8 @@ namespace meltfront::particles
 
   double WallTemperature::hold(double fraction, std::span<double> enthalpy)
   {
-    return hold(fraction, enthalpy, [this](std::uint32_t, double temperature)
+    return hold(fraction, enthalpy,
+                [this](std::uint32_t, double temperature)
                 { return material.enthalpy(temperature); });
   }
 

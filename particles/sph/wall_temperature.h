@@ -55,6 +55,25 @@ namespace meltfront::particles
     }
 
     /**
+     * Add the links' strengths times rate(row, variable of the wall) to the rows' entries
+     * of `diagonal`: how the heat from the walls follows each particle's own state.
+     */
+    template <typename Rate>
+    void differentiate(const Rate &rate, double fraction, std::span<double> diagonal)
+    {
+      for(std::size_t p = 0; p < wall_variable.size(); ++p)
+        wall_variable[p] = variable.of_temperature(values.at(p, fraction));
+      for(const WallLink &link : links)
+        diagonal[link.row] += link.strength * rate(link.row, wall_variable[link.point]);
+    }
+
+    /** Particles on the walls. */
+    std::span<const std::uint32_t> held_rows() const
+    {
+      return held;
+    }
+
+    /**
      * Set the particles on the walls to the temperature at a fraction of the step.
      * @return heat that this took from the walls (J in the measure of the scene).
      */
@@ -69,7 +88,8 @@ namespace meltfront::particles
       for(std::size_t i = 0; i < held.size(); ++i)
       {
         double &own = enthalpy[held[i]];
-        const double wall = enthalpy_at(held[i], values.at(held_links[i].point, fraction));
+        const double wall
+            = enthalpy_at(held[i], values.at(held_links[i].point, fraction));
         heat += held_weights[i] * (wall - own);
         own = wall;
       }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <random>
 
@@ -117,6 +118,36 @@ namespace meltfront::particles
         const double factor = slice == 1 || slice == 4 ? 2 : 1;
         EXPECT_DOUBLE_EQ(example.result[a], factor * before[a]);
       }
+    }
+
+    // One sweep over two fields gives the bits of two sweeps, whatever the threads.
+    TEST(ParticleOperator, AdvancesTwoFieldsTogether)
+    {
+      Example example = square(0.2, 1. / 40);
+      std::vector<double> second(example.value.size());
+      for(std::size_t a = 0; a < example.rows.rows(); ++a)
+        second[a] = std::sin(double(a));
+      const auto heat = [&](std::size_t a, std::size_t b)
+      { return example.value[b] - example.value[a]; };
+      const auto solute = [&](std::size_t a, std::size_t b)
+      { return (second[b] - second[a]) * (example.value[a] + example.value[b]); };
+      std::vector<double> heat_alone(second.size()), solute_alone(second.size());
+      example.rows.apply(example.value, heat_alone, 1);
+      example.rows.apply_pairs(solute, solute_alone, 1);
+      for(const int threads : {1, 2, 3})
+      {
+        std::vector<double> first_result(second.size()), second_result(second.size());
+        example.rows.apply_pairs(heat, solute, first_result, second_result, threads);
+        EXPECT_EQ(first_result, heat_alone) << threads;
+        EXPECT_EQ(second_result, solute_alone) << threads;
+      }
+      double sum = 0, size = 0;
+      for(std::size_t a = 0; a < example.rows.rows(); ++a)
+      {
+        sum += solute_alone[a];
+        size += std::abs(solute_alone[a]);
+      }
+      EXPECT_LE(std::abs(sum), 1e-13 * size);
     }
 
     TEST(ParticleOperator, KnowsWhichSlicesTouch)

@@ -1,0 +1,17 @@
+#ifndef meltfront_particles_benchmarks_benchmarks_h
+#define meltfront_particles_benchmarks_benchmarks_h
+
+/** The benchmarks, in the order of the table. */
+namespace meltfront::particles::benchmarks
+{
+  /** Sweeps of the particle operator over one and two fields, in cache and beyond it. */
+  void register_operator_benchmarks();
+
+  /** Building lists of neighbours. */
+  void register_neighbour_benchmarks();
+
+  /** Whole runs. */
+  void register_run_benchmarks();
+} // namespace meltfront::particles::benchmarks
+
+#endif

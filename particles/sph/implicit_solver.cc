@@ -1,0 +1,118 @@
+#include <particles/sph/implicit_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    constexpr int most_iterations = 60;
+    constexpr int most_linear_iterations = 500;
+
+    /** Of a linear solve: residual over right-hand side. */
+    constexpr double linear_tolerance = 1e-4;
+
+    /** Of the residual over the largest sensible heat of a particle. */
+    constexpr double relative_tolerance = 1e-10;
+
+    /** How far beyond a kink, over the latent heat, a particle is put. */
+    constexpr double beyond_kink = 1e-13;
+  } // namespace
+
+  ImplicitSolver::ImplicitSolver(HeatFlow &heat_flow, const cases::Material &material)
+    : heat_flow(heat_flow)
+    , latent_heat(material.latent_heat)
+    , krylov(heat_flow.padded_size(),
+             [this](std::span<const double> change, std::span<double> result)
+             {
+               this->heat_flow.apply_derivative(change, result);
+               for(std::size_t a = 0; a < change.size(); ++a)
+                 result[a] = change[a] - factor * result[a];
+             })
+  {
+    for(auto *array : {&flow, &residual, &correction, &diagonal})
+      array->resize(heat_flow.padded_size(), 0.);
+  }
+
+  double ImplicitSolver::evaluate(const ImplicitEquation &equation,
+                                  std::vector<double> &enthalpy)
+  {
+    heat_flow.follow(enthalpy);
+    wall_flow = heat_flow.evaluate(enthalpy, equation.fraction, flow);
+    double largest = 0;
+    for(std::size_t a = 0; a < equation.base.size(); ++a)
+    {
+      residual[a] = equation.base[a] + equation.factor * flow[a] - enthalpy[a];
+      // Written so that a value that is not a number is the largest.
+      largest = std::abs(residual[a]) <= largest ? largest : std::abs(residual[a]);
+    }
+    return largest;
+  }
+
+  double ImplicitSolver::tolerance(const ImplicitEquation &equation,
+                                   std::span<const double> enthalpy) const
+  {
+    double sensible = 1e-3 * latent_heat;
+    double stiffest = 0;
+    for(std::size_t a = 0; a < equation.base.size(); ++a)
+    {
+      sensible = std::max({sensible, -enthalpy[a], enthalpy[a] - latent_heat});
+      stiffest = std::max(stiffest, diagonal[a]);
+    }
+    const double rounding = 64 * std::numeric_limits<double>::epsilon();
+    return (relative_tolerance + rounding * stiffest) * sensible;
+  }
+
+  double ImplicitSolver::stop_at_kink(double from, double to) const
+  {
+    const double beyond = beyond_kink * latent_heat;
+    if(from < 0 && to > latent_heat)
+      return 0;
+    if(from > latent_heat && to < 0)
+      return latent_heat;
+    if(from < 0 && to > 0)
+      return 0;
+    if(from > latent_heat && to < latent_heat)
+      return latent_heat;
+    if(from >= 0 && from <= latent_heat)
+      return std::clamp(to, -beyond, latent_heat + beyond);
+    return to;
+  }
+
+  void ImplicitSolver::correct(std::vector<double> &enthalpy) const
+  {
+    for(std::size_t a = 0; a < enthalpy.size(); ++a)
+      enthalpy[a] = stop_at_kink(enthalpy[a], enthalpy[a] + correction[a]);
+  }
+
+  ImplicitSolver::Outcome ImplicitSolver::solve(const ImplicitEquation &equation,
+                                                std::vector<double> &enthalpy)
+  {
+    factor = equation.factor;
+    Outcome outcome{false, 0, 0};
+    for(;;)
+    {
+      const double size = evaluate(equation, enthalpy);
+      heat_flow.linearise(enthalpy, equation.fraction);
+      const auto slopes = heat_flow.derivative_diagonal();
+      for(std::size_t a = 0; a < diagonal.size(); ++a)
+        diagonal[a] = 1 - factor * slopes[a];
+      outcome.converged = size <= tolerance(equation, enthalpy);
+      if(outcome.converged || outcome.iterations == most_iterations
+         || !std::isfinite(size))
+        break;
+      ++outcome.iterations;
+      krylov_iterations += krylov
+                               .solve(diagonal, residual, correction, linear_tolerance,
+                                      most_linear_iterations)
+                               .iterations;
+      correct(enthalpy);
+    }
+    for(std::size_t a = 0; a < equation.base.size(); ++a)
+      enthalpy[a] = equation.base[a] + equation.factor * flow[a];
+    outcome.through_walls = wall_flow;
+    return outcome;
+  }
+} // namespace meltfront::particles
