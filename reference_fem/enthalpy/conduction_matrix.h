@@ -42,6 +42,15 @@ namespace meltfront::reference_fem
       return sum;
     }
 
+    /** The same of plain numbers. */
+    double inflow(std::size_t i, const std::vector<double> &u) const
+    {
+      double sum = 0;
+      for(std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
+        sum += conductance[k] * (u[column[k]] - u[i]);
+      return sum;
+    }
+
     /** The same with the cancellation between neighbours kept to the last digit: heat
      * flows through a node of a good conductor many times over what it stores. */
     long double exact_inflow(std::size_t i, const CompensatedVector &u) const
@@ -59,6 +68,26 @@ namespace meltfront::reference_fem
       for(std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
         sum -= conductance[k] * v[column[k]];
       return sum;
+    }
+
+    /**
+     * Make this the network of another matrix with every conductance multiplied by a
+     * coefficient of its two nodes; `mean(a, b)` is to be symmetric.
+     */
+    template <typename Mean>
+    void weigh(const ConductionMatrix &unit, const std::vector<double> &coefficient,
+               const Mean &mean)
+    {
+      for(std::size_t i = 0; i < size(); ++i)
+      {
+        diagonal[i] = 0;
+        for(std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
+        {
+          conductance[k]
+              = unit.conductance[k] * mean(coefficient[i], coefficient[column[k]]);
+          diagonal[i] += conductance[k];
+        }
+      }
     }
 
     /** True where no conductance is negative: the discrete maximum principle holds. */

@@ -24,9 +24,10 @@ namespace meltfront::reference_fem
       std::vector<cases::Effect> supported_effects() const override
       {
         using cases::Effect;
-        return {Effect::phase_change,        Effect::phase_conductivity,
-                Effect::phase_heat_capacity, Effect::heat_sources,
-                Effect::wall_temperature,    Effect::wall_flux};
+        return {
+            Effect::phase_change, Effect::phase_conductivity, Effect::phase_heat_capacity,
+            Effect::heat_sources, Effect::wall_temperature,   Effect::wall_flux,
+            Effect::solute,       Effect::solute_diffusion,   Effect::eutectic};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

@@ -33,6 +33,11 @@ namespace meltfront::reference_fem
                        std::vector<double> &x)
         = 0;
 
+    /** To be called after the conductances of the matrix have changed. */
+    virtual void conductances_changed()
+    {
+    }
+
     /** Matrix entries touched since the start. */
     long work() const
     {

@@ -54,21 +54,44 @@ namespace meltfront::reference_fem
     if(effects.contains(Effect::wall_temperature))
       walls.emplace(scene, mesh).mark(free);
 
-    auto linear_solver
-        = options.dimension == 1
-              ? make_tridiagonal_solver(mesh.conduction)
-              : make_krylov_solver(mesh.conduction, options.preconditioner);
-    linear_solver_in_words = linear_solver->description();
-    solver = make_nonlinear_solver({mesh.conduction, mesh.volume, free}, scene.material,
-                                   effects, std::move(linear_solver));
-    enthalpy = initial_enthalpy(scene, *geometry, mesh, free);
+    make_solver();
+    enthalpy = alloy ? alloy->initial_enthalpy()
+                     : initial_enthalpy(scene, *geometry, mesh, free);
     enthalpy_before = enthalpy;
     u = CompensatedVector(n);
     for(std::size_t i = 0; i < n; ++i)
-      u.set(i, solver->kirchhoff(solver->temperature_excess_at_enthalpy(enthalpy[i])));
+      u.set(i, solver->kirchhoff_at_enthalpy(i, enthalpy[i]));
     rhs.resize(n);
     heat.resize(n);
     initial_heat = total_heat();
+  }
+
+  void EnthalpyRun::make_solver()
+  {
+    const auto make_linear_solver = [this](const ConductionMatrix &matrix)
+    {
+      auto result = options.dimension == 1
+                        ? make_tridiagonal_solver(matrix)
+                        : make_krylov_solver(matrix, options.preconditioner);
+      linear_solver_in_words = result->description();
+      return result;
+    };
+    if(!holds_solute(scene, effects))
+    {
+      solver = make_nonlinear_solver(problem(), scene.material, effects,
+                                     make_linear_solver(mesh.conduction));
+      return;
+    }
+    auto for_alloy
+        = std::make_unique<AlloySolver>(scene, effects, mesh, free, make_linear_solver);
+    alloy = for_alloy.get();
+    solver = std::move(for_alloy);
+    bounds = alloy->bounds(bounds);
+  }
+
+  StepProblem EnthalpyRun::problem() const
+  {
+    return {alloy ? alloy->conduction_matrix() : mesh.conduction, mesh.volume, free};
   }
 
   StepFormula EnthalpyRun::formula(double next) const
@@ -95,6 +118,8 @@ namespace meltfront::reference_fem
       sources->add_load(step, rhs);
     step_flux_heat = flux ? flux->add_load(step, rhs) : 0;
     predict(step.next);
+    if(alloy)
+      alloy->begin(step, enthalpy);
     if(walls)
       walls->prescribe(step.next, *solver, u);
     const StepOutcome outcome
@@ -106,13 +131,24 @@ namespace meltfront::reference_fem
 
   void EnthalpyRun::accept(const StepFormula &step, StepStatistics &statistics)
   {
+    if(alloy)
+      alloy->accept();
     enthalpy_before.swap(enthalpy);
     for(std::size_t i = 0; i < enthalpy.size(); ++i)
       enthalpy[i] = free[i] ? heat[i] / mesh.volume[i] : enthalpy_before[i];
     double entered = step_flux_heat;
     if(walls)
-      entered += walls->react(step, {mesh.conduction, mesh.volume, free}, scene.material,
-                              u, rhs, enthalpy);
+      entered += walls->react(
+          step, problem(), u, rhs, enthalpy,
+          [this](unsigned int node, double temperature, double last)
+          {
+            const double excess = temperature - scene.material.melting_temperature;
+            return alloy ? alloy->enthalpy_at(node, excess, last)
+                         : density()
+                               * (excess == 0 ? std::clamp(last / density(), 0.,
+                                                           scene.material.latent_heat)
+                                              : scene.material.enthalpy(temperature));
+          });
     const double boundary_now
         = step.combine(boundary_heat.now, boundary_heat.before) + entered;
     boundary_heat = {boundary_now, boundary_heat.now};
@@ -134,6 +170,9 @@ namespace meltfront::reference_fem
     const double melting = scene.material.melting_temperature;
     cases::check_temperature(bounds, melting + lowest, melting + highest, method_name,
                              step_number + 1, step.next, slack);
+    if(alloy && !alloy->concentrations_hold())
+      throw cases::NumericalError(method_name, step_number + 1, step.next,
+                                  "concentration", "is negative or not finite");
   }
 
   bool EnthalpyRun::keeps_bounds(const StepFormula &step) const
@@ -250,7 +289,7 @@ namespace meltfront::reference_fem
     cost.steps = step_number;
     cost.unknowns = run_description.unknowns;
     cost.work = solver->work();
-    cost.solver_iterations = iterations;
+    cost.solver_iterations = alloy ? alloy->iterations() : iterations;
     cost.capped_steps = capped_steps;
     cost.effects = effect_costs();
     return cost;

@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_enthalpy_run_h
 
 #include <cases/stopwatch.h>
+#include <reference_fem/enthalpy/alloy_solver.h>
 #include <reference_fem/enthalpy/heat_sources.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/options.h>
@@ -36,6 +37,8 @@ namespace meltfront::reference_fem
 
     cases::RunDescription description() const;
     std::string mesh_in_words() const;
+    void make_solver();
+    StepProblem problem() const;
     StepFormula formula(double next) const;
     void predict(double next);
     StepOutcome attempt(const StepFormula &step);
@@ -50,6 +53,9 @@ namespace meltfront::reference_fem
     double source_heat() const;
     void report(cases::Observer &observer, bool always);
     void observe(cases::Observer &observer);
+    double density() const;
+    void state_of_sites();
+    double latent_heat(std::size_t node) const;
     std::vector<cases::EffectCost> effect_costs() const;
 
     const cases::Scene &scene;
@@ -61,6 +67,7 @@ namespace meltfront::reference_fem
     Discretization mesh;
     std::vector<char> free;
     std::unique_ptr<NonlinearSolver> solver;
+    AlloySolver *alloy = nullptr; ///< the solver, where there is solute
     std::string linear_solver_in_words;
     std::optional<HeatSources> sources;
     std::optional<WallTemperature> walls;

@@ -14,7 +14,8 @@ namespace meltfront::reference_fem
           : mesh.measure == cases::Symmetry::spherical      ? "radial, weight 4 pi r^2"
           : scene.domain.shape == cases::DomainShape::ball  ? "unstructured"
           : scene.domain.shape == cases::DomainShape::shell ? "rings"
-                                                            : "Cartesian";
+          : scene.domain.outline ? "squares and a layer along the outline"
+                                 : "Cartesian";
     return fmt::format("{} cells, {} nodes, {}D, {}", mesh.cells.size() >> mesh.dimension,
                        mesh.volume.size(), mesh.dimension, shape);
   }
@@ -46,19 +47,42 @@ namespace meltfront::reference_fem
     return result;
   }
 
-  void EnthalpyRun::observe(cases::Observer &observer)
+  double EnthalpyRun::density() const
   {
-    const cases::Material &material = scene.material;
-    const double density = material.solid.density;
+    return scene.material.solid.density;
+  }
+
+  void EnthalpyRun::state_of_sites()
+  {
     const std::size_t n_sites = mesh.node_of_site.size();
     site_temperature.resize(n_sites);
     site_solid_fraction.resize(n_sites);
     for(std::size_t site = 0; site < n_sites; ++site)
     {
-      const double specific = enthalpy[mesh.node_of_site[site]] / density;
-      site_temperature[site] = material.temperature(specific);
-      site_solid_fraction[site] = material.solid_fraction(specific);
+      const unsigned int node = mesh.node_of_site[site];
+      if(alloy)
+      {
+        const cases::PhaseState state = alloy->state(node, enthalpy[node]);
+        site_temperature[site] = state.temperature;
+        site_solid_fraction[site] = 1 - state.liquid_fraction;
+        continue;
+      }
+      const double specific = enthalpy[node] / density();
+      site_temperature[site] = scene.material.temperature(specific);
+      site_solid_fraction[site] = scene.material.solid_fraction(specific);
     }
+  }
+
+  double EnthalpyRun::latent_heat(std::size_t node) const
+  {
+    const double whole = density() * scene.material.latent_heat;
+    return alloy ? whole * alloy->state(node, enthalpy[node]).liquid_fraction
+                 : std::clamp(enthalpy[node], 0., whole);
+  }
+
+  void EnthalpyRun::observe(cases::Observer &observer)
+  {
+    state_of_sites();
     cases::Snapshot snapshot;
     snapshot.step = step_number;
     snapshot.time = time;
@@ -69,18 +93,21 @@ namespace meltfront::reference_fem
     snapshot.temperature = site_temperature;
     snapshot.solid_fraction = site_solid_fraction;
     snapshot.cells = mesh.cells;
-    snapshot.heat.latent = sum_over(
-        mesh.volume, [&](std::size_t i)
-        { return std::clamp(enthalpy[i], 0., density * material.latent_heat); });
-    snapshot.heat.stored
-        = sum_over(mesh.volume,
-                   [&](std::size_t i) {
-                     return enthalpy[i]
-                            - std::clamp(enthalpy[i], 0., density * material.latent_heat);
-                   });
+    snapshot.heat.latent
+        = sum_over(mesh.volume, [this](std::size_t i) { return latent_heat(i); });
+    snapshot.heat.stored = sum_over(mesh.volume, [this](std::size_t i)
+                                    { return enthalpy[i] - latent_heat(i); });
     snapshot.heat.boundary = boundary_heat.now;
     snapshot.heat.sources = source_heat();
     snapshot.heat.initial = initial_heat;
+    if(scene.alloy)
+    {
+      const double mass
+          = density() * sum_over(mesh.volume, [](std::size_t) { return 1; });
+      snapshot.mass = {mass, mass};
+    }
+    if(alloy)
+      alloy->report(snapshot);
     observer.observe(snapshot);
   }
 
@@ -102,6 +129,11 @@ namespace meltfront::reference_fem
     {
       if(!decision.on)
         continue;
+      if(const auto cost = alloy ? alloy->cost(decision.effect) : std::nullopt)
+      {
+        result.push_back(*cost);
+        continue;
+      }
       switch(decision.effect)
       {
       case cases::Effect::phase_change:

@@ -16,9 +16,15 @@ namespace meltfront::reference_fem
     {
     public:
       explicit TridiagonalSolver(const ConductionMatrix &matrix)
-        : link(matrix.size())
+        : matrix(matrix)
+        , link(matrix.size())
         , pivot(matrix.size())
         , load(matrix.size())
+      {
+        TridiagonalSolver::conductances_changed();
+      }
+
+      void conductances_changed() override
       {
         for(std::size_t i = 0; i < matrix.size(); ++i)
           for(std::size_t k = matrix.row_start[i]; k < matrix.row_start[i + 1]; ++k)
@@ -64,6 +70,7 @@ namespace meltfront::reference_fem
       }
 
     private:
+      const ConductionMatrix &matrix;
       std::vector<double> link; ///< conductance to the next node, 0 for the last
       std::vector<double> pivot, load;
     };

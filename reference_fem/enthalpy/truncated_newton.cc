@@ -38,9 +38,9 @@ namespace meltfront::reference_fem
         return graph.temperature_excess(u);
       }
 
-      double temperature_excess_at_enthalpy(double enthalpy) const override
+      double kirchhoff_at_enthalpy(std::size_t, double enthalpy) const override
       {
-        return graph.temperature_excess_at_enthalpy(enthalpy);
+        return graph.kirchhoff(graph.temperature_excess_at_enthalpy(enthalpy));
       }
 
       double kirchhoff(double temperature_excess) const override

@@ -76,7 +76,8 @@ namespace meltfront::reference_fem
         = 0;
 
     virtual double temperature_excess(double u) const = 0;
-    virtual double temperature_excess_at_enthalpy(double enthalpy) const = 0;
+    /** Kirchhoff's variable of a node where the enthalpy per volume is H (J/m^3). */
+    virtual double kirchhoff_at_enthalpy(std::size_t node, double enthalpy) const = 0;
     virtual double kirchhoff(double temperature_excess) const = 0;
 
     /** Matrix entries touched, the linear solver's included. */

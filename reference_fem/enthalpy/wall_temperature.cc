@@ -47,10 +47,10 @@ namespace meltfront::reference_fem
   }
 
   double WallTemperature::react(const StepFormula &step, const StepProblem &problem,
-                                const cases::Material &material,
                                 const CompensatedVector &u,
                                 const std::vector<double> &rhs,
-                                std::vector<double> &enthalpy)
+                                std::vector<double> &enthalpy,
+                                const EnthalpyAt &enthalpy_at)
   {
     const cases::ScopedTimer timer(effect_cost.seconds);
     // Heat may pass in through one wall and out through another many times over what is
@@ -59,11 +59,7 @@ namespace meltfront::reference_fem
     for(const Node &node : nodes)
     {
       const unsigned int i = node.place.node;
-      const double specific = node.temperature == melting_temperature
-                                  ? std::clamp(enthalpy[i] / material.solid.density, 0.,
-                                               material.latent_heat)
-                                  : material.enthalpy(node.temperature);
-      enthalpy[i] = material.solid.density * specific;
+      enthalpy[i] = enthalpy_at(i, node.temperature, enthalpy[i]);
       sum += problem.volume[i] * enthalpy[i] - rhs[i]
              - step.c * problem.conduction.exact_inflow(i, u);
     }

@@ -8,6 +8,7 @@
 #include <reference_fem/enthalpy/time_scheme.h>
 #include <reference_fem/enthalpy/truncated_newton.h>
 
+#include <functional>
 #include <vector>
 
 namespace meltfront::reference_fem
@@ -30,14 +31,18 @@ namespace meltfront::reference_fem
     /** Prescribe Kirchhoff's variable at a time. */
     void prescribe(double time, const NonlinearSolver &solver, CompensatedVector &u);
 
+    /** Enthalpy (J/m^3) of a node at a temperature, where it was `last`. */
+    using EnthalpyAt
+        = std::function<double(unsigned int node, double temperature, double last)>;
+
     /**
      * Set the enthalpy (J/m^3) of the prescribed nodes after a step; returns the heat
      * that entered through the walls in it (J), load and c (K u) included. A wall at
      * exactly the melting temperature keeps the phase that it has.
      */
     double react(const StepFormula &step, const StepProblem &problem,
-                 const cases::Material &material, const CompensatedVector &u,
-                 const std::vector<double> &rhs, std::vector<double> &enthalpy);
+                 const CompensatedVector &u, const std::vector<double> &rhs,
+                 std::vector<double> &enthalpy, const EnthalpyAt &enthalpy_at);
 
     const cases::EffectCost &cost() const
     {

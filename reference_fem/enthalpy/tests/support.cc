@@ -155,6 +155,11 @@ namespace meltfront::reference_fem::tests
         record.lowest.push_back(*low);
         record.highest.push_back(*high);
         record.heat = snapshot.heat;
+        record.mass = snapshot.mass;
+        record.solute = snapshot.solute;
+        for(const SubstanceBudget &budget : snapshot.solute)
+          record.worst_solute_defect
+              = std::max(record.worst_solute_defect, budget.defect());
         if(snapshot.time == scene.end_time)
           keep_state(snapshot);
       }
@@ -167,6 +172,9 @@ namespace meltfront::reference_fem::tests
         record.solid_fraction.assign(snapshot.solid_fraction.begin(),
                                      snapshot.solid_fraction.end());
         record.weights.assign(snapshot.weights.begin(), snapshot.weights.end());
+        for(std::size_t s = 0; s < most_solutes; ++s)
+          record.concentration[s].assign(snapshot.concentration[s].begin(),
+                                         snapshot.concentration[s].end());
         record.cells.assign(snapshot.cells.begin(), snapshot.cells.end());
         for(int d = 0; d < 3; ++d)
           record.positions[d].assign(snapshot.positions[d].begin(),

@@ -6,6 +6,7 @@
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/solver.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -65,6 +66,10 @@ namespace meltfront::reference_fem::tests
         weights; ///< at the end
     std::vector<unsigned int> cells;
     cases::HeatBudget heat;
+    std::array<std::vector<double>, cases::most_solutes> concentration; ///< at the end
+    cases::SubstanceBudget mass;
+    std::array<cases::SubstanceBudget, cases::most_solutes> solute;
+    double worst_solute_defect = 0;
     double temperature_error = 0; ///< relative L2 of T - T_m at the end
 
     double worst_budget_defect() const;

@@ -1,0 +1,300 @@
+#include <cases/error.h>
+#include <cases/stopwatch.h>
+#include <reference_fem/enthalpy/alloy_solver.h>
+#include <reference_fem/enthalpy/sum_over.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::reference_fem
+{
+  using cases::Effect;
+
+  namespace
+  {
+    /** Passes after which a step is given up and halved. */
+    constexpr int most_passes = 40;
+
+    /** Less liquid than this share of a node's mass is round-off. */
+    constexpr double least_liquid = 1e-14;
+
+    double arithmetic_mean(double a, double b)
+    {
+      return (a + b) / 2;
+    }
+
+    template <typename Value>
+    long bytes_of(const std::vector<Value> &values)
+    {
+      return static_cast<long>(values.size() * sizeof(Value));
+    }
+
+    double extrapolate(const StepFormula &step, double now, double before)
+    {
+      return step.now > step.before
+                 ? now
+                       + (step.next - step.now) / (step.now - step.before)
+                             * (now - before)
+                 : now;
+    }
+  } // namespace
+
+  bool holds_solute(const cases::Scene &scene, const cases::EffectSet &effects)
+  {
+    if(!effects.contains(Effect::solute) || !scene.alloy)
+      return false;
+    for(std::size_t s = 0; s < scene.alloy->solutes.size(); ++s)
+      if(cases::initially_present(scene, s))
+        return true;
+    return false;
+  }
+
+  AlloySolver::AlloySolver(const cases::Scene &scene, const cases::EffectSet &effects,
+                           const Discretization &mesh, const std::vector<char> &free,
+                           const LinearSolverMaker &make_linear_solver)
+    : scene(scene)
+    , mesh(mesh)
+    , free(free)
+    , graph(scene.material, *scene.alloy)
+    , diagram(scene.material, *scene.alloy)
+    , density(scene.material.solid.density)
+    , depression(mesh.volume.size())
+  {
+    const std::size_t n = mesh.volume.size();
+    if(!diagram.straight())
+      throw cases::Refusal("fem-enthalpy simulates alloys with straight liquidus lines "
+                           "only");
+    if(!(scene.material.latent_heat > 0))
+      throw cases::Refusal("fem-enthalpy simulates solutes only together with the latent "
+                           "heat of their solvent");
+    {
+      const cases::ScopedTimer timer(solute_cost.seconds);
+      place_solutes();
+      mix_depression();
+      liquid.mass_fraction.resize(n);
+      liquid.volume_fraction.resize(n);
+      solute_cost.bytes = bytes_of(depression) + 2 * bytes_of(liquid.mass_fraction);
+      for(const Substance &substance : substances)
+        solute_cost.bytes += 3 * bytes_of(substance.now) + bytes_of(mesh.node_of_site);
+    }
+    if(effects.contains(Effect::phase_conductivity))
+      mixed.emplace(Mixed{std::vector<double>(n), {}, {}, mesh.conduction});
+    if(std::any_of(substances.begin(), substances.end(),
+                   [](const Substance &s) { return s.diffusivity > 0; }))
+    {
+      diffusion.emplace(mesh, density, make_linear_solver);
+      supply.resize(n);
+      fixed.resize(n);
+    }
+    linear_solver = make_linear_solver(conduction_matrix());
+    newton = std::make_unique<MushNewton>(
+        StepProblem{conduction_matrix(), mesh.volume, free}, graph, depression,
+        *linear_solver);
+  }
+
+  /** The concentrations at the start of the solutes of which there are some. */
+  void AlloySolver::place_solutes()
+  {
+    const cases::Alloy &alloy = *scene.alloy;
+    for(std::size_t s = 0; s < alloy.solutes.size(); ++s)
+    {
+      if(!cases::initially_present(scene, s))
+        continue;
+      const cases::Solute &solute = alloy.solutes[s];
+      substances.push_back(
+          {s, solute.liquidus_slope, solute.diffusivity, {}, {}, {}, 0, {}});
+      Substance &substance = substances.back();
+      for(const cases::Position &position : mesh.positions)
+      {
+        const double value = scene.initial.concentration[s](position, scene.start_time);
+        if(!(value >= 0 && value < 1))
+          throw cases::InputError(fmt::format(
+              "the concentration of {} at ({:.6g}, {:.6g}, {:.6g}) is {}; it must be at "
+              "least 0 and less than 1",
+              solute.name, position[0], position[1], position[2], value));
+        substance.now.push_back(value);
+      }
+      substance.before = substance.next = substance.now;
+      substance.initial_mass = mass_of(substance);
+    }
+  }
+
+  double AlloySolver::mass_of(const Substance &substance) const
+  {
+    return density
+           * sum_over(mesh.volume, [&](std::size_t i) { return substance.now[i]; });
+  }
+
+  void AlloySolver::mix_depression()
+  {
+    std::fill(depression.begin(), depression.end(), 0.);
+    for(const Substance &substance : substances)
+      for(std::size_t i = 0; i < depression.size(); ++i)
+        depression[i] += substance.slope * std::max(substance.next[i], 0.);
+  }
+
+  std::vector<double> AlloySolver::initial_enthalpy() const
+  {
+    std::vector<double> result(mesh.volume.size());
+    for(std::size_t i = 0; i < result.size(); ++i)
+    {
+      const double excess = scene.initial.temperature(mesh.positions[i], scene.start_time)
+                            - scene.material.melting_temperature;
+      const double solid = graph.lower_enthalpy(excess);
+      result[i] = graph.enthalpy(excess, depression[i]);
+      if(graph.region(excess, depression[i]) == MushRegion::held)
+        result[i] += scene.initial.solid_fraction_at_melting * (solid - result[i]);
+    }
+    return result;
+  }
+
+  void AlloySolver::begin(const StepFormula &formula, const std::vector<double> &enthalpy)
+  {
+    step = formula;
+    last_enthalpy = &enthalpy;
+    if(diffusion)
+      for(Substance &substance : substances)
+        for(std::size_t i = 0; i < substance.next.size(); ++i)
+          substance.next[i]
+              = std::max(extrapolate(step, substance.now[i], substance.before[i]), 0.);
+    if(!mixed)
+      return;
+    if(mixed->before.empty())
+    {
+      for(std::size_t i = 0; i < enthalpy.size(); ++i)
+        mixed->now[i] = diagram.conductivity(1 - state(i, enthalpy[i]).liquid_fraction);
+      mixed->before = mixed->next = mixed->now;
+    }
+    const auto [least, most] = std::minmax(scene.material.solid.conductivity,
+                                           scene.material.liquid.conductivity);
+    for(std::size_t i = 0; i < enthalpy.size(); ++i)
+      mixed->next[i]
+          = std::clamp(extrapolate(step, mixed->now[i], mixed->before[i]), least, most);
+  }
+
+  void AlloySolver::mix_conductivities()
+  {
+    if(!mixed)
+      return;
+    mixed->matrix.weigh(mesh.conduction, mixed->next, arithmetic_mean);
+    linear_solver->conductances_changed();
+  }
+
+  double AlloySolver::enthalpy_at(std::size_t node, double excess, double last) const
+  {
+    const double upper = graph.enthalpy(excess, depression[node]);
+    if(graph.region(excess, depression[node]) != MushRegion::held)
+      return upper;
+    return std::clamp(last, graph.lower_enthalpy(excess), upper);
+  }
+
+  cases::PhaseState AlloySolver::state(std::size_t node, double enthalpy) const
+  {
+    cases::PhaseState result = graph.state(enthalpy, depression[node]);
+    result.temperature += scene.material.melting_temperature;
+    return result;
+  }
+
+  /** The liquid that a pass leaves. */
+  void AlloySolver::melt(const CompensatedVector &u, const std::vector<double> &heat)
+  {
+    const cases::ScopedTimer timer(solute_cost.seconds);
+    ++solute_cost.calls;
+    for(std::size_t i = 0; i < u.size(); ++i)
+    {
+      const double enthalpy = free[i] ? heat[i] / mesh.volume[i]
+                                      : enthalpy_at(i, u[i], (*last_enthalpy)[i]);
+      const double f = graph.state(enthalpy, depression[i]).liquid_fraction;
+      liquid.mass_fraction[i] = f > least_liquid ? f : 0;
+      liquid.volume_fraction[i]
+          = f > least_liquid ? 1 - diagram.volume_fraction(1 - f) : 0;
+    }
+  }
+
+  /** Returns the largest relative change. */
+  double AlloySolver::renew_conductivities()
+  {
+    double change = 0;
+    for(std::size_t i = 0; i < mixed->next.size(); ++i)
+    {
+      const double value = diagram.conductivity(1 - liquid.mass_fraction[i]);
+      change = std::max(change, std::abs(value - mixed->next[i]) / value);
+      mixed->next[i] = value;
+    }
+    return change;
+  }
+
+  /** Solute spreads in the liquid that there is; returns the largest change of the
+   * depression over the largest depression. */
+  double AlloySolver::diffuse(double c)
+  {
+    diffusion->set_liquid(liquid);
+    for(Substance &substance : substances)
+    {
+      if(!(substance.diffusivity > 0))
+        continue;
+      for(std::size_t i = 0; i < supply.size(); ++i)
+      {
+        supply[i] = density * mesh.volume[i]
+                    * step.combine(substance.now[i], substance.before[i]);
+        const double whole = graph.eutectic_liquid_fraction(depression[i]);
+        fixed[i] = substance.next[i] * std::max(1 - liquid.mass_fraction[i] / whole, 0.);
+      }
+      diffusion->step(c, substance.diffusivity, supply, fixed, substance.next);
+    }
+    std::vector<double> &last = fixed;
+    last = depression;
+    mix_depression();
+    double change = 0, largest = 0;
+    for(std::size_t i = 0; i < depression.size(); ++i)
+    {
+      change = std::max(change, std::abs(depression[i] - last[i]));
+      largest = std::max(largest, depression[i]);
+    }
+    return largest > 0 ? change / largest : 0;
+  }
+
+  StepOutcome AlloySolver::solve(double c, const std::vector<double> &rhs,
+                                 int iteration_limit, CompensatedVector &u,
+                                 std::vector<double> &heat)
+  {
+    StepOutcome result;
+    if(diffusion)
+      mix_depression();
+    for(int pass = 0; pass < most_passes && !result.converged; ++pass)
+    {
+      mix_conductivities();
+      const StepOutcome outcome = newton->solve(c, rhs, iteration_limit, u, heat);
+      all_iterations += outcome.iterations;
+      ++all_passes;
+      result.iterations = std::max(result.iterations, outcome.iterations);
+      result.graph_inconsistency = outcome.graph_inconsistency;
+      if(!outcome.converged)
+        return result;
+      melt(u, heat);
+      double change = 0;
+      if(mixed)
+        change = renew_conductivities();
+      if(diffusion)
+        change = std::max(change, diffuse(c));
+      result.converged = change <= coupling_tolerance;
+    }
+    return result;
+  }
+
+  void AlloySolver::accept()
+  {
+    const auto shift = [](auto &history)
+    {
+      history.before.swap(history.now);
+      history.now = history.next;
+    };
+    if(diffusion)
+      for(Substance &substance : substances)
+        shift(substance);
+    if(mixed)
+      shift(*mixed);
+  }
+} // namespace meltfront::reference_fem

@@ -1,0 +1,257 @@
+#include <cases/stopwatch.h>
+#include <reference_fem/enthalpy/mush_newton.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::reference_fem
+{
+  namespace
+  {
+    /** The share of rho L/(rho c) below which temperatures drown in its round-off. */
+    constexpr double round_off_share = 1e-3;
+
+    double square(double x)
+    {
+      return x * x;
+    }
+  } // namespace
+
+  MushNewton::MushNewton(const StepProblem &problem, const MushGraph &graph,
+                         const std::vector<double> &depression,
+                         LinearSolver &linear_solver)
+    : problem(problem)
+    , graph(graph)
+    , depression(depression)
+    , linear_solver(linear_solver)
+    , active(problem.free)
+    , heat_capacity(problem.free.size())
+    , residual(problem.free.size())
+    , direction(problem.free.size())
+  {
+    cost.bytes = static_cast<long>(active.size() * sizeof(char));
+  }
+
+  void MushNewton::recover_heat(double c, const std::vector<double> &rhs,
+                                const CompensatedVector &u, std::vector<double> &heat)
+  {
+    for(std::size_t i = 0; i < u.size(); ++i)
+      if(problem.free[i])
+        heat[i] = static_cast<double>(rhs[i] + c * problem.conduction.exact_inflow(i, u));
+    entries_touched += problem.conduction.entries();
+  }
+
+  MushNewton::Consistency MushNewton::compare(const CompensatedVector &u,
+                                              const std::vector<double> &heat) const
+  {
+    double distance = 0, largest = 0;
+    bool settled = true;
+    for(std::size_t i = 0; i < u.size(); ++i)
+    {
+      largest = std::max(largest, std::abs(u[i]));
+      if(!problem.free[i])
+        continue;
+      const double recovered
+          = graph.excess_at_enthalpy(heat[i] / problem.volume[i], depression[i]);
+      const double off = std::abs(u[i] - recovered);
+      if(off > distance || std::isnan(off))
+        distance = off;
+      settled = settled
+                && graph.region(u[i], depression[i])
+                       == graph.region(recovered, depression[i]);
+    }
+    largest = std::max({largest, scale, round_off_share * graph.latent_temperature()});
+    return {largest > 0 ? distance / largest : distance, largest, settled};
+  }
+
+  /** Solve one node's inclusion; true if it moved to another region of its graph. */
+  bool MushNewton::relax(std::size_t i, double c, const std::vector<double> &rhs,
+                         CompensatedVector &u)
+  {
+    const double stiffness = c * problem.conduction.diagonal[i];
+    const double before = u[i];
+    u.set(i,
+          graph.resolve(rhs[i] + c * problem.conduction.inflow(i, u) + stiffness * before,
+                        problem.volume[i], stiffness, depression[i]));
+    return graph.region(u[i], depression[i]) != graph.region(before, depression[i]);
+  }
+
+  /** A symmetric sweep; true if a node moved to another region. */
+  bool MushNewton::sweep(double c, const std::vector<double> &rhs, CompensatedVector &u)
+  {
+    bool moved = false;
+    for(std::size_t i = 0; i < u.size(); ++i)
+      if(problem.free[i])
+        moved = relax(i, c, rhs, u) || moved;
+    for(std::size_t i = u.size(); i-- > 0;)
+      if(problem.free[i])
+        moved = relax(i, c, rhs, u) || moved;
+    entries_touched += 2 * problem.conduction.entries();
+    ++cost.sweeps;
+    return moved;
+  }
+
+  /** Fill heat_capacity, active and residual; returns the heat that changes a typical
+   * active node by one kelvin. */
+  double MushNewton::linearise(const CompensatedVector &u,
+                               const std::vector<double> &heat)
+  {
+    double heat_per_kelvin = 0;
+    long nodes = 0;
+    for(std::size_t i = 0; i < u.size(); ++i)
+    {
+      if(!problem.free[i])
+        continue;
+      active[i] = graph.region(u[i], depression[i]) != MushRegion::held;
+      residual[i] = 0;
+      if(!active[i])
+        continue;
+      const double volume = problem.volume[i];
+      heat_capacity[i] = volume * graph.slope(u[i], depression[i]);
+      residual[i] = heat[i] - volume * graph.enthalpy(u[i], depression[i]);
+      heat_per_kelvin += square(heat_capacity[i]);
+      ++nodes;
+    }
+    ++cost.linearisations;
+    return nodes > 0 ? std::sqrt(heat_per_kelvin / nodes) : 0;
+  }
+
+  /** Cut the direction off where it passes a jump. */
+  void MushNewton::project(const CompensatedVector &u)
+  {
+    for(std::size_t i = 0; i < u.size(); ++i)
+    {
+      const double step = graph.jump(depression[i]);
+      if(active[i] && (u[i] - step) * (u[i] + direction[i] - step) < 0)
+        direction[i] = step - u[i];
+    }
+  }
+
+  /** Where a share of the direction leads: onto a jump where it ends there but for
+   * round-off. */
+  double MushNewton::moved(std::size_t i, double length, const CompensatedVector &u) const
+  {
+    constexpr double round_off = 4e-16;
+    const double step = graph.jump(depression[i]), there = u[i] + length * direction[i];
+    return std::abs(there - step) < round_off * std::abs(step) ? step : there;
+  }
+
+  /** The functional's derivative along the direction, at a share of its length. */
+  double MushNewton::fall(double length, double conducted, const CompensatedVector &u,
+                          const std::vector<double> &heat) const
+  {
+    double derivative = length * conducted;
+    for(std::size_t i = 0; i < u.size(); ++i)
+    {
+      const double d = direction[i];
+      if(d == 0)
+        continue;
+      // On a jump, the end that the direction comes from.
+      const double there = moved(i, length, u);
+      const bool from_below
+          = d > 0 && graph.region(there, depression[i]) == MushRegion::held;
+      const double enthalpy = from_below ? graph.lower_enthalpy(there)
+                                         : graph.enthalpy(there, depression[i]);
+      derivative += d * (problem.volume[i] * enthalpy - heat[i]);
+    }
+    return derivative;
+  }
+
+  /**
+   * The share of the direction at which the functional's derivative, which rises, has
+   * nearly vanished: one where a node's path is smooth enough, else by the Illinois form
+   * of the rule of false position.
+   */
+  double MushNewton::line_search(double c, const CompensatedVector &u,
+                                 const std::vector<double> &heat)
+  {
+    constexpr double enough = 0.1;
+    constexpr int most_trials = 30;
+    double conducted = 0, start = 0;
+    for(std::size_t i = 0; i < u.size(); ++i)
+      if(direction[i] != 0)
+      {
+        conducted += c * direction[i] * problem.conduction.product(i, direction);
+        start -= direction[i] * residual[i];
+      }
+    entries_touched += problem.conduction.entries();
+    double upper_value = fall(1, conducted, u, heat);
+    if(!(start < 0) || upper_value <= enough * -start)
+      return 1;
+    double lower = 0, upper = 1, lower_value = start;
+    for(int trial = 0; trial < most_trials; ++trial)
+    {
+      const double middle
+          = (lower * upper_value - upper * lower_value) / (upper_value - lower_value);
+      const double value = fall(middle, conducted, u, heat);
+      if(std::abs(value) <= enough * -start)
+        return middle;
+      if(value < 0)
+      {
+        lower = middle;
+        lower_value = value;
+        upper_value /= 2;
+      }
+      else
+      {
+        upper = middle;
+        upper_value = value;
+        lower_value /= 2;
+      }
+    }
+    return lower > 0 ? lower : upper;
+  }
+
+  void MushNewton::advance(double length, CompensatedVector &u) const
+  {
+    for(std::size_t i = 0; i < u.size(); ++i)
+    {
+      if(!active[i])
+        continue;
+      const double there = moved(i, length, u);
+      if(there == graph.jump(depression[i]))
+        u.set(i, there);
+      else
+        u.add(i, length * direction[i]);
+    }
+  }
+
+  StepOutcome MushNewton::solve(double c, const std::vector<double> &rhs,
+                                int iteration_limit, CompensatedVector &u,
+                                std::vector<double> &heat)
+  {
+    constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
+    constexpr int most_sweeps = 4;
+    StepOutcome outcome;
+    for(;; ++outcome.iterations)
+    {
+      recover_heat(c, rhs, u, heat);
+      const Consistency state = compare(u, heat);
+      outcome.graph_inconsistency = state.distance;
+      outcome.converged = state.distance <= NonlinearSolver::target_inconsistency;
+      if(outcome.converged)
+        scale = state.scale;
+      if(outcome.converged || outcome.iterations == iteration_limit
+         || !std::isfinite(state.distance))
+        break;
+      if(!state.settled)
+      {
+        const cases::ScopedTimer timer(cost.seconds);
+        for(int sweeps = 0; sweeps < most_sweeps && sweep(c, rhs, u);)
+          ++sweeps;
+        recover_heat(c, rhs, u, heat);
+      }
+      const double heat_per_kelvin = linearise(u, heat);
+      linear_solver.solve({heat_capacity, c, active, residual,
+                           safety * NonlinearSolver::target_inconsistency * state.scale
+                               * heat_per_kelvin},
+                          state.settled ? tight : loose, direction);
+      project(u);
+      advance(line_search(c, u, heat), u);
+    }
+    if(!outcome.converged)
+      outcome.converged
+          = outcome.graph_inconsistency <= NonlinearSolver::accepted_inconsistency;
+    return outcome;
+  }
+} // namespace meltfront::reference_fem
