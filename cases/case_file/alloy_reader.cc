@@ -33,6 +33,19 @@ namespace meltfront::cases
               .description = description};
     }
 
+    PrmEntry number(const std::string &key, const std::string &default_value,
+                    const std::string &unit, const std::string &description, double lower,
+                    double upper = std::numeric_limits<double>::infinity())
+    {
+      return {.key = key,
+              .kind = PrmKind::number,
+              .default_value = default_value,
+              .unit = unit,
+              .description = description,
+              .lower = lower,
+              .upper = upper};
+    }
+
     void declare_solute(PrmFile &prm, std::size_t solute)
     {
       const std::string here = solute_keys(solute);
@@ -43,17 +56,11 @@ namespace meltfront::cases
                         "(K); an expression of the mass fraction C: liquidus temperature "
                         "(K or degrees Celsius); or points of it, 0: 0, 0.1: -4, ..., "
                         "mass fraction: temperature."));
-      PrmEntry largest = entry("largest concentration", PrmKind::number, {},
-                               "Mass fraction up to which an expression of C holds.");
-      largest.default_value = "1";
-      largest.lower = above_zero;
-      largest.upper = 1;
-      prm.declare(here, largest);
-      PrmEntry diffusivity = entry("diffusivity", PrmKind::number, "m^2/s",
-                                   "Of the solute in the liquid.");
-      diffusivity.default_value = "0";
-      diffusivity.lower = 0;
-      prm.declare(here, diffusivity);
+      prm.declare(here, number("largest concentration", "1", {},
+                               "Mass fraction up to which an expression of C holds.",
+                               above_zero, 1));
+      prm.declare(here,
+                  number("diffusivity", "0", "m^2/s", "Of the solute in the liquid.", 0));
     }
 
     double read_number(const std::string &text)
@@ -292,13 +299,12 @@ namespace meltfront::cases
 
   void declare_alloy(PrmFile &prm)
   {
-    PrmEntry density
-        = entry("crystal density", PrmKind::number, "kg/m^3",
-                "Density of the crystals, by which their mass becomes a "
-                "volume where conductivities are mixed; that of the material "
-                "where it is not given.");
-    density.lower = above_zero;
-    prm.declare(alloy_keys, density);
+    prm.declare(alloy_keys,
+                number("crystal density", {}, "kg/m^3",
+                       "Density of the crystals, by which their mass becomes a volume "
+                       "where conductivities are mixed; that of the material where it is "
+                       "not given.",
+                       above_zero));
     prm.declare(alloy_keys,
                 entry("eutectic temperature", PrmKind::number, "K or degrees Celsius",
                       "Temperature at which the rest of the liquid freezes; none where "
