@@ -4,6 +4,7 @@
 #include <cases/exact_solution.h>
 #include <cases/scene.h>
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -54,6 +55,22 @@ namespace meltfront::cases
     double value = 0;
   };
 
+  /** What happens once in a run, and when is measured. */
+  enum class TimedEvent
+  {
+    first_contact, ///< the bodies of ice around two sinks connect
+    half_frozen,   ///< half of the volume is solid
+    all_frozen     ///< no liquid is left
+  };
+  inline constexpr std::size_t n_timed_events = 3;
+
+  /** The words for the events, in the order of the enumeration. */
+  inline constexpr std::array<const char *, n_timed_events> timed_event_names{
+      "first_contact", "half_frozen", "all_frozen"};
+
+  /** Most times at which a case measures the volume that is solid. */
+  inline constexpr int most_marks = 8;
+
   /** How the case is measured. */
   struct Measurement
   {
@@ -70,14 +87,20 @@ namespace meltfront::cases
      * the solid's moment of that angle.
      */
     int front_mode = 0;
-    /** Times at which the volume that is solid is measured, at most four (s), ascending;
-     * the end beside them. */
+    /** Times at which the volume that is solid is measured, at most `most_marks` (s),
+     * ascending; the end beside them. */
     std::vector<double> marks;
     /**
      * Absolute zero on the scene's scale of temperature, -273.15 for degrees Celsius: the
      * entropy is measured, which must never fall in an isolated scene. Absent: it is not.
      */
     std::optional<double> absolute_zero;
+    /** Events whose times are measured; every step is looked at until they have happened.
+     */
+    std::vector<TimedEvent> events;
+    /** The direction (0, 1, 2 for x, y, z) in which the temperature is compared with its
+     * mirror image about the origin. Absent: it is not. */
+    std::optional<int> mirror;
   };
 
   /** A scene, what is known of its solution, what to measure and what to accept. */

@@ -16,6 +16,8 @@ namespace meltfront::cases
 
   double Domain::side() const
   {
+    if(shape == DomainShape::outline)
+      return reference_length;
     return round() ? 2 * radius : upper[0] - lower[0];
   }
 
@@ -58,8 +60,22 @@ namespace meltfront::cases
      * solution do not. */
     constexpr int samples_of_expression = 4097;
 
+    constexpr int samples_of_outline = 8 * samples_across;
+
+    /** Whether a point between the corners of a domain's bounding box lies in it. */
+    bool holds(const Domain &domain, const Position &p)
+    {
+      if(domain.outline)
+        return domain.outline->inside(p);
+      if(!domain.round())
+        return true;
+      const double squared = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+      return squared <= domain.radius * domain.radius * (1 + 1e-12)
+             && squared >= domain.inner_radius * domain.inner_radius * (1 - 1e-12);
+    }
+
     /** The sample points of a line of `samples_across` points in each direction of the
-     * domain. */
+     * domain, and points along an outline. */
     template <typename Visit>
     void visit_points(const Domain &domain, const Visit &visit)
     {
@@ -73,32 +89,18 @@ namespace meltfront::cases
           for(int i = 0; i < count[0]; ++i)
           {
             const std::array<int, 3> index{i, j, k};
-            double squared = 0;
             for(int d = 0; d < domain.dimension; ++d)
             {
               const double lower = ball ? -domain.radius : domain.lower[d];
               const double upper = ball ? domain.radius : domain.upper[d];
               p[d] = lower + (upper - lower) * index[d] / (samples_across - 1);
-              squared += p[d] * p[d];
             }
-            if(!ball
-               || (squared <= domain.radius * domain.radius * (1 + 1e-12)
-                   && squared >= domain.inner_radius * domain.inner_radius * (1 - 1e-12)))
+            if(holds(domain, p))
               visit(p);
           }
-    }
-
-    /** The point of a wall that belongs to a sample on_side(): of a round wall the one on
-     * the sample's ray, at which a value that varies along the wall is to be taken. */
-    Position on_wall(const Domain &domain, Side side, Position p)
-    {
-      if(side != Side::outer && side != Side::inner)
-        return p;
-      const double wanted = side == Side::outer ? domain.radius : domain.inner_radius;
-      const double distance = coordinate(Symmetry::spherical, p);
-      for(double &component : p)
-        component *= wanted / distance;
-      return p;
+      if(domain.outline)
+        for(const Position &point : domain.outline->points(samples_of_outline))
+          visit(point);
     }
 
     bool on_side(const Domain &domain, Side side, const Position &p)
@@ -113,6 +115,34 @@ namespace meltfront::cases
       const int d = static_cast<int>(side) / 2;
       const bool upper = static_cast<int>(side) % 2 == 1;
       return std::abs(p[d] - (upper ? domain.upper[d] : domain.lower[d])) < tolerance;
+    }
+
+    /** Sample points of a wall: of a round one those on the rays of the samples next to
+     * it, at which a value that varies along the wall is to be taken. */
+    template <typename Visit>
+    void visit_wall(const Domain &domain, Side side, const Visit &visit)
+    {
+      if(domain.outline)
+      {
+        for(const Position &point : domain.outline->points(samples_of_outline))
+          visit(point);
+        return;
+      }
+      visit_points(domain,
+                   [&](Position p)
+                   {
+                     if(!on_side(domain, side, p))
+                       return;
+                     if(side == Side::outer || side == Side::inner)
+                     {
+                       const double distance = coordinate(Symmetry::spherical, p);
+                       for(double &component : p)
+                         component *= (side == Side::outer ? domain.radius
+                                                           : domain.inner_radius)
+                                      / distance;
+                     }
+                     visit(p);
+                   });
     }
   } // namespace
 
@@ -132,20 +162,17 @@ namespace meltfront::cases
       const Boundary &boundary = scene.boundary(side);
       if(boundary.kind != BoundaryKind::fixed_temperature)
         continue;
-      visit_points(scene.domain,
-                   [&](const Position &p)
-                   {
-                     if(!on_side(scene.domain, side, p))
-                       return;
-                     const int samples = boundary.value.constant ? 1
-                                         : boundary.exact        ? samples_in_time
-                                                                 : samples_of_expression;
-                     const double span = scene.end_time - scene.start_time;
-                     const Position wall = on_wall(scene.domain, side, p);
-                     for(int i = 0; i < samples; ++i)
-                       include(boundary.value(
-                           wall, scene.start_time + span * i / std::max(samples - 1, 1)));
-                   });
+      visit_wall(scene.domain, side,
+                 [&](const Position &wall)
+                 {
+                   const int samples = boundary.value.constant ? 1
+                                       : boundary.exact        ? samples_in_time
+                                                               : samples_of_expression;
+                   const double span = scene.end_time - scene.start_time;
+                   for(int i = 0; i < samples; ++i)
+                     include(boundary.value(
+                         wall, scene.start_time + span * i / std::max(samples - 1, 1)));
+                 });
     }
     const auto widen = [&](double heat)
     {
@@ -163,13 +190,9 @@ namespace meltfront::cases
         widen(source.power(time));
       for(const Side side : scene.sides())
         if(scene.boundary(side).kind == BoundaryKind::flux)
-          visit_points(
-              scene.domain,
-              [&](const Position &p)
-              {
-                if(on_side(scene.domain, side, p))
-                  widen(scene.boundary(side).value(on_wall(scene.domain, side, p), time));
-              });
+          visit_wall(scene.domain, side,
+                     [&](const Position &wall)
+                     { widen(scene.boundary(side).value(wall, time)); });
     }
     // Walls that vary are sampled; their extremes may fall between the samples.
     const bool varying

@@ -5,6 +5,7 @@
 #include <cases/effects.h>
 #include <cases/exact_solution.h>
 #include <cases/material.h>
+#include <cases/outline.h>
 #include <cases/position.h>
 
 #include <array>
@@ -36,10 +37,11 @@ namespace meltfront::cases
   /** Shape of the domain. */
   enum class DomainShape
   {
-    slab, ///< planar: 0 <= x <= length, unbounded (periodic) across
-    box,  ///< lower <= (x, y, z) <= upper in `dimension` dimensions
-    ball, ///< distance from the origin <= radius: a disk in 2D, a ball in 3D
-    shell ///< inner radius <= distance from the origin <= radius: an annulus in 2D
+    slab,   ///< planar: 0 <= x <= length, unbounded (periodic) across
+    box,    ///< lower <= (x, y, z) <= upper in `dimension` dimensions
+    ball,   ///< distance from the origin <= radius: a disk in 2D, a ball in 3D
+    shell,  ///< inner radius <= distance from the origin <= radius: an annulus in 2D
+    outline ///< what a closed curve bounds in the plane
   };
 
   struct Domain
@@ -50,12 +52,15 @@ namespace meltfront::cases
     Position upper{};        ///< opposite corner of a box; (length, 0, 0) for a slab (m)
     double radius = 0;       ///< of a ball or a shell (m)
     double inner_radius = 0; ///< of a shell (m)
+    /** Of an outline, whose bounding box lies between `lower` and `upper`; else null. */
+    std::shared_ptr<const Outline> outline{};
+    double reference_length = 0; ///< of an outline (m)
 
     /** A ball or a shell. */
     bool round() const;
 
-    /** The length that a resolution n divides: slab length, box side along x, or outer
-     * diameter (m). */
+    /** The length that a resolution n divides: slab length, box side along x, outer
+     * diameter, or the reference length of an outline (m). */
     double side() const;
   };
 
@@ -75,8 +80,8 @@ namespace meltfront::cases
     bool exact = false; ///< the temperature is taken from the exact solution
   };
 
-  /** Names of the sides of a slab or a box; a ball has the one side `outer`, a shell
-   * `inner` and `outer`. */
+  /** Names of the sides of a slab or a box; a ball and an outline have the one side
+   * `outer`, a shell `inner` and `outer`. */
   enum class Side
   {
     x_min,

@@ -68,8 +68,18 @@ namespace meltfront::cases
       return side == Side::inner ? domain.inner_radius : domain.radius;
     }
 
+    constexpr int points_of_outline = 64;
+
     std::vector<Position> interior_points(const Domain &domain)
     {
+      if(domain.outline)
+      {
+        std::vector<Position> points = domain.outline->points(points_of_outline);
+        for(const Position &p : grid(domain, {0.03, 0.03, 0.03}, {0.97, 0.97, 0.97}))
+          if(domain.outline->inside(p))
+            points.push_back(p);
+        return points;
+      }
       if(!domain.round())
         return grid(domain, {0.03, 0.03, 0.03}, {0.97, 0.97, 0.97});
       std::vector<Position> points;
@@ -81,6 +91,8 @@ namespace meltfront::cases
 
     std::vector<Position> wall_points(const Domain &domain, Side side)
     {
+      if(domain.outline)
+        return domain.outline->points(points_of_outline);
       if(domain.round())
         return directions(domain, wall_radius(domain, side));
       std::array<double, 3> from{0, 0, 0}, to{1, 1, 1};
@@ -213,6 +225,11 @@ namespace meltfront::cases
       void heated_wall(Side side) const
       {
         const Boundary &boundary = scene.boundary(side);
+        if(scene.domain.outline)
+          throw prm.error(wall_keys(side), "kind",
+                          "lets a flux through an outline, which no exact solution is "
+                          "held against: 'front floor' in subsection 'Measure' says by "
+                          "how much it is off");
         for(const Position &p : wall_points(scene.domain, side))
           for(int i = times_sampled / 4; i <= times_sampled; ++i)
           {

@@ -42,6 +42,23 @@ namespace meltfront::cases
       return tags;
     }
 
+    std::vector<TimedEvent> parse_events(const std::string &text)
+    {
+      const std::vector<std::string> names(timed_event_names.begin(),
+                                           timed_event_names.end());
+      std::vector<TimedEvent> events;
+      for(const std::string &word : split_list(text, ','))
+      {
+        const auto found = std::find(names.begin(), names.end(), word);
+        if(found == names.end())
+          throw InputError(
+              fmt::format("names the unknown event '{}'; the nearest is '{}'",
+                          quotable(word), nearest_name(word, names)));
+        events.push_back(static_cast<TimedEvent>(found - names.begin()));
+      }
+      return events;
+    }
+
     Measurement read_measurement(const PrmFile &prm)
     {
       const std::string here = "Measure";
@@ -62,6 +79,11 @@ namespace meltfront::cases
       measurement.front_mode = static_cast<int>(prm.get_integer(here, "front mode"));
       if(prm.given(here, "marks"))
         measurement.marks = prm.get_numbers(here, "marks");
+      if(prm.given(here, "events"))
+        measurement.events = at_key(prm, here, "events", parse_events);
+      const std::string mirror = prm.get_text(here, "mirror");
+      if(mirror != "none")
+        measurement.mirror = mirror[0] - 'x';
       if(prm.given(here, "absolute zero"))
         measurement.absolute_zero = prm.get_number(here, "absolute zero");
       return measurement;
@@ -93,6 +115,27 @@ namespace meltfront::cases
               && c.scene.symmetry == Symmetry::none))
         prm.forbid(here, "front mode",
                    "only a disk or a shell in 2 dimensions without symmetry has modes");
+    }
+
+    /** Events and symmetries that the scene cannot show. */
+    void check_events(const PrmFile &prm, const Case &c)
+    {
+      const std::string here = "Measure";
+      long sinks = 0;
+      for(const PointSource &source : c.scene.sources)
+        sinks += source.energy(c.scene.end_time) < 0;
+      for(const TimedEvent event : c.measurement.events)
+        if(event == TimedEvent::first_contact && sinks < 2)
+          throw prm.error(here, "events",
+                          fmt::format("holds first_contact, which is that of the ice "
+                                      "around two sinks; the scene has {}",
+                                      sinks));
+      if(c.measurement.mirror.value_or(0) >= c.scene.domain.dimension)
+        throw prm.error(here, "mirror",
+                        fmt::format("names a direction that a scene of {} dimension{} "
+                                    "lacks",
+                                    c.scene.domain.dimension,
+                                    c.scene.domain.dimension == 1 ? "" : "s"));
     }
 
     std::optional<Reference> read_reference(const PrmFile &prm, const Case &c)
@@ -149,6 +192,7 @@ namespace meltfront::cases
       check_exact_solution(prm, c);
       c.reference = read_reference(prm, c);
       check_measurement(prm, c);
+      check_events(prm, c);
       return c;
     }
   } // namespace

@@ -1,3 +1,4 @@
+#include <cases/case.h>
 #include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_keys.h>
 #include <cases/effects.h>
@@ -80,9 +81,10 @@ namespace meltfront::cases
       const std::string domain = "Scene/Domain";
       prm.declare(
           domain,
-          word("shape", "", {"slab", "box", "ball", "shell"},
+          word("shape", "", {"slab", "box", "ball", "shell", "outline"},
                "slab: 0 <= x <= length; box: between two corners; ball: a disk or "
-               "a ball about the origin; shell: that outside of an inner radius."));
+               "a ball about the origin; shell: that outside of an inner radius; "
+               "outline: within a closed curve in the plane."));
       prm.declare(domain, integer("dimension", "1", 1, 3,
                                   "Dimensions of the shape: 1 for a slab, 2 or 3 else."));
       prm.declare(domain, number("length", "", "m", "Length of a slab.", above_zero));
@@ -92,6 +94,20 @@ namespace meltfront::cases
                   number("radius", "", "m", "Radius of a ball, outer radius of a shell.",
                          above_zero));
       prm.declare(domain, number("inner radius", "", "m", "Inner radius of a shell.",
+                                 above_zero));
+      prm.declare(domain, text("corners", "Of an outline that is a polygon: x, y; x, y; "
+                                          "... in metres, either way round."));
+      prm.declare(domain,
+                  text("polar radius", "Of any other outline: distance from its centre "
+                                       "(m), expression of the angle phi from -pi to "
+                                       "pi."));
+      prm.declare(domain, numbers("centre", "m",
+                                  "Of an outline: where its angles are taken, and what "
+                                  "lattices are arranged about; the origin where not "
+                                  "given."));
+      prm.declare(domain, number("reference length", "", "m",
+                                 "Of an outline: what a resolution n divides; the larger "
+                                 "side of its bounding box where not given.",
                                  above_zero));
     }
 
@@ -226,8 +242,14 @@ namespace meltfront::cases
       PrmEntry marks = numbers("marks", "s",
                                "Times, ascending, at which the volume that is solid is "
                                "measured beside the end.");
-      marks.most_values = 4;
+      marks.most_values = most_marks;
       prm.declare(measure, marks);
+      prm.declare(measure,
+                  text("events", "What is timed, separated by commas: first_contact of "
+                                 "the ice around two sinks, half_frozen, all_frozen."));
+      prm.declare(measure, word("mirror", "none", {"none", "x", "y", "z"},
+                                "Direction in which the temperature is compared with its "
+                                "mirror image about the origin."));
       prm.declare(measure, number("absolute zero", "", "K or degrees Celsius",
                                   "Absolute zero on the scene's scale of temperature, "
                                   "-273.15 for degrees Celsius: the entropy is measured; "

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meltfront::cases
@@ -64,8 +65,11 @@ namespace meltfront::cases
     case PrmKind::word:
       return fmt::format("one of {}", fmt::join(entry.choices, ", "));
     case PrmKind::numbers:
+    {
+      constexpr std::array words{"two", "three", "four", "five", "six", "seven", "eight"};
       return fmt::format("one to {} numbers separated by commas",
-                         entry.most_values == 3 ? "three" : "four");
+                         words.at(entry.most_values - 2));
+    }
     default:
       return "a text";
     }

@@ -38,7 +38,7 @@ namespace meltfront::cases
     double lower = -std::numeric_limits<double>::infinity();
     double upper = std::numeric_limits<double>::infinity();
     std::vector<std::string> choices{};
-    unsigned int most_values = 3; ///< of PrmKind::numbers: 3 or 4
+    unsigned int most_values = 3; ///< of PrmKind::numbers: 2 to 8
   };
 
   /** Lower bound of a number that must be greater than zero. */

@@ -1,6 +1,7 @@
 #include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_keys.h>
 #include <cases/case_file/expression.h>
+#include <cases/case_file/outline_reader.h>
 #include <cases/case_file/scene_reader.h>
 
 #include <fmt/format.h>
@@ -63,6 +64,8 @@ namespace meltfront::cases
       belongs("upper corner", "box");
       belongs("radius", shape == "shell" ? "shell" : "ball");
       belongs("inner radius", "shell");
+      if(shape != "outline")
+        forbid_outline_keys(prm, shape);
     }
 
     Position read_position(const PrmFile &prm, const std::string &subsection,
@@ -98,7 +101,11 @@ namespace meltfront::cases
       Domain domain;
       domain.dimension = static_cast<int>(prm.get_integer(domain_keys, "dimension"));
       if(shape != "slab")
-        prm.require(domain_keys, "dimension", fmt::format("a {} needs 2 or 3", shape));
+        prm.require(domain_keys, "dimension",
+                    shape == "outline" ? "an outline needs 2"
+                                       : fmt::format("a {} needs 2 or 3", shape));
+      if(shape == "outline" && domain.dimension != 2)
+        throw prm.error(domain_keys, "dimension", "must be 2 for an outline");
       if((domain.dimension == 1) != (shape == "slab"))
         throw prm.error(domain_keys, "dimension",
                         shape == "slab" ? "must be 1 for a slab"
@@ -107,6 +114,8 @@ namespace meltfront::cases
         domain.upper[0] = prm.get_number(domain_keys, "length");
       else if(shape == "ball" || shape == "shell")
         read_round_shape(prm, shape, domain);
+      else if(shape == "outline")
+        read_outline(prm, domain);
       else
       {
         domain.shape = DomainShape::box;
@@ -127,14 +136,15 @@ namespace meltfront::cases
       const auto complain = [&](const char *valid)
       {
         throw prm.error("Scene", "symmetry",
-                        fmt::format("contradicts the domain: a {} in {} dimension{} is "
+                        fmt::format("contradicts the domain: {} {} in {} dimension{} is "
                                     "{}, not {}",
-                                    shape, domain.dimension,
+                                    domain.outline ? "an" : "a", shape, domain.dimension,
                                     domain.dimension == 1 ? "" : "s", valid, word));
       };
       if(domain.shape == DomainShape::slab && symmetry != Symmetry::planar)
         complain("planar");
-      if(domain.shape == DomainShape::box && symmetry != Symmetry::none)
+      if((domain.shape == DomainShape::box || domain.outline)
+         && symmetry != Symmetry::none)
         complain("none");
       if(domain.round() && symmetry != Symmetry::none
          && symmetry
@@ -164,7 +174,7 @@ namespace meltfront::cases
 
     std::vector<Side> sides_of(const Domain &domain)
     {
-      if(domain.shape == DomainShape::ball)
+      if(domain.shape == DomainShape::ball || domain.outline)
         return {Side::outer};
       if(domain.shape == DomainShape::shell)
         return {Side::inner, Side::outer};
@@ -223,9 +233,10 @@ namespace meltfront::cases
       {
         if(scene.boundary(side).kind != BoundaryKind::periodic)
           continue;
-        if(scene.domain.round())
+        if(scene.domain.round() || scene.domain.outline)
           throw prm.error(wall_keys(side), "kind",
-                          "cannot be periodic: walls of a ball or a shell face no other");
+                          "cannot be periodic: walls of a ball, a shell or an outline "
+                          "face no other");
         const auto opposite = static_cast<Side>(static_cast<int>(side) ^ 1);
         if(scene.boundary(opposite).kind != BoundaryKind::periodic)
           throw prm.error(
@@ -254,6 +265,8 @@ namespace meltfront::cases
 
     bool inside(const Domain &domain, const Position &p)
     {
+      if(domain.outline)
+        return domain.outline->inside(p);
       if(domain.round())
       {
         const double distance = coordinate(Symmetry::spherical, p);

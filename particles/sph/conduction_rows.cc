@@ -345,6 +345,9 @@ namespace meltfront::particles
 
       bool complete_support(std::size_t a) const
       {
+        if(dis.scene.domain.outline)
+          return dis.scene.domain.outline->distance(dis.particles.point(a))
+                 > dis.kernel.support();
         if(dis.scene.domain.shape != cases::DomainShape::ball)
           return dis.layout == LatticeLayout::cell_centred || reach[a] == 0;
         const auto own = dis.particles.point(a);

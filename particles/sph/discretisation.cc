@@ -1,4 +1,7 @@
+#include <cases/error.h>
 #include <particles/sph/discretisation.h>
+
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -43,6 +46,8 @@ namespace meltfront::particles
     particles.dimension = ghosts.dimension = dimension;
     if(scene.domain.shape == DomainShape::ball)
       fill_ball();
+    else if(scene.domain.outline)
+      fill_outline();
     else
       fill_slab_or_box(p);
     jitter(particles, p.jitter * spacing, p.seed,
@@ -95,6 +100,30 @@ namespace meltfront::particles
     if(scene.boundary(Side::outer).kind != BoundaryKind::insulated)
       ghosts = arrange_in_shell(dimension, radius, radius + kernel.support(), spacing,
                                 layout);
+  }
+
+  /** Points of the lattice of cells about the outline's centre that lie inside. */
+  void Discretisation::fill_outline()
+  {
+    const cases::Outline &outline = *scene.domain.outline;
+    std::array<std::vector<double>, 2> line;
+    for(int d = 0; d < 2; ++d)
+    {
+      const double middle = outline.centre()[d];
+      const auto index = [&](double coordinate)
+      { return static_cast<int>(std::floor((coordinate - middle) / spacing)); };
+      const int last = index(outline.upper()[d]);
+      for(int i = index(outline.lower()[d]); i <= last; ++i)
+        line[d].push_back(middle + (i + 0.5) * spacing);
+    }
+    for(const double y : line[1])
+      for(const double x : line[0])
+        if(outline.inside({x, y, 0}))
+          particles.add({x, y, 0});
+    if(particles.size() == 0)
+      throw cases::Refusal(fmt::format(
+          "no particle of a lattice of spacing {:.6g} m lies within the outline",
+          spacing));
   }
 
   bool Discretisation::on_wall(const PlaneWall &wall, std::size_t particle) const

@@ -51,6 +51,7 @@ namespace meltfront::particles
   private:
     void fill_slab_or_box(const SphParameters &parameters);
     void fill_ball();
+    void fill_outline();
     void find_held_particles();
   };
 } // namespace meltfront::particles

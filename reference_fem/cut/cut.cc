@@ -1,5 +1,6 @@
 #include <reference_fem/cut/cut.h>
 
+#include <cases/error.h>
 #include <reference_fem/cut/options.h>
 #include <reference_fem/cut/run.h>
 
@@ -39,6 +40,9 @@ namespace meltfront::reference_fem
                         cases::Observer &observer) const override
       {
         cases::require_effects(*this, effects);
+        if(scene.domain.outline)
+          throw cases::Refusal("fem-cut does not simulate what an outline bounds: its "
+                               "rims are circles");
         return cut::CutRun(scene, effects, resolution).run(observer);
       }
     };

@@ -3,8 +3,10 @@
 
 #include <cases/error.h>
 #include <cases/scene.h>
+#include <reference_fem/enthalpy/outline_mesh.h>
 
 #include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold_lib.h>
 #include <deal.II/grid/tria.h>
 
@@ -38,16 +40,19 @@ namespace meltfront::reference_fem
     void mesh_radius(const cases::Scene &scene, int n);
     void mesh_ball(const cases::Scene &scene, int n);
     void mesh_shell(const cases::Domain &domain, int n);
+    void mesh_what_outline_bounds(const cases::Domain &domain, int n);
     void number_round_walls(const cases::Domain &domain);
   };
 
   template <int dim>
   ShapedTriangulation<dim>::ShapedTriangulation(const cases::Scene &scene, int n)
-    : cartesian(!scene.domain.round())
-    , curved(!cartesian && dim > 1)
+    : cartesian(!scene.domain.round() && !scene.domain.outline)
+    , curved(scene.domain.round() && dim > 1)
   {
     if(cartesian)
       mesh_block(scene, n);
+    else if(scene.domain.outline)
+      mesh_what_outline_bounds(scene.domain, n);
     else if(curved && scene.domain.shape == cases::DomainShape::shell)
       mesh_shell(scene.domain, n);
     else if(curved)
@@ -171,6 +176,29 @@ namespace meltfront::reference_fem
       spacing = thickness / (layers << refinements);
     }
     number_round_walls(domain);
+  }
+
+  template <int dim>
+  void ShapedTriangulation<dim>::mesh_what_outline_bounds(const cases::Domain &domain,
+                                                          int n)
+  {
+    if constexpr(dim == 2)
+    {
+      spacing = domain.side() / n;
+      const QuadrilateralMesh mesh = mesh_outline(*domain.outline, spacing);
+      std::vector<dealii::Point<2>> vertices;
+      for(const auto &[x, y] : mesh.vertices)
+        vertices.emplace_back(x, y);
+      std::vector<dealii::CellData<2>> cells(mesh.cells.size());
+      for(std::size_t c = 0; c < cells.size(); ++c)
+        cells[c].vertices.assign(mesh.cells[c].begin(), mesh.cells[c].end());
+      dealii::GridTools::consistently_order_cells(cells);
+      triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
+      for(const auto &face : triangulation.active_face_iterators())
+        if(face->at_boundary())
+          face->set_boundary_id(static_cast<unsigned int>(cases::Side::outer));
+      sides = {cases::Side::outer};
+    }
   }
 
   template <int dim>

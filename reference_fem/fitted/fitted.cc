@@ -1,5 +1,6 @@
 #include <reference_fem/fitted/fitted.h>
 
+#include <cases/error.h>
 #include <reference_fem/fitted/options.h>
 #include <reference_fem/fitted/run.h>
 
@@ -37,6 +38,9 @@ namespace meltfront::reference_fem
                         cases::Observer &observer) const override
       {
         cases::require_effects(*this, effects);
+        if(scene.domain.outline)
+          throw cases::Refusal("fem-fitted does not simulate what an outline bounds: its "
+                               "rays run from wall to wall of a slab, a box or a ball");
         return fitted::FittedRun(scene, effects, resolution).run(observer);
       }
     };

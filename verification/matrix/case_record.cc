@@ -37,6 +37,8 @@ namespace meltfront::verification
         return "box";
       case cases::DomainShape::shell:
         return "shell";
+      case cases::DomainShape::outline:
+        return "outline";
       default:
         return "ball";
       }
@@ -137,6 +139,24 @@ namespace meltfront::verification
               number_in(json.at("melting_temperature"))};
     }
 
+    json json_of(const std::vector<cases::TimedEvent> &events)
+    {
+      json names = json::array();
+      for(const cases::TimedEvent event : events)
+        names.push_back(cases::timed_event_names[static_cast<std::size_t>(event)]);
+      return names;
+    }
+
+    std::vector<cases::TimedEvent> events_in(const json &names)
+    {
+      std::vector<cases::TimedEvent> events;
+      for(std::size_t i = 0; i < cases::n_timed_events; ++i)
+        for(const std::string name : names)
+          if(name == cases::timed_event_names[i])
+            events.push_back(static_cast<cases::TimedEvent>(i));
+      return events;
+    }
+
     json json_of(const cases::Measurement &m)
     {
       return {{"samples", m.samples},
@@ -146,19 +166,26 @@ namespace meltfront::verification
               {"front_floor", json_of(m.front_floor)},
               {"monotone_front", m.monotone_front},
               {"front_mode", m.front_mode},
-              {"marks", json_of(m.marks)}};
+              {"marks", json_of(m.marks)},
+              {"events", json_of(m.events)},
+              {"mirror", m.mirror.value_or(-1)}};
     }
 
     cases::Measurement measurement_in(const json &stored)
     {
-      return {stored.at("samples"),
-              stored.at("square_root_clock"),
-              number_in(stored.at("temperature_from")),
-              number_in(stored.at("temperature_to")),
-              number_in(stored.at("front_floor")),
-              stored.at("monotone_front"),
-              stored.value("front_mode", 0),
-              numbers_in(stored.value("marks", json::array()))};
+      cases::Measurement m;
+      m.samples = stored.at("samples");
+      m.square_root_clock = stored.at("square_root_clock");
+      m.temperature_from = number_in(stored.at("temperature_from"));
+      m.temperature_to = number_in(stored.at("temperature_to"));
+      m.front_floor = number_in(stored.at("front_floor"));
+      m.monotone_front = stored.at("monotone_front");
+      m.front_mode = stored.value("front_mode", 0);
+      m.marks = numbers_in(stored.value("marks", json::array()));
+      m.events = events_in(stored.value("events", json::array()));
+      if(const int mirror = stored.value("mirror", -1); mirror >= 0)
+        m.mirror = mirror;
+      return m;
     }
 
     json json_of(const cases::Criterion &c)
@@ -206,6 +233,24 @@ namespace meltfront::verification
               number_in(json.at("value"))};
     }
 
+    /** The corners of a polygon; evenly spread points on a curve of many more vertices.
+     */
+    void record_outline(const cases::Outline &outline, CaseRecord &record)
+    {
+      constexpr int most_points = 400;
+      const auto add = [&record](const auto &point)
+      {
+        record.outline_x.push_back(point[0]);
+        record.outline_y.push_back(point[1]);
+      };
+      if(outline.vertices().size() > most_points)
+        for(const cases::Position &point : outline.points(most_points))
+          add(point);
+      else
+        for(const cases::Outline::Point &point : outline.vertices())
+          add(point);
+    }
+
     /** Calls visit(name, member) for each member that JSON knows as it is. */
     template <typename Record, typename Visit>
     void visit_plain(Record &record, const Visit &visit)
@@ -245,6 +290,9 @@ namespace meltfront::verification
     record.upper = scene.domain.upper;
     record.radius = scene.domain.radius;
     record.inner_radius = scene.domain.inner_radius;
+    record.reference_length = scene.domain.reference_length;
+    if(scene.domain.outline)
+      record_outline(*scene.domain.outline, record);
     record.material = scene.material;
     record.initial_state = words(scene.initial);
     for(const cases::Side side : scene.sides())
@@ -277,6 +325,9 @@ namespace meltfront::verification
     json["upper"] = json_of(record.upper);
     json["radius"] = json_of(record.radius);
     json["inner_radius"] = json_of(record.inner_radius);
+    json["outline_x"] = json_of(record.outline_x);
+    json["outline_y"] = json_of(record.outline_y);
+    json["reference_length"] = json_of(record.reference_length);
     if(record.reference)
       json["reference"]
           = {{"label", record.reference->label}, {"n", record.reference->n}};
@@ -306,6 +357,12 @@ namespace meltfront::verification
     record.inner_radius = json.contains("inner_radius") // older records lack it
                               ? number_in(json.at("inner_radius"))
                               : 0;
+    if(json.contains("outline_x")) // older records lack it
+    {
+      record.outline_x = numbers_in(json.at("outline_x"));
+      record.outline_y = numbers_in(json.at("outline_y"));
+      record.reference_length = number_in(json.at("reference_length"));
+    }
     if(json.contains("reference"))
       record.reference = cases::Reference{json.at("reference").at("label"),
                                           json.at("reference").at("n")};

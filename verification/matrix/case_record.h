@@ -22,11 +22,14 @@ namespace meltfront::verification
     std::vector<std::string> limits;
     std::string units;    ///< `SI` or `normalised`
     std::string symmetry; ///< planar, cylindrical, spherical, none
-    std::string shape;    ///< slab, box, ball, shell
+    std::string shape;    ///< slab, box, ball, shell, outline
     int dimension = 1;
     cases::Position lower{}, upper{};
     double radius = 0;
     double inner_radius = 0; ///< of a shell
+    /** Points along an outline (m) and its length that n divides; else empty and 0. */
+    std::vector<double> outline_x, outline_y;
+    double reference_length = 0;
     cases::Material material;
     std::string initial_state;           ///< in words and numbers
     std::vector<std::string> boundaries; ///< `x_min: fixed temperature -10`

@@ -135,9 +135,16 @@ namespace meltfront::verification
 
   const std::vector<std::string> &compared_quantities()
   {
-    static const std::vector<std::string> names{"solid_volume_end", "solid_volume_1",
-                                                "solid_volume_2",   "solid_volume_3",
-                                                "solid_volume_4",   "front_mode_end"};
+    static const std::vector<std::string> names = []
+    {
+      std::vector<std::string> list{"solid_volume_end"};
+      for(int mark = 1; mark <= cases::most_marks; ++mark)
+        list.push_back(fmt::format("solid_volume_{}", mark));
+      list.emplace_back("front_mode_end");
+      for(const char *event : cases::timed_event_names)
+        list.emplace_back(event);
+      return list;
+    }();
     return names;
   }
 

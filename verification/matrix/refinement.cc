@@ -49,6 +49,8 @@ namespace meltfront::verification
 
   double domain_side(const CaseRecord &record)
   {
+    if(record.shape == "outline")
+      return record.reference_length;
     const bool round = record.shape == "ball" || record.shape == "shell";
     return round ? 2 * record.radius : record.upper[0] - record.lower[0];
   }

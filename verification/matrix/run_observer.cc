@@ -57,6 +57,7 @@ namespace meltfront::verification
     , overshoot(nan)
     , marks(c.measurement.marks)
     , worst_defect(nan)
+    , worst_asymmetry(nan)
   {
     if(!(scene.end_time > scene.start_time))
       throw cases::InputError(fmt::format(
@@ -74,6 +75,9 @@ namespace meltfront::verification
   {
     run_description = description;
     reader.emplace(scene, exact, description.spacing, description.smoothing_length);
+    event_watch.emplace(scene, the_case.measurement.events, description.spacing);
+    if(the_case.measurement.mirror)
+      mirror.emplace(*the_case.measurement.mirror, description.spacing);
     alloy.emplace(the_case, scene, description.spacing);
     if(second)
       second->begin(description);
@@ -102,7 +106,8 @@ namespace meltfront::verification
   {
     marks.pass(step, time);
     const bool second_wants = second && second->wants(step, time);
-    return wants_itself(step, time) || second_wants;
+    return wants_itself(step, time) || second_wants
+           || (event_watch && event_watch->pending());
   }
 
   void RunObserver::observe(const cases::Snapshot &snapshot)
@@ -110,6 +115,8 @@ namespace meltfront::verification
     if(snapshot.step == last_step)
       return;
     marks.pass(snapshot.step, snapshot.time);
+    if(event_watch && event_watch->pending())
+      event_watch->observe(snapshot);
     const bool at_the_end = clock(snapshot.time) >= 1 - time_tolerance;
     const bool keep = at_the_end || sample_is_due(snapshot.step, snapshot.time);
     if(wants_itself(snapshot.step, snapshot.time) || at_the_end)
@@ -163,6 +170,8 @@ namespace meltfront::verification
     alloy->add(snapshot, reader->coordinates(snapshot));
     course.add(reading.latent_heat);
     worst_defect = std::fmax(worst_defect, snapshot.heat.defect());
+    if(mirror)
+      worst_asymmetry = std::fmax(worst_asymmetry, mirror->largest_difference(snapshot));
     // Steps that are wanted for a mark only would weigh its neighbourhood.
     if(exact && (keep || the_case.measurement.samples == 0))
       compare_fronts(snapshot, reading);
@@ -320,16 +329,17 @@ namespace meltfront::verification
                                     "front_mode_end",
                                     "front_floor",
                                     "solid_volume_end",
-                                    "solid_volume_1",
-                                    "solid_volume_2",
-                                    "solid_volume_3",
-                                    "solid_volume_4",
                                     "solid_volume_backsteps",
                                     "temperature_l2",
                                     "temperature_max",
                                     "temperature_rmse",
                                     "temperature_overshoot",
-                                    "budget_defect"};
+                                    "budget_defect",
+                                    "mirror_asymmetry"};
+      for(int mark = 1; mark <= cases::most_marks; ++mark)
+        list.push_back(fmt::format("solid_volume_{}", mark));
+      for(const char *event : cases::timed_event_names)
+        list.emplace_back(event);
       const std::vector<std::string> &of_alloys = AlloyMeasures::quantity_names();
       list.insert(list.end(), of_alloys.begin(), of_alloys.end());
       return list;
@@ -382,6 +392,10 @@ namespace meltfront::verification
                 : course.net_advance();
     values["front_backsteps"] = course.largest_backstep(advance < 0);
     values["budget_defect"] = worst_defect;
+    values["mirror_asymmetry"] = worst_asymmetry;
+    for(std::size_t i = 0; event_watch && i < cases::n_timed_events; ++i)
+      values[cases::timed_event_names[i]]
+          = event_watch->time(static_cast<cases::TimedEvent>(i));
     if(the_case.measurement.front_floor > 0)
       values["front_floor"] = the_case.measurement.front_floor;
     return values;

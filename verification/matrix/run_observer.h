@@ -6,7 +6,9 @@
 #include <verification/matrix/alloy_measures.h>
 #include <verification/matrix/run_record.h>
 #include <verification/matrix/run_statistics.h>
+#include <verification/measure/event_watch.h>
 #include <verification/measure/front_reader.h>
+#include <verification/measure/mirror_symmetry.h>
 
 #include <map>
 #include <optional>
@@ -21,11 +23,12 @@ namespace meltfront::verification
    *
    * Snapshots are taken of the initial state, of the first step at or after each of
    * Measurement::samples times equidistant in t or sqrt(t), of the end, and of the steps
-   * around each of Measurement::marks. Each is judged: a state that is not finite or
-   * breaks the maximum principle ends the run with a NumericalError. Elements that carry
-   * or cut a tracked front (Snapshot::front) obey the principle in the limit only: they
-   * may overshoot by a fiftieth of the bounds' span, and temperature_overshoot tells by
-   * how much they did.
+   * around each of Measurement::marks. Events (Measurement::events) look at every step
+   * until they have happened, at nothing but the solid fractions. Each is judged: a state
+   * that is not finite or breaks the maximum principle ends the run with a
+   * NumericalError. Elements that carry or cut a tracked front (Snapshot::front) obey the
+   * principle in the limit only: they may overshoot by a fiftieth of the bounds' span,
+   * and temperature_overshoot tells by how much they did.
    */
   class RunObserver : public cases::Observer
   {
@@ -83,11 +86,13 @@ namespace meltfront::verification
      * front_mode_end: front_mode_amplitude() at the end of Measurement::front_mode;
      * front_floor: Measurement::front_floor, where it is not zero;
      * solid_volume_end: at the end (m, m^2, m^3 in the measure of the scene);
-     * solid_volume_1 to _4: at Measurement::marks, interpolated() between steps;
+     * solid_volume_1 to _8: at Measurement::marks, interpolated() between steps;
      * solid_volume_backsteps: farthest that it fell back, over its net change;
      * temperature_l2, temperature_max, temperature_rmse: TemperatureError at the end;
      * temperature_overshoot: farthest beyond the bounds of the maximum principle in any
      * snapshot, over their span; 0 within them, NaN where they are not both finite;
+     * first_contact, half_frozen, all_frozen: times of Measurement::events (s);
+     * mirror_asymmetry: largest MirrorSymmetry of any snapshot (K), where asked for;
      * budget_defect: largest of any snapshot;
      * those of AlloyMeasures.
      */
@@ -120,6 +125,8 @@ namespace meltfront::verification
 
     cases::RunDescription run_description;
     std::optional<FrontReader> reader;
+    std::optional<EventWatch> event_watch;
+    std::optional<MirrorSymmetry> mirror;
     std::optional<AlloyMeasures> alloy;
     int samples;         ///< times equidistant on the clock at which the series is kept
     int next_sample = 0; ///< index of the next of them
@@ -136,7 +143,7 @@ namespace meltfront::verification
     MarkWatch marks;
     std::size_t next_mark = 0; ///< of Measurement::marks, whose frame is to be kept
     std::vector<double> volume_times, volumes; ///< of all snapshots
-    double worst_defect;
+    double worst_defect, worst_asymmetry;
     std::map<std::string, double> at_end;
   };
 } // namespace meltfront::verification

@@ -237,6 +237,16 @@ namespace meltfront::verification
       fmt::format_to(out, "end_of_data\n");
     }
 
+    void write_outline(Script out, const CaseRecord &record)
+    {
+      fmt::format_to(out, "$outline << end_of_data\n");
+      const std::size_t n = record.outline_x.size();
+      for(std::size_t i = 0; i <= n; ++i)
+        fmt::format_to(out, "{:.8g} {:.8g}\n", record.outline_x[i % n],
+                       record.outline_y[i % n]);
+      fmt::format_to(out, "end_of_data\n");
+    }
+
     /** The phases as areas on either side of the front. */
     void write_areas(Script out, const CaseRecord &record, const RunRecord *run,
                      double front)
@@ -257,7 +267,7 @@ namespace meltfront::verification
       };
       if(round(record))
         circle(record.radius, outer);
-      else
+      else if(record.outline_x.empty())
         fmt::format_to(out,
                        "set object rectangle from graph 0,0 to graph 1,1 fs solid "
                        "noborder fc rgb '{}' behind\n",
@@ -386,6 +396,11 @@ namespace meltfront::verification
           write_circle(out, name, radius, frame, 0, 2 * std::numbers::pi);
           plots.push_back(fmt::format("${} with lines lw 4 lc rgb 'black'", name));
         }
+    if(!record.outline_x.empty())
+    {
+      write_outline(out, record);
+      plots.emplace_back("$outline with lines lw 4 lc rgb 'black'");
+    }
     if(std::isfinite(front))
       plots.push_back(write_front(out, record, frame, front));
     for(const std::string &plot : write_tracked_fronts(script, content.tracked))
