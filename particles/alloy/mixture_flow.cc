@@ -1,4 +1,5 @@
 #include <particles/alloy/mixture_flow.h>
+#include <particles/alloy/wall_variable.h>
 
 #include <fmt/format.h>
 
@@ -10,14 +11,6 @@ namespace meltfront::particles
   {
     /** Particles below which handing out a pass to threads costs more than it gains. */
     constexpr std::size_t worth_sharing = 8192;
-
-    /** With heat capacities of one and no phases the conduction variable is T - T_m. */
-    ConductionVariable excess_variable(const cases::Material &material)
-    {
-      cases::Material unit;
-      unit.melting_temperature = material.melting_temperature;
-      return {unit, cases::EffectSet({})};
-    }
 
     constexpr Effect equilibrium_effects[]
         = {Effect::phase_change, Effect::phase_heat_capacity, Effect::phase_conductivity,

@@ -11,7 +11,7 @@ namespace meltfront::particles
     const std::vector<std::string> mean_names{"integral", "arithmetic", "harmonic"};
 
     int resolve_dimension(const std::string &method, const cases::Scene &scene,
-                          long wanted)
+                          long wanted, int of_slab)
     {
       if(scene.domain.shape != cases::DomainShape::slab
          && scene.domain.shape != cases::DomainShape::box
@@ -19,7 +19,7 @@ namespace meltfront::particles
         throw cases::Refusal(
             fmt::format("{} simulates slabs, boxes and balls only", method));
       if(scene.domain.shape == cases::DomainShape::slab)
-        return wanted > 0 ? static_cast<int>(wanted) : 1;
+        return wanted > 0 ? static_cast<int>(wanted) : of_slab;
       if(wanted > 0 && wanted != scene.domain.dimension)
         throw cases::Refusal(fmt::format(
             "{} simulates a box or a ball of {} dimensions in these, not in {}", method,
@@ -35,36 +35,75 @@ namespace meltfront::particles
     }
   } // namespace
 
+  namespace
+  {
+    /** The options of all methods for alloys that say where particles are. */
+    std::vector<cases::OptionDeclaration>
+    shared_options(const std::string &layout, bool moment_correction, double smoothing)
+    {
+      return {
+          {"dimension", "1", 0L,
+           "Dimension in which a slab is simulated; 0: the lowest (the paper's: 2).", 0,
+           3},
+          word("kernel", "cubic_spline", "Shape of the smoothing kernel.",
+               kernel_names()),
+          {"smoothing", "1", smoothing, "Smoothing length over particle spacing.", 0.5,
+           4},
+          word("layout", layout,
+               "Where the outermost particles are: half a spacing inside, or on the "
+               "edge.",
+               {"cell", "edge"}),
+          {"moment_correction", "", moment_correction,
+           "Divide the kernel's gradient by its second moment, so that the Laplacian of "
+           "a quadratic is exact."},
+          {"jitter", "1", 0.0,
+           "Random displacement of each particle, in particle spacings and per "
+           "direction.",
+           0, 0.4},
+      };
+    }
+
+    SphParameters shared_parameters(const cases::Resolution &resolution, int dimension)
+    {
+      const cases::Options &options = resolution.options;
+      SphParameters p{};
+      p.dimension = dimension;
+      p.kernel = kernel_shape(options.get_string("kernel"));
+      p.smoothing = options.get_double("smoothing");
+      p.layout = options.get_string("layout") == "edge" ? LatticeLayout::on_edge
+                                                        : LatticeLayout::cell_centred;
+      p.moment_correction = options.get_bool("moment_correction");
+      p.front = FrontRule::partner;
+      p.time_scheme = TimeScheme::euler;
+      p.step_factor = 1;
+      p.jitter = options.get_double("jitter");
+      p.seed = resolution.seed;
+      p.threads = resolution.threads;
+      p.n = resolution.n;
+      return p;
+    }
+  } // namespace
+
   std::vector<cases::OptionDeclaration> mixture_options()
   {
-    return {
-        {"dimension", "1", 0L, "Dimension in which a slab is simulated; 0: the lowest.",
-         0, 3},
-        word("kernel", "cubic_spline", "Shape of the smoothing kernel.", kernel_names()),
-        {"smoothing", "1", 1.0, "Smoothing length over particle spacing.", 0.5, 4},
-        word("layout", "cell",
-             "Where the outermost particles are: half a spacing inside, or on the edge.",
-             {"cell", "edge"}),
-        {"moment_correction", "", true,
-         "Divide the kernel's gradient by its second moment, so that the Laplacian of a "
-         "quadratic is exact."},
-        word("conductivity", "integral",
-             "Conductivity between two particles: its mean over the temperatures between "
-             "them in equilibrium, which holds at sharp fronts as in a mush, or the "
-             "arithmetic or harmonic mean of both.",
-             mean_names),
-        word("time_scheme", "rkl2",
-             "Explicit Euler steps, or Runge-Kutta-Legendre super steps of second order.",
-             {"euler", "rkl2"}),
-        {"stages", "1", 8L, "Most stages of a super step.", 3, 64},
-        {"step_factor", "1", 1.0,
-         "Time step over the largest that keeps the maximum principle. More than 1 is "
-         "refused.",
-         1e-6, 1e6},
-        {"jitter", "1", 0.0,
-         "Random displacement of each particle, in particle spacings and per direction.",
-         0, 0.4},
-    };
+    std::vector<cases::OptionDeclaration> options = shared_options("cell", true, 1.0);
+    options.insert(
+        options.end(),
+        {word("conductivity", "integral",
+              "Conductivity between two particles: its mean over the temperatures "
+              "between them in equilibrium, which holds at sharp fronts as in a mush, or "
+              "the arithmetic or harmonic mean of both.",
+              mean_names),
+         word("time_scheme", "rkl2",
+              "Explicit Euler steps, or Runge-Kutta-Legendre super steps of second "
+              "order.",
+              {"euler", "rkl2"}),
+         {"stages", "1", 8L, "Most stages of a super step.", 3, 64},
+         {"step_factor", "1", 1.0,
+          "Time step over the largest that keeps the maximum principle. More than 1 is "
+          "refused.",
+          1e-6, 1e6}});
+    return options;
   }
 
   MixtureParameters resolve_mixture_parameters(const cases::Scene &scene,
@@ -73,26 +112,106 @@ namespace meltfront::particles
     const cases::Options &options = resolution.options;
     MixtureParameters result{};
     SphParameters &p = result.sph;
-    p.dimension
-        = resolve_dimension("sph-mixture", scene, options.get_integer("dimension"));
-    p.kernel = kernel_shape(options.get_string("kernel"));
-    p.smoothing = options.get_double("smoothing");
-    p.layout = options.get_string("layout") == "edge" ? LatticeLayout::on_edge
-                                                      : LatticeLayout::cell_centred;
-    p.moment_correction = options.get_bool("moment_correction");
-    p.front = FrontRule::partner;
+    p = shared_parameters(
+        resolution,
+        resolve_dimension("sph-mixture", scene, options.get_integer("dimension"), 1));
     p.time_scheme = options.get_string("time_scheme") == "euler" ? TimeScheme::euler
                                                                  : TimeScheme::rkl2;
     p.stages = static_cast<int>(options.get_integer("stages"));
     p.step_factor = options.get_double("step_factor");
-    p.jitter = options.get_double("jitter");
-    p.seed = resolution.seed;
-    p.threads = resolution.threads;
-    p.n = resolution.n;
     const std::string &mean = options.get_string("conductivity");
     result.mean = mean == "arithmetic" ? MeanConductivity::arithmetic
                   : mean == "harmonic" ? MeanConductivity::harmonic
                                        : MeanConductivity::integral;
+    return result;
+  }
+
+  const TwoPopulationPolicy &corrected_two_population()
+  {
+    static const TwoPopulationPolicy policy{
+        "sph-two-population",
+        "Smoothed particle hydrodynamics of alloys with particles of liquid and of ice "
+        "at "
+        "each site, whose exchange of heat conducts as a mush does.",
+        "",
+        false,
+        "corrected",
+        "site",
+        "energy_function",
+        "cell",
+        true,
+        1.0,
+        1.0};
+    return policy;
+  }
+
+  const TwoPopulationPolicy &published_two_population()
+  {
+    static const TwoPopulationPolicy policy{
+        "sph-two-population-2005",
+        "Particles of liquid and of ice as Monaghan, Huppert and Worster (2005) "
+        "published "
+        "them, misprints corrected: conducts too much, so that it does not converge to "
+        "the mushy layer's solution.",
+        "sph-two-population",
+        true,
+        "published",
+        "kernel",
+        "constant",
+        "edge",
+        false,
+        1.3,
+        0.15};
+    return policy;
+  }
+
+  std::vector<cases::OptionDeclaration>
+  two_population_options(const TwoPopulationPolicy &policy)
+  {
+    std::vector<cases::OptionDeclaration> options
+        = shared_options(policy.layout, policy.moment_correction, policy.smoothing);
+    options.insert(
+        options.end(),
+        {word("exchange", policy.exchange,
+              "Exchange of heat between liquid and ice: so that both together conduct as "
+              "a mush does, or as published.",
+              {"corrected", "published"}),
+         word("new_ice", policy.new_ice,
+              "Where new ice goes: to its own site, or spread over the kernel.",
+              {"site", "kernel"}),
+         word("latent_heat", policy.latent_heat,
+              "Heat of freezing below the melting point: L + (c_l - c_s)(T - T_m), with "
+              "which the heat is a function of the state, or constant.",
+              {"energy_function", "constant"}),
+         {"step_factor", "1", policy.step_factor,
+          policy.as_published ? "Time step over c rho h^2/k, the smaller of both phases'."
+                              : "Time step over the largest that keeps the maximum "
+                                "principle. More than 1 "
+                                "is refused.",
+          1e-6, 1e6}});
+    return options;
+  }
+
+  TwoPopulationParameters
+  resolve_two_population_parameters(const TwoPopulationPolicy &policy,
+                                    const cases::Scene &scene,
+                                    const cases::Resolution &resolution)
+  {
+    const cases::Options &options = resolution.options;
+    TwoPopulationParameters result{};
+    result.name = policy.name;
+    result.as_published = policy.as_published;
+    result.sph = shared_parameters(resolution,
+                                   resolve_dimension(policy.name, scene,
+                                                     options.get_integer("dimension"),
+                                                     policy.as_published ? 2 : 1));
+    result.exchange = options.get_string("exchange") == "published"
+                          ? PhaseExchange::published
+                          : PhaseExchange::corrected;
+    result.new_ice
+        = options.get_string("new_ice") == "kernel" ? NewIce::kernel : NewIce::site;
+    result.constant_latent_heat = options.get_string("latent_heat") == "constant";
+    result.step_factor = options.get_double("step_factor");
     return result;
   }
 } // namespace meltfront::particles

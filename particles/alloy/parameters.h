@@ -23,6 +23,62 @@ namespace meltfront::particles
     MeanConductivity mean;
   };
 
+  /** How the particles of two populations exchange heat. */
+  enum class PhaseExchange
+  {
+    corrected, ///< intrinsic volumes, k_l + k_s between phases: conducts as a mush does
+    published  ///< Monaghan et al. (2005), equation 4.2: conducts too much
+  };
+
+  /** Where new ice goes. */
+  enum class NewIce
+  {
+    site,  ///< to the ice particle of its own site
+    kernel ///< to all ice particles around (Monaghan et al. 2005, equation 4.12)
+  };
+
+  /** What distinguishes the corrected method of two populations from the published one:
+   * the same code with other defaults. */
+  struct TwoPopulationPolicy
+  {
+    std::string name;
+    std::string summary;
+    std::string corrected_form;
+    bool as_published; ///< in two dimensions, with steps in units of c rho h^2/k
+    std::string exchange;
+    std::string new_ice;
+    std::string latent_heat;
+    std::string layout;
+    bool moment_correction;
+    double smoothing;
+    double step_factor;
+  };
+
+  /** `sph-two-population` */
+  const TwoPopulationPolicy &corrected_two_population();
+
+  /** `sph-two-population-2005` */
+  const TwoPopulationPolicy &published_two_population();
+
+  std::vector<cases::OptionDeclaration>
+  two_population_options(const TwoPopulationPolicy &policy);
+
+  struct TwoPopulationParameters
+  {
+    std::string name;
+    bool as_published;
+    SphParameters sph;
+    PhaseExchange exchange;
+    NewIce new_ice;
+    bool constant_latent_heat;
+    double step_factor;
+  };
+
+  TwoPopulationParameters
+  resolve_two_population_parameters(const TwoPopulationPolicy &policy,
+                                    const cases::Scene &scene,
+                                    const cases::Resolution &resolution);
+
   /** @throws cases::Refusal for a domain or dimension that is not simulated. */
   MixtureParameters resolve_mixture_parameters(const cases::Scene &scene,
                                                const cases::Resolution &resolution);

@@ -92,8 +92,7 @@ namespace meltfront::particles
           for(std::size_t a = 0; a < n; ++a)
           {
             const double fraction = liquid_fraction[a];
-            mobility[a]
-                = std::min(1 - substance.diagram.volume_fraction(1 - fraction), fraction);
+            mobility[a] = fraction;
             // What freezes at the eutectic temperature takes its solute with it.
             const double eutectic_fraction
                 = concentration.size() == 1 ? concentration[0][a] / eutectic_concentration

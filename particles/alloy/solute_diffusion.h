@@ -12,15 +12,15 @@
 namespace meltfront::particles
 {
   /**
-   * Diffusion of solutes through the liquid between particles. With the liquid's volume
-   * fraction theta and its concentration C/f,
+   * Diffusion of solutes through the liquid between particles. With the liquid's mass
+   * fraction f and its concentration C/f,
    *
-   *   m dC_a/dt = sum_b g_ab rho D theta_ab (C_b/f_b - C_a/f_a),
-   *   theta_ab = 2 theta_a theta_b/(theta_a + theta_b)
+   *   m dC_a/dt = sum_b g_ab rho D f_ab (C_b/f_b - C_a/f_a),
+   *   f_ab = 2 f_a f_b/(f_a + f_b)
    *
-   * (Monaghan, Huppert and Worster 2005, equation 2.13 and section 4, of intrinsic
-   * volumes): none where one of both is solid. No wall lets solute through: images
-   * beyond all walls have the concentration of their particles.
+   * (Monaghan, Huppert and Worster 2005, equation 2.13 and section 4; rho f
+   * is the mass of liquid per volume): none where one of both is solid. No wall lets
+   * solute through: images beyond all walls have the concentration of their particles.
    */
   class SoluteDiffusion
   {
@@ -57,7 +57,7 @@ namespace meltfront::particles
     double largest_row_sum;
     std::optional<ParticleOperator> own_rows; ///< where walls of prescribed temperature
                                               ///< have changed those of the heat
-    std::vector<double> mobility;             ///< liquid volume fraction
+    std::vector<double> mobility;             ///< liquid mass fraction
     std::vector<double> in_liquid;            ///< C/f of each solute, one after another
     long touched = 0;
     EffectMeter meter;

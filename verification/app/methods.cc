@@ -18,6 +18,8 @@ namespace meltfront::verification
       list.push_back(particles::make_sph());
       list.push_back(particles::make_sph_2005());
       list.push_back(particles::make_sph_mixture());
+      list.push_back(particles::make_sph_two_population());
+      list.push_back(particles::make_sph_two_population_2005());
       list.push_back(reference_fem::make_fem_enthalpy());
       list.push_back(reference_fem::make_fem_fitted());
       list.push_back(reference_fem::make_fem_cut());

@@ -157,8 +157,12 @@ namespace meltfront::particles::testing
   {
     const MushySimilarity exact(layer);
     MushErrors errors{};
+    int rows = 0;
     for(std::size_t i = 0; i < outcome.x.size(); ++i)
     {
+      if(outcome.weights[i] == 0)
+        continue; // a wall
+      ++rows;
       const double t = outcome.temperature[i] - exact.temperature(outcome.x[i], time);
       const double theta
           = layer.expansion
@@ -167,8 +171,8 @@ namespace meltfront::particles::testing
       errors.theta += theta * theta;
       errors.largest = std::max(errors.largest, std::abs(t));
     }
-    errors.temperature = std::sqrt(errors.temperature / outcome.x.size());
-    errors.theta = std::sqrt(errors.theta / outcome.x.size());
+    errors.temperature = std::sqrt(errors.temperature / rows);
+    errors.theta = std::sqrt(errors.theta / rows);
     errors.ice = outcome.solid / exact.solid_length(time) - 1;
     return errors;
   }

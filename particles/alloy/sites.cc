@@ -1,0 +1,294 @@
+#include <cases/error.h>
+#include <particles/alloy/phase_exchange.h>
+#include <particles/alloy/sites.h>
+#include <particles/sph/careful_sum.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace meltfront::particles
+{
+  Sites::Sites(const Discretisation &dis, const AlloySubstance &substance,
+               const TwoPopulationParameters &parameters, const MixtureState &initial,
+               std::size_t padded)
+    : concentration(initial.concentration)
+    , is_held(dis.particles.size(), 0)
+    , site_mass(dis.particle_volume * substance.density)
+    , crystal_density(substance.density / substance.expansion)
+    , substance(substance)
+    , parameters(parameters)
+    , n(dis.particles.size())
+    , volume(dis.particle_volume)
+  {
+    for(Population *p : {&liquid, &ice})
+      for(auto *array : {&p->mass, &p->heat, &p->excess, &p->share})
+        array->assign(padded, 0.);
+    for(auto *array : {&liquid_fraction, &depression})
+      array->assign(padded, 0.);
+    for(const std::uint32_t a : dis.held)
+      is_held[a] = 1;
+    for(std::size_t a = 0; a < n; ++a)
+    {
+      const auto content = [&](std::size_t s)
+      { return s < concentration.size() ? concentration[s][a] : 0.; };
+      if(!(substance.diagram.depression(content(0), content(1)) > 0))
+        throw cases::Refusal(
+            fmt::format("{} needs solute everywhere, and there is none at x = {:.6g} m",
+                        parameters.name, dis.particles.position[0][a]));
+      const cases::PhaseState state
+          = substance.diagram.equilibrium(initial.enthalpy[a], content(0), content(1));
+      const double part = is_held[a] ? 0. : state.liquid_fraction;
+      const double x = state.temperature - substance.material.melting_temperature;
+      const cases::Material &m = substance.material;
+      liquid.mass[a] = part * site_mass;
+      ice.mass[a] = is_held[a] ? crystal_density * volume : site_mass - liquid.mass[a];
+      ice.heat[a] = ice.mass[a] * m.solid.specific_heat_capacity * x;
+      // The rest: together they hold the enthalpy given.
+      liquid.heat[a] = is_held[a] ? 0. : site_mass * initial.enthalpy[a] - ice.heat[a];
+      if(is_held[a])
+        for(auto &solute : concentration)
+          solute[a] = 0;
+    }
+    if(parameters.new_ice == NewIce::kernel
+       || parameters.exchange == PhaseExchange::published)
+    {
+      kernel_sums.emplace(dis);
+      for(auto *array :
+          {&solid_volume, &normaliser, &new_ice, &new_heat, &gained, &density})
+        array->assign(padded, 0.);
+      for(std::size_t a = 0; a < n; ++a)
+        new_ice[a] = is_held[a] ? 0. : 1.;
+      kernel_sums->sum(new_ice, normaliser);
+      for(std::size_t a = 0; a < n; ++a)
+        normaliser[a] = 1 / normaliser[a];
+      std::fill(new_ice.begin(), new_ice.end(), 0.);
+    }
+    update();
+  }
+
+  double Sites::dissolved(std::size_t a) const
+  {
+    double sum = 0;
+    for(std::size_t s = 0; s < concentration.size(); ++s)
+      sum += substance.alloy.solutes[s].liquidus_slope * concentration[s][a];
+    return sum * site_mass;
+  }
+
+  void Sites::change_phase()
+  {
+    meter.measure(
+        [this]
+        {
+          change_sites();
+          if(parameters.new_ice == NewIce::kernel)
+            spread_new_ice();
+          update();
+        });
+  }
+
+  void Sites::change_sites()
+  {
+    const cases::Material &m = substance.material;
+    for(std::size_t a = 0; a < n; ++a)
+    {
+      if(is_held[a])
+        continue;
+      const double depression_mass = dissolved(a);
+      // Heat of the liquid if it were at its liquidus.
+      const double at_liquidus = liquid.mass[a] * m.latent_heat
+                                 - m.liquid.specific_heat_capacity * depression_mass;
+      if(liquid.heat[a] < at_liquidus)
+        freeze_site(a, depression_mass);
+      else if(parameters.new_ice == NewIce::site && ice.mass[a] > 0)
+        melt_site(a, depression_mass);
+    }
+  }
+
+  void Sites::freeze_site(std::size_t a, double depression_mass)
+  {
+    const cases::Material &m = substance.material;
+    const double solid_capacity = m.solid.specific_heat_capacity;
+    const double liquid_capacity = m.liquid.specific_heat_capacity;
+    const double mass = liquid.mass[a];
+    const double lowered = depression_mass / mass;
+    const double deficit
+        = m.latent_heat - liquid_capacity * lowered - liquid.heat[a] / mass;
+    const double latent_heat
+        = parameters.constant_latent_heat
+              ? m.latent_heat
+              : m.latent_heat - (liquid_capacity - solid_capacity) * lowered;
+    const Freezing made
+        = freeze(deficit, lowered, latent_heat, solid_capacity, liquid_capacity);
+    const double grown = made.fraction * mass;
+    const double x = -(lowered + made.drop);
+    const double carried = grown * solid_capacity * x;
+    liquid.mass[a] -= grown;
+    if(parameters.constant_latent_heat)
+      liquid.heat[a] = liquid.mass[a] * (liquid_capacity * x + m.latent_heat);
+    else
+      liquid.heat[a] -= carried;
+    if(parameters.new_ice == NewIce::site)
+    {
+      ice.mass[a] += grown;
+      ice.heat[a] += carried;
+      return;
+    }
+    new_ice[a] = grown;
+    new_heat[a] = carried;
+  }
+
+  void Sites::melt_site(std::size_t a, double depression_mass)
+  {
+    const cases::Material &m = substance.material;
+    const double own = ice.heat[a] / ice.mass[a];
+    const double after = (liquid.heat[a] - liquid.mass[a] * own
+                          + m.liquid.specific_heat_capacity * depression_mass)
+                         / (m.latent_heat - own);
+    const double melted = after - liquid.mass[a];
+    if(!(melted > 0))
+      return;
+    if(melted >= ice.mass[a])
+    {
+      liquid.mass[a] += ice.mass[a];
+      liquid.heat[a] += ice.heat[a];
+      ice.mass[a] = ice.heat[a] = 0;
+      return;
+    }
+    const double carried = melted * own;
+    liquid.mass[a] += melted;
+    liquid.heat[a] += carried;
+    ice.mass[a] -= melted;
+    ice.heat[a] -= carried;
+  }
+
+  void Sites::spread_new_ice()
+  {
+    const auto spread = [&](std::vector<double> &made, std::vector<double> &array)
+    {
+      for(std::size_t a = 0; a < n; ++a)
+        made[a] *= normaliser[a];
+      kernel_sums->sum(made, gained);
+      work += static_cast<long>(kernel_sums->interactions());
+      for(std::size_t a = 0; a < n; ++a)
+        if(!is_held[a])
+          array[a] += gained[a];
+      std::fill(made.begin(), made.end(), 0.);
+    };
+    spread(new_ice, ice.mass);
+    spread(new_heat, ice.heat);
+  }
+
+  void Sites::update()
+  {
+    const cases::Material &m = substance.material;
+    const bool summed = parameters.exchange == PhaseExchange::published;
+    if(summed)
+    {
+      kernel_sums->sum(ice.mass, gained);     // density of ice, equation 4.18
+      kernel_sums->sum(liquid.mass, density); // density of liquid, equation 4.11
+      work += 2 * static_cast<long>(kernel_sums->interactions());
+    }
+    for(std::size_t a = 0; a < n; ++a)
+    {
+      liquid_fraction[a] = liquid.mass[a] / site_mass;
+      depression[a] = dissolved(a) / site_mass;
+      const bool any_ice = ice.mass[a] > 0, any_liquid = liquid.mass[a] > 0;
+      if(any_liquid)
+        liquid.excess[a] = (liquid.heat[a] / liquid.mass[a] - m.latent_heat)
+                           / m.liquid.specific_heat_capacity;
+      if(any_ice && !is_held[a])
+        ice.excess[a] = ice.heat[a] / (ice.mass[a] * m.solid.specific_heat_capacity);
+      if(!any_ice)
+        ice.excess[a] = liquid.excess[a];
+      if(!any_liquid)
+        liquid.excess[a] = ice.excess[a];
+      if(summed)
+      {
+        ice.share[a] = any_ice ? ice.mass[a] / (gained[a] * volume) : 0.;
+        liquid.share[a] = any_liquid ? liquid.mass[a] / (density[a] * volume) : 0.;
+        solid_volume[a] = std::clamp(gained[a] / crystal_density, 0., 1.);
+        continue;
+      }
+      ice.share[a] = std::min(ice.mass[a] / (crystal_density * volume), 1.);
+      liquid.share[a] = std::min(1 - ice.share[a], liquid_fraction[a]);
+    }
+  }
+
+  void Sites::add_heat(std::span<const double> to_liquid, std::span<const double> to_ice,
+                       double duration)
+  {
+    for(std::size_t a = 0; a < n; ++a)
+    {
+      liquid.heat[a] += duration * to_liquid[a];
+      ice.heat[a] += duration * to_ice[a];
+    }
+  }
+
+  void Sites::add_solute(std::size_t solute, std::span<const double> flow,
+                         double duration)
+  {
+    const double factor = duration / site_mass;
+    for(std::size_t a = 0; a < n; ++a)
+      concentration[solute][a] += factor * flow[a];
+  }
+
+  std::vector<cases::EffectCost> Sites::costs(const cases::EffectSet &effects,
+                                              std::size_t per_solute) const
+  {
+    using cases::Effect;
+    // One pass serves these effects: none can be timed alone.
+    std::vector<cases::EffectCost> result;
+    for(const Effect effect : {Effect::phase_change, Effect::phase_heat_capacity,
+                               Effect::phase_conductivity, Effect::solute})
+      if(effects.contains(effect))
+        result.push_back(meter.cost(effect, 10 * liquid.mass.size() * sizeof(double)));
+    for(cases::EffectCost &cost : result)
+    {
+      cost.bytes /= static_cast<long>(result.size());
+      cost.seconds /= static_cast<double>(result.size());
+      if(cost.effect == Effect::solute)
+        cost.bytes += static_cast<long>(per_solute * substance.n_solutes());
+    }
+    return result;
+  }
+
+  cases::HeatBudget Sites::heat_content(double measure) const
+  {
+    const double latent_heat = substance.material.latent_heat;
+    CarefulSum stored, latent;
+    for(std::size_t a = 0; a < n; ++a)
+    {
+      if(is_held[a])
+        continue;
+      latent.add(latent_heat * liquid.mass[a]);
+      stored.add(liquid.heat[a] - latent_heat * liquid.mass[a]);
+      stored.add(ice.heat[a]);
+    }
+    cases::HeatBudget heat;
+    heat.stored = stored.value() / measure;
+    heat.latent = latent.value() / measure;
+    heat.initial = heat.stored + heat.latent;
+    return heat;
+  }
+
+  double Sites::total_mass() const
+  {
+    CarefulSum sum;
+    for(std::size_t a = 0; a < n; ++a)
+      if(!is_held[a])
+      {
+        sum.add(liquid.mass[a]);
+        sum.add(ice.mass[a]);
+      }
+    return sum.value();
+  }
+
+  double Sites::total_of(std::size_t solute) const
+  {
+    CarefulSum sum;
+    for(std::size_t a = 0; a < n; ++a)
+      sum.add(concentration[solute][a] * site_mass);
+    return sum.value();
+  }
+} // namespace meltfront::particles

@@ -1,0 +1,96 @@
+#ifndef meltfront_particles_alloy_sites_h
+#define meltfront_particles_alloy_sites_h
+
+#include <cases/snapshot.h>
+#include <particles/alloy/kernel_sums.h>
+#include <particles/alloy/mixture_state.h>
+#include <particles/alloy/parameters.h>
+#include <particles/sph/effect_meter.h>
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace meltfront::particles
+{
+  /** One population: the liquid or the ice particles of all sites. */
+  struct Population
+  {
+    std::vector<double> mass; ///< kg m^(d-3)
+    std::vector<double> heat; ///< enthalpy, solid solvent at T_m counts zero (J m^(d-3))
+    std::vector<double> excess; ///< T - T_m
+    std::vector<double> share;  ///< volume over the site's
+  };
+
+  /**
+   * Sites with one liquid and one ice particle each, and the change of phase between
+   * them.
+   *
+   * Liquid below its liquidus freezes (freeze() in phase_exchange.h). Where ice is given
+   * to its own site (NewIce::site), liquid above its liquidus melts that ice: with its
+   * heat E, the ice's enthalpy per mass e and the depression times mass PS,
+   *
+   *   E + delta e = (m + delta)(c_l x + L),  x = -PS/(m + delta),
+   *   m + delta = (E - m e + c_l PS)/(L - e).
+   */
+  class Sites
+  {
+  public:
+    Sites(const Discretisation &discretisation, const AlloySubstance &substance,
+          const TwoPopulationParameters &parameters, const MixtureState &initial,
+          std::size_t padded);
+
+    /** Freeze and melt until every liquid is in equilibrium with its ice, then update().
+     */
+    void change_phase();
+
+    /** Temperatures and shares of volume from masses and heats. */
+    void update();
+
+    /** Add flows times a duration (s). */
+    void add_heat(std::span<const double> to_liquid, std::span<const double> to_ice,
+                  double duration);
+    void add_solute(std::size_t solute, std::span<const double> flow, double duration);
+
+    /** Costs of the effects that call for the change of phase and for both populations.
+     * @param per_solute bytes of an array of concentrations. */
+    std::vector<cases::EffectCost> costs(const cases::EffectSet &effects,
+                                         std::size_t per_solute) const;
+
+    cases::HeatBudget heat_content(double measure) const;
+    double total_mass() const;
+    double total_of(std::size_t solute) const;
+
+    Population liquid, ice;
+    /** Mass of each solute over the site's. */
+    std::vector<std::vector<double>> concentration;
+    /** Mass of the liquid over the site's. */
+    std::vector<double> liquid_fraction;
+    std::vector<double> depression;   ///< by the site's concentrations
+    std::vector<double> solid_volume; ///< of densities summed over kernels
+    std::vector<unsigned char> is_held;
+    double site_mass;
+    double crystal_density;
+    long work = 0; ///< interactions of the sums over kernels
+
+  private:
+    double dissolved(std::size_t site) const;
+    void change_sites();
+    void freeze_site(std::size_t site, double depression_mass);
+    void melt_site(std::size_t site, double depression_mass);
+    void spread_new_ice();
+
+    const AlloySubstance &substance;
+    TwoPopulationParameters parameters;
+    std::size_t n;
+    double volume;
+    EffectMeter meter;
+    std::optional<KernelSums> kernel_sums;
+    std::vector<double> normaliser;        ///< zeta of equation 4.14
+    std::vector<double> new_ice, new_heat; ///< made by each liquid, not yet given
+    std::vector<double> gained, density;
+  };
+} // namespace meltfront::particles
+
+#endif

@@ -1,0 +1,143 @@
+#include <particles/alloy/two_population_exchange.h>
+#include <particles/alloy/two_population_flow.h>
+#include <particles/alloy/wall_variable.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::particles
+{
+  using cases::Effect;
+
+  TwoPopulationFlow::TwoPopulationFlow(const Discretisation &dis,
+                                       const AlloySubstance &substance,
+                                       const cases::EffectSet &effects,
+                                       const TwoPopulationParameters &parameters,
+                                       Sites &sites)
+    : effects(effects)
+    , substance(substance)
+    , parameters(parameters)
+    , sites(sites)
+    , volume(dis.particle_volume)
+    , threads(1)
+    , path(substance)
+    , rows(dis, parameters.sph.moment_correction)
+    , self_strength(-2 * volume * volume * dis.kernel.radial_derivative_over_distance(0)
+                    / rows.second_moment)
+    , wall_excess(excess_variable(substance.material))
+  {
+    if(effects.contains(Effect::solute_diffusion) && substance.diffuses())
+      diffusion.emplace(dis, parameters.sph, substance, rows.rows);
+    if(effects.contains(Effect::wall_temperature))
+      wall_temperature.emplace(dis, rows, wall_excess);
+  }
+
+  void TwoPopulationFlow::prepare_step(double begin, double end)
+  {
+    if(wall_temperature)
+      wall_temperature->prepare_step(begin, end);
+  }
+
+  void TwoPopulationFlow::hold_walls(double fraction)
+  {
+    if(!wall_temperature)
+      return;
+    const double melting = substance.material.melting_temperature;
+    wall_temperature->hold(fraction, sites.ice.excess,
+                           [melting](std::uint32_t, double temperature)
+                           { return temperature - melting; });
+  }
+
+  double TwoPopulationFlow::wall_solid_share(std::size_t site, double wall) const
+  {
+    // Such that the mean of both shares is that over the temperatures between site and
+    // wall, along the equilibrium of the site's composition.
+    const double own = sites.liquid.excess[site], lowered = sites.depression[site];
+    const double difference = wall - own;
+    if(std::abs(difference) < 1e-6 * lowered)
+      return sites.ice.share[site];
+    const double mean
+        = (path.whole(wall, lowered) - path.whole(own, lowered)) / difference;
+    return std::clamp(2 * mean - sites.ice.share[site], 0., 1.);
+  }
+
+  template <typename Pair>
+  double TwoPopulationFlow::population_heat(const Pair &pair, std::span<double> flow)
+  {
+    rows.rows.apply_pairs(pair, flow, threads);
+    for(std::size_t a = 0; a < rows.rows.rows(); ++a)
+      flow[a] += self_strength * pair.at_site(a);
+    if(!wall_temperature)
+      return 0;
+    return wall_temperature->add(
+        [&](std::size_t row, double wall)
+        {
+          const double solid = wall_solid_share(row, wall);
+          return pair.from_wall(row, wall, pair.of_ice ? 1 - solid : solid);
+        },
+        0., flow);
+  }
+
+  double TwoPopulationFlow::heat(std::span<double> to_liquid, std::span<double> to_ice)
+  {
+    ++evaluations;
+    const PopulationView liquid(sites.liquid), ice(sites.ice);
+    const double k_l = substance.material.liquid.conductivity;
+    const double k_s = substance.material.solid.conductivity;
+    if(parameters.exchange == PhaseExchange::corrected)
+    {
+      const double mean = 0.5 * (k_l + k_s);
+      return population_heat(CorrectedPair{liquid, ice, false, k_l, mean}, to_liquid)
+             + population_heat(CorrectedPair{ice, liquid, true, k_s, mean}, to_ice);
+    }
+    const double *solid = sites.solid_volume.data();
+    return population_heat(PublishedPair{liquid, ice, solid, false, k_l, k_s}, to_liquid)
+           + population_heat(PublishedPair{ice, liquid, solid, true, k_s, k_l}, to_ice);
+  }
+
+  void TwoPopulationFlow::follow()
+  {
+    composition.assign(sites.concentration.begin(), sites.concentration.end());
+    diffusion->follow(sites.liquid_fraction, sites.depression, composition);
+  }
+
+  void TwoPopulationFlow::solute(std::size_t solute, std::span<double> flow)
+  {
+    diffusion->flow(solute, rows.rows, flow, threads);
+  }
+
+  double TwoPopulationFlow::monotone_step() const
+  {
+    const cases::Material &m = substance.material;
+    const double heat_rate
+        = substance.largest_conductivity() * (rows.largest_row_sum + self_strength);
+    const double capacity
+        = std::min(substance.density * m.liquid.specific_heat_capacity,
+                   sites.crystal_density * m.solid.specific_heat_capacity);
+    double step = volume * capacity / heat_rate;
+    if(diffusion)
+      step = std::min(step, sites.site_mass / diffusion->row_sum());
+    return step;
+  }
+
+  long TwoPopulationFlow::work() const
+  {
+    // Both populations pass over the rows, and meet both at each neighbour.
+    std::size_t per_evaluation = 4 * rows.rows.interactions();
+    if(wall_temperature)
+      per_evaluation += 2 * wall_temperature->size();
+    return evaluations * static_cast<long>(per_evaluation) + sites.work
+           + (diffusion ? diffusion->work() : 0);
+  }
+
+  std::vector<cases::EffectCost>
+  TwoPopulationFlow::effect_costs(std::size_t per_solute) const
+  {
+    std::vector<cases::EffectCost> costs = sites.costs(effects, per_solute);
+    if(diffusion)
+      costs.push_back(diffusion->cost(0));
+    if(wall_temperature)
+      costs.push_back(wall_temperature->cost());
+    return costs;
+  }
+} // namespace meltfront::particles

@@ -1,0 +1,328 @@
+#include <cases/error.h>
+#include <cases/scene.h>
+#include <cases/stopwatch.h>
+#include <particles/alloy/two_population_flow.h>
+#include <particles/alloy/two_population_run.h>
+#include <particles/sph/careful_sum.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    /** Fewest steps of a run, so that its course can be sampled at 100 times. */
+    constexpr long fewest_steps = 200;
+
+    constexpr int samples_in_time = 257;
+
+    /**
+     * New ice that is spread over the kernel cannot be melted again where it came from:
+     * a scene in which a wall may melt ice is refused.
+     */
+    void require_freezing(const TwoPopulationParameters &parameters,
+                          const cases::Scene &scene, const AlloySubstance &substance,
+                          const MixtureState &initial)
+    {
+      if(parameters.new_ice == NewIce::site)
+        return;
+      const auto refuse = [&](const std::string &why)
+      {
+        throw cases::Refusal(
+            fmt::format("{} spreads new ice over the kernel and cannot melt it: {}",
+                        parameters.name, why));
+      };
+      for(std::size_t a = 0; a < initial.enthalpy.size(); ++a)
+      {
+        const auto content = [&](std::size_t s)
+        { return s < initial.concentration.size() ? initial.concentration[s][a] : 0.; };
+        if(substance.diagram.equilibrium(initial.enthalpy[a], content(0), content(1))
+               .liquid_fraction
+           < 1)
+          refuse("the scene holds ice at the start");
+      }
+      for(const cases::Side side : scene.sides())
+      {
+        const cases::Boundary &wall = scene.boundary(side);
+        if(wall.kind != cases::BoundaryKind::fixed_temperature || wall.value.constant)
+          continue;
+        cases::Position place = scene.domain.lower;
+        if(static_cast<int>(side) % 2 == 1)
+          place = scene.domain.upper;
+        const auto at = [&](int i)
+        {
+          return wall.value(place, scene.start_time
+                                       + (scene.end_time - scene.start_time) * i
+                                             / (samples_in_time - 1));
+        };
+        double warmest = at(0);
+        for(int i = 1; i < samples_in_time; ++i)
+        {
+          if(at(i) > warmest && at(i - 1) < scene.material.melting_temperature)
+            refuse(fmt::format("the wall {} gets warmer", cases::to_string(side)));
+          warmest = std::min(warmest, at(i));
+        }
+      }
+    }
+
+    /** One run: the sites and their advance in time. */
+    class TwoPopulationRun
+    {
+    public:
+      TwoPopulationRun(const TwoPopulationPolicy &policy, const cases::Scene &scene,
+                       const cases::EffectSet &effects,
+                       const cases::Resolution &resolution)
+        : scene(scene)
+        , parameters(resolve_two_population_parameters(policy, scene, resolution))
+        , dis(scene, parameters.sph)
+        , n(dis.particles.size())
+        , substance(scene, parameters.name)
+        , initial(dis, substance)
+        , sites(dis, substance, parameters, initial, (n + 7) / 8 * 8)
+        , flows(dis, substance, effects, parameters, sites)
+        , bounds(cases::temperature_bounds(scene))
+        , monotone(flows.monotone_step())
+        , temperature(n)
+        , solid_fraction(n)
+      {
+        require_freezing(parameters, scene, substance, initial);
+        const double duration = scene.end_time - scene.start_time;
+        steps = std::max(fewest_steps, static_cast<long>(std::ceil(
+                                           duration / longest_step() * (1 - 1e-12))));
+        step_length = duration / steps;
+        for(auto *array : {&to_liquid, &to_ice})
+          array->resize(sites.liquid.mass.size());
+        if(flows.diffuses())
+          solute_flow.resize(sites.liquid.mass.size());
+        weights = dis.weights;
+        for(const std::uint32_t a : dis.held)
+          weights[a] = 0; // holds a boundary value only
+        flows.prepare_step(scene.start_time, time_of(1));
+        flows.hold_walls(0);
+        sites.update();
+        initial_heat = sites.heat_content(dis.cross_section).initial;
+        initial_mass = sites.total_mass();
+        for(std::size_t s = 0; s < substance.n_solutes(); ++s)
+          initial_solute[s] = sites.total_of(s);
+      }
+
+      cases::Cost run(cases::Observer &observer, const cases::Stopwatch &watch)
+      {
+        const cases::Stopwatch::Seconds setup = watch.elapsed();
+        observer.begin(describe());
+        observer.observe(snapshot(0, scene.start_time));
+        cases::Stopwatch stepping;
+        for(long step = 1; step <= steps; ++step)
+        {
+          const double end = time_of(step);
+          advance(time_of(step - 1), end);
+          check(step, end);
+          if(observer.wants(step, end) || step == steps)
+            stepping.without([&] { observer.observe(snapshot(step, end)); });
+        }
+        return cost(setup, stepping.elapsed());
+      }
+
+    private:
+      double longest_step() const
+      {
+        if(parameters.as_published)
+        {
+          const cases::Material &m = scene.material;
+          const double h = dis.kernel.smoothing_length();
+          return parameters.step_factor * h * h
+                 * std::min(substance.density * m.liquid.specific_heat_capacity
+                                / m.liquid.conductivity,
+                            sites.crystal_density * m.solid.specific_heat_capacity
+                                / m.solid.conductivity);
+        }
+        if(parameters.step_factor > 1 + 1e-12)
+          throw cases::Refusal(fmt::format(
+              "a step of {:.6g} s is {:.4g} times the largest one, {:.6g} s, that keeps "
+              "the maximum principle and is certainly stable",
+              parameters.step_factor * monotone, parameters.step_factor, monotone));
+        return parameters.step_factor * monotone;
+      }
+
+      /** Time after a step; the end exactly. */
+      double time_of(long step) const
+      {
+        return step == steps ? scene.end_time : scene.start_time + step * step_length;
+      }
+
+      /** Conduction and diffusion from one state, then the change of phase. */
+      void advance(double begin, double end)
+      {
+        flows.prepare_step(begin, end);
+        const double duration = end - begin;
+        const double walls = flows.heat(to_liquid, to_ice);
+        boundary_heat.add(duration * walls / dis.cross_section);
+        if(flows.diffuses())
+        {
+          flows.follow();
+          for(std::size_t s = 0; s < substance.n_solutes(); ++s)
+          {
+            flows.solute(s, solute_flow);
+            sites.add_solute(s, solute_flow, duration);
+          }
+        }
+        sites.add_heat(to_liquid, to_ice, duration);
+        sites.change_phase();
+        flows.hold_walls(1);
+      }
+
+      /** The maximum principle, for every particle that has mass. */
+      void check(long step, double time) const
+      {
+        const double melting = scene.material.melting_temperature;
+        const double span = bounds.upper - bounds.lower;
+        const double slack = 1e-9 * (std::isfinite(span) ? span : 0);
+        const auto check_one = [&](const Population &population, const char *what)
+        {
+          for(std::size_t a = 0; a < n; ++a)
+          {
+            const double value = melting + population.excess[a];
+            if(value >= bounds.lower - slack && value <= bounds.upper + slack)
+              continue;
+            const std::string quantity
+                = fmt::format("temperature of the {} particle {} at x = {:.6g} m", what,
+                              a, dis.particles.position[0][a]);
+            throw cases::NumericalError(
+                parameters.name, step, time, quantity,
+                std::isfinite(value)
+                    ? fmt::format("is {:.9g}, beyond the initial and wall values {:.9g} "
+                                  "and {:.9g} (maximum principle)",
+                                  value, bounds.lower, bounds.upper)
+                    : "is not finite");
+          }
+        };
+        check_one(sites.liquid, "liquid");
+        check_one(sites.ice, "ice");
+      }
+
+      cases::Snapshot snapshot(long step, double time)
+      {
+        for(std::size_t a = 0; a < n; ++a)
+        {
+          const double liquid = sites.liquid.mass[a], ice = sites.ice.mass[a];
+          temperature[a] = scene.material.melting_temperature
+                           + (liquid * sites.liquid.excess[a] + ice * sites.ice.excess[a])
+                                 / (liquid + ice);
+          solid_fraction[a] = sites.is_held[a] ? 1. : std::min(ice / sites.site_mass, 1.);
+        }
+        cases::Snapshot result;
+        result.step = step;
+        result.time = time;
+        result.dimension = dis.dimension;
+        for(int d = 0; d < dis.dimension; ++d)
+          result.positions[d] = dis.particles.position[d];
+        result.weights = weights;
+        result.temperature = temperature;
+        result.solid_fraction = solid_fraction;
+        result.heat = sites.heat_content(dis.cross_section);
+        result.heat.initial = initial_heat;
+        result.heat.boundary = boundary_heat.value();
+        const double measure = dis.cross_section;
+        result.mass = {sites.total_mass() / measure, initial_mass / measure};
+        for(std::size_t s = 0; s < substance.n_solutes(); ++s)
+        {
+          result.concentration[substance.numbers[s]] = sites.concentration[s];
+          result.solute[substance.numbers[s]]
+              = {sites.total_of(s) / measure, initial_solute[s] / measure};
+        }
+        return result;
+      }
+
+      long unknowns() const
+      {
+        return static_cast<long>((n - dis.held.size()) * (4 + substance.n_solutes()));
+      }
+
+      cases::RunDescription describe() const
+      {
+        cases::RunDescription description;
+        description.dimension = dis.dimension;
+        description.spacing = dis.spacing;
+        description.smoothing_length = dis.kernel.smoothing_length();
+        description.time_step = step_length;
+        description.unknowns = unknowns();
+        description.parameters
+            = {{"kernel", kernel_names()[static_cast<std::size_t>(parameters.sph.kernel)],
+                ""},
+               {"smoothing length / spacing",
+                fmt::format("{:.6g}", parameters.sph.smoothing), "1"},
+               {"layout",
+                dis.layout == LatticeLayout::on_edge ? "particles on the edge"
+                                                     : "cell-centred",
+                ""},
+               {"sites", fmt::format("{}", n), "1"},
+               {"interactions per site",
+                fmt::format("{:.4g}", double(flows.interactions()) / n), "1"},
+               {"second moment divided out",
+                fmt::format("{:.10g}", flows.second_moment()), "1"},
+               {"exchange between ice and liquid",
+                parameters.exchange == PhaseExchange::corrected ? "corrected"
+                                                                : "as published",
+                ""},
+               {"new ice goes to",
+                parameters.new_ice == NewIce::site ? "its site" : "the kernel", ""},
+               {"latent heat",
+                parameters.constant_latent_heat ? "constant"
+                                                : "as the heat capacities demand",
+                ""},
+               {"time scheme", "explicit Euler", ""},
+               {"largest explicit step that keeps the maximum principle",
+                fmt::format("{:.6g}", monotone), "s"}};
+        return description;
+      }
+
+      cases::Cost cost(const cases::Stopwatch::Seconds &setup,
+                       const cases::Stopwatch::Seconds &stepping) const
+      {
+        cases::Cost result;
+        result.setup_wall = setup.wall;
+        result.setup_cpu = setup.cpu;
+        result.stepping_wall = stepping.wall;
+        result.stepping_cpu = stepping.cpu;
+        result.steps = steps;
+        result.unknowns = unknowns();
+        result.work = flows.work();
+        result.effects = flows.effect_costs(n * sizeof(double));
+        return result;
+      }
+
+      const cases::Scene &scene;
+      TwoPopulationParameters parameters;
+      Discretisation dis;
+      std::size_t n; ///< sites
+      AlloySubstance substance;
+      MixtureState initial;
+      Sites sites;
+      TwoPopulationFlow flows;
+      cases::TemperatureBounds bounds;
+      double monotone;
+      long steps = 0;
+      double step_length = 0;
+      std::vector<double> to_liquid, to_ice, solute_flow;
+      std::vector<double> weights, temperature, solid_fraction; ///< for snapshots
+      double initial_heat = 0, initial_mass = 0;
+      std::array<double, cases::most_solutes> initial_solute{};
+      CarefulSum boundary_heat;
+    };
+  } // namespace
+
+  cases::Cost run_two_population(const TwoPopulationPolicy &policy,
+                                 const cases::Scene &scene,
+                                 const cases::EffectSet &effects,
+                                 const cases::Resolution &resolution,
+                                 cases::Observer &observer)
+  {
+    const cases::Stopwatch setup;
+    TwoPopulationRun run(policy, scene, effects, resolution);
+    return run.run(observer, setup);
+  }
+} // namespace meltfront::particles
