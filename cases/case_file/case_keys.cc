@@ -186,13 +186,19 @@ namespace meltfront::cases
       prm.declare(
           exact,
           word("kind", "none",
-               {"none", "neumann", "line sink", "point sink", "frank", "oracle"},
+               {"none", "neumann", "line sink", "point sink", "frank", "mushy layer",
+                "oracle"},
                "The solution that is known; oracle: a spectral solution of the scene."));
       prm.declare(exact, number("wall temperature", "", "K",
                                 "Of neumann; that of the wall x_min where not given."));
       prm.declare(exact, number("far temperature", "", "K",
                                 "Far from the wall or the sink; the initial temperature "
                                 "where not given."));
+      for(const std::string which : {"", "second "})
+        prm.declare(exact, number("far " + which + "concentration", "", "",
+                                  "Mass fraction of a solute far from the wall, of a "
+                                  "mushy layer; the initial one where that is given.",
+                                  0, 1));
       prm.declare(exact, number("lambda", "", "", "Front constant of a sink's solution.",
                                 above_zero));
       prm.declare(

@@ -1,7 +1,9 @@
+#include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/exact_reader.h>
 #include <cases/exact/flux_freezing.h>
 #include <cases/exact/frank.h>
 #include <cases/exact/line_sink.h>
+#include <cases/exact/mushy_layer.h>
 #include <cases/exact/oracle.h>
 #include <cases/exact/planar_neumann.h>
 #include <cases/exact/point_sink.h>
@@ -110,6 +112,54 @@ namespace meltfront::cases
                  [sink](double time) { return -sink->energy(time); }};
       }
       check_symmetry(prm, scene, *known.solution, key);
+      return known;
+    }
+
+    constexpr const char *far_concentrations[]
+        = {"far concentration", "far second concentration"};
+
+    /** What the melt holds far from the wall: what it holds at the start, or as given
+     * where the start is the exact solution's. */
+    std::vector<double> far_concentration(const PrmFile &prm, const Scene &scene)
+    {
+      std::vector<double> result;
+      for(std::size_t s = 0; s < scene.alloy->solutes.size(); ++s)
+      {
+        const char *key = far_concentrations[s];
+        if(scene.initial.concentration.empty())
+        {
+          prm.require(exact_keys, key, "the mushy layer freezes from a melt");
+          result.push_back(prm.get_number(exact_keys, key));
+          continue;
+        }
+        prm.forbid(exact_keys, key, "the initial state says it");
+        const Field &initial = scene.initial.concentration[s];
+        if(!initial.constant)
+          throw prm.error("Scene/Initial state", concentration_key(s),
+                          "must be the same everywhere for a mushy layer to be the exact "
+                          "solution");
+        result.push_back(initial({}, scene.start_time));
+      }
+      return result;
+    }
+
+    KnownSolution mushy_layer(const PrmFile &prm, const Scene &scene)
+    {
+      if(!scene.alloy)
+        throw prm.error(exact_keys, "kind",
+                        "cannot be 'mushy layer' for a pure substance: there is no "
+                        "subsection 'Scene/Material/Solute 1'");
+      prm.forbid(exact_keys, "lambda", "it is a key of the solutions of sinks");
+      const auto layer = construct<MushyLayer>(
+          prm, scene.material, *scene.alloy, far_concentration(prm, scene),
+          wall_temperature(prm, scene), far_temperature(prm, scene));
+      check_symmetry(prm, scene, *layer, "kind");
+      KnownSolution known;
+      known.solution = layer;
+      for(std::size_t s = 0; s < scene.alloy->solutes.size(); ++s)
+        known.concentration.push_back(
+            {"exact", [layer, s](const Position &p, double time)
+             { return layer->concentration(s, coordinate(Symmetry::planar, p), time); }});
       return known;
     }
 
@@ -256,19 +306,25 @@ namespace meltfront::cases
     if(kind != "oracle")
       for(const char *key : {"start", "start time", "initial front"})
         prm.forbid(exact_keys, key, "it is a key of the oracle");
-    if(scene.alloy && kind != "none")
-      throw prm.error(exact_keys, "kind",
-                      fmt::format("cannot be '{}' for an alloy", kind));
+    if(kind != "mushy layer")
+    {
+      if(scene.alloy && kind != "none")
+        throw prm.error(exact_keys, "kind",
+                        fmt::format("cannot be '{}' for an alloy; what is known of one "
+                                    "is 'mushy layer'",
+                                    kind));
+      for(const char *key : far_concentrations)
+        prm.forbid(exact_keys, key, "it is a key of the mushy layer");
+    }
     if(kind == "none")
     {
       for(const char *key : {"wall temperature", "far temperature", "lambda"})
         prm.forbid(exact_keys, key, "there is no exact solution");
       return {};
     }
-    KnownSolution (*const build)(const PrmFile &, const Scene &)
-        = kind == "oracle" ? oracle : [](const PrmFile &file, const Scene &s) {
-            return closed_form(file, s, "kind");
-          };
-    return build(prm, scene);
+    if(kind == "oracle")
+      return oracle(prm, scene);
+    return kind == "mushy layer" ? mushy_layer(prm, scene)
+                                 : closed_form(prm, scene, "kind");
   }
 } // namespace meltfront::cases

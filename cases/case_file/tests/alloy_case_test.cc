@@ -224,7 +224,8 @@ TEST(AlloyCase, MaterialsEffectsAndMeasuresThatCannotBe)
       "key 'eutectic temperature' in subsection 'Scene/Material/Alloy' (0) must "
       "lie below the melting temperature of the solvent (0)");
   EXPECT_EQ(about(salty + "subsection Exact solution\n  set kind = neumann\nend\n"),
-            "key 'kind' in subsection 'Exact solution' cannot be 'neumann' for an alloy");
+            "key 'kind' in subsection 'Exact solution' cannot be 'neumann' for an alloy; "
+            "what is known of one is 'mushy layer'");
   const auto on = [](const std::string &effect)
   { return fmt::format("subsection Effects\n  set {} = on\nend\n", effect); };
   EXPECT_EQ(about(slab + on("solute")),
@@ -244,4 +245,73 @@ TEST(AlloyCase, MaterialsEffectsAndMeasuresThatCannotBe)
   EXPECT_EQ(about(salty + zero("-10")),
             "key 'absolute zero' in subsection 'Measure' (-10) must lie below every "
             "temperature of the scene, which may fall to -10");
+}
+
+namespace
+{
+  const std::string layer = "subsection Exact solution\n  set kind = mushy layer\n";
+
+  std::string with_exact_wall(const std::string &text)
+  {
+    return replaced(text, "set kind = insulated", "set kind = exact");
+  }
+} // namespace
+
+TEST(AlloyCase, AMushyLayerIsTheExactSolution)
+{
+  const Case c = read(with_exact_wall(alloy(solute(1, "40"), eighth)) + layer + "end\n");
+  ASSERT_TRUE(c.exact && c.exact->mushy());
+  EXPECT_NEAR(c.exact->temperature(c.exact->front(50), 50), -5, 1e-12);
+  EXPECT_EQ(c.exact->concentration(0.01, 50), 0.125);
+  EXPECT_EQ(c.scene.boundary(Side::x_max).value({0.1, 0, 0}, 50),
+            c.exact->temperature(0.1, 50));
+}
+
+TEST(AlloyCase, AnExactStateHoldsItsConcentrations)
+{
+  std::string text = alloy(solute(1, "20") + solute(2, "30"), "");
+  text = replaced(text, "set temperature = 10\n", "set kind = exact\n");
+  text
+      = replaced(text, "set end time = 100", "set start time = 10\n  set end time = 100");
+  const std::string far = "  set far temperature = 10\n  set far concentration = 0.1\n";
+  const Case c = read(with_exact_wall(text) + layer + far
+                      + "  set far second concentration = 0.1\nend\n");
+  ASSERT_EQ(c.scene.initial.concentration.size(), 2u);
+  EXPECT_EQ(c.scene.initial.concentration[1]({0.001, 0, 0}, 10), 0.1);
+  EXPECT_FALSE(c.scene.initial.front.has_value()) << "a mush has no sharp front";
+  EXPECT_TRUE(effects_called_for(c.scene).contains(Effect::solute));
+  EXPECT_NEAR(c.exact->temperature(c.exact->front(50), 50), -5, 1e-12);
+  EXPECT_EQ(about(with_exact_wall(text) + layer + far + "end\n"),
+            "key 'far second concentration' in subsection 'Exact solution' is missing: "
+            "the mushy layer freezes from a melt");
+}
+
+TEST(AlloyCase, MushyLayersThatCannotBe)
+{
+  const std::string salty = with_exact_wall(alloy(solute(1, "40"), eighth));
+  const auto about_layer = [&salty](const std::string &keys)
+  { return about(salty + layer + keys + "end\n"); };
+  const auto of = [](const std::string &key)
+  { return fmt::format("key '{}' in subsection 'Exact solution' ", key); };
+  EXPECT_EQ(about_layer("  set far concentration = 0.1\n"),
+            of("far concentration") + "has no meaning here: the initial state says it");
+  EXPECT_EQ(
+      about_layer("  set far temperature = -6\n"),
+      of("kind")
+          + "gives no solution: mushy layer: the far temperature (-6) must be above "
+            "the liquidus (-5)");
+  EXPECT_EQ(about(with_exact_wall(slab) + layer + "end\n"),
+            of("kind")
+                + "cannot be 'mushy layer' for a pure substance: there is no subsection "
+                  "'Scene/Material/Solute 1'");
+  EXPECT_EQ(
+      about(with_exact_wall(alloy(solute(1, "40"), "    set concentration = 0.1 + x\n"))
+            + layer + "end\n"),
+      "key 'concentration' in subsection 'Scene/Initial state' must be the same "
+      "everywhere for a mushy layer to be the exact solution");
+  EXPECT_EQ(about(slab
+                  + "subsection Exact solution\n  set far concentration = "
+                    "0.1\nend\n"),
+            of("far concentration")
+                + "has no meaning here: it is a key of the mushy layer");
 }

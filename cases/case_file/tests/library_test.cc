@@ -73,7 +73,15 @@ TEST(Library, HoldsTheCasesThatOthersRelyOn)
                           "annulus",
                           "annulus-perturbed",
                           "merging-disks",
-                          "bar-flux"})
+                          "bar-flux",
+                          "alloy-sodium-nitrate",
+                          "alloy-sodium-nitrate-diffusion",
+                          "alloy-unit",
+                          "alloy-melt-back",
+                          "alloy-ternary",
+                          "alloy-random",
+                          "alloy-random-mush",
+                          "alloy-eutectic"})
     EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
 }
 
@@ -113,6 +121,8 @@ TEST(Library, ExactFrontsEndWhereTheyAreKnownTo)
   for(const auto &[name, front] : fronts)
     EXPECT_NEAR(front_at_end(name), front, 1e-12 * front) << name;
   EXPECT_NEAR(front_at_end("plane-freezing-2005"), 0.2383275, 1e-7);
+  EXPECT_NEAR(front_at_end("alloy-sodium-nitrate"), 0.094403793, 1e-9);
+  EXPECT_EQ(front_at_end("alloy-ternary"), front_at_end("alloy-sodium-nitrate"));
   EXPECT_NEAR(front_at_end("bar-flux"), 0.452097059863568, 1e-12);
   EXPECT_NEAR(front_at_end("annulus"), 0.632047368850, 1e-10);
 }
@@ -199,6 +209,20 @@ TEST(Library, ScenesCallForTheEffectsThatTheyShow)
   EXPECT_EQ(effects_of("annulus"), contrast);
   EXPECT_EQ(effects_of("annulus-perturbed"), contrast);
   EXPECT_EQ(effects_of("merging-disks"), (std::set{phase_change, heat_sources}));
+  std::set<Effect> brine = contrast;
+  brine.insert(solute);
+  EXPECT_EQ(effects_of("alloy-sodium-nitrate"), brine);
+  EXPECT_EQ(effects_of("alloy-ternary"), brine);
+  EXPECT_EQ(effects_of("alloy-melt-back"), brine);
+  EXPECT_EQ(effects_of("alloy-unit"), (std::set{phase_change, wall_temperature, solute}));
+  brine.insert(eutectic);
+  EXPECT_EQ(effects_of("alloy-eutectic"), brine);
+  brine.erase(eutectic);
+  brine.insert(solute_diffusion);
+  EXPECT_EQ(effects_of("alloy-sodium-nitrate-diffusion"), brine);
+  brine.erase(wall_temperature);
+  EXPECT_EQ(effects_of("alloy-random"), brine);
+  EXPECT_EQ(effects_of("alloy-random-mush"), brine);
   EXPECT_EQ(effects_of("bar-flux"),
             (std::set{phase_change, phase_conductivity, phase_heat_capacity, wall_flux}));
 }
