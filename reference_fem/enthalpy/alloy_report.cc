@@ -11,7 +11,7 @@ namespace meltfront::reference_fem
   {
     constexpr double round_off = 1e-13;
     for(const Substance &substance : substances)
-      for(const double value : substance.next)
+      for(const double value : substance.in_use())
         if(!(value >= -round_off))
           return false;
     return true;
@@ -57,14 +57,8 @@ namespace meltfront::reference_fem
     case Effect::solute_diffusion:
       return diffusion ? diffusion->cost() : cases::EffectCost{effect};
     case Effect::phase_conductivity:
-      if(mixed)
-        return cases::EffectCost{
-            effect, all_passes,
-            static_cast<long>((3 * mixed->now.size() + mixed->matrix.entries())
-                                  * sizeof(double)
-                              + mixed->matrix.column.size() * sizeof(unsigned int)
-                              + mixed->matrix.row_start.size() * sizeof(std::size_t))};
-      return {};
+      return cases::EffectCost{effect, solute_cost.calls,
+                               conduction ? conduction->bytes() : 0};
     default:
       return {};
     }

@@ -20,11 +20,6 @@ namespace meltfront::reference_fem
     /** Less liquid than this share of a node's mass is round-off. */
     constexpr double least_liquid = 1e-14;
 
-    double arithmetic_mean(double a, double b)
-    {
-      return (a + b) / 2;
-    }
-
     template <typename Value>
     long bytes_of(const std::vector<Value> &values)
     {
@@ -58,12 +53,11 @@ namespace meltfront::reference_fem
     , mesh(mesh)
     , free(free)
     , graph(scene.material, *scene.alloy)
-    , diagram(scene.material, *scene.alloy)
     , density(scene.material.solid.density)
     , depression(mesh.volume.size())
   {
     const std::size_t n = mesh.volume.size();
-    if(!diagram.straight())
+    if(!cases::PhaseDiagram(scene.material, *scene.alloy).straight())
       throw cases::Refusal("fem-enthalpy simulates alloys with straight liquidus lines "
                            "only");
     if(!(scene.material.latent_heat > 0))
@@ -73,18 +67,20 @@ namespace meltfront::reference_fem
       const cases::ScopedTimer timer(solute_cost.seconds);
       place_solutes();
       mix_depression();
-      liquid.mass_fraction.resize(n);
-      liquid.volume_fraction.resize(n);
-      solute_cost.bytes = bytes_of(depression) + 2 * bytes_of(liquid.mass_fraction);
+      solute_cost.bytes = bytes_of(depression);
       for(const Substance &substance : substances)
-        solute_cost.bytes += 3 * bytes_of(substance.now) + bytes_of(mesh.node_of_site);
+        solute_cost.bytes
+            += bytes_of(substance.now) + bytes_of(substance.before)
+               + bytes_of(substance.next)
+               + static_cast<long>(mesh.node_of_site.size() * sizeof(double));
     }
     if(effects.contains(Effect::phase_conductivity))
-      mixed.emplace(Mixed{std::vector<double>(n), {}, {}, mesh.conduction});
+      conduction.emplace(mesh.conduction, scene.material, *scene.alloy, depression);
     if(std::any_of(substances.begin(), substances.end(),
-                   [](const Substance &s) { return s.diffusivity > 0; }))
+                   [](const Substance &s) { return s.diffuses(); }))
     {
       diffusion.emplace(mesh, density, make_linear_solver);
+      liquid.resize(n);
       supply.resize(n);
       fixed.resize(n);
     }
@@ -116,7 +112,8 @@ namespace meltfront::reference_fem
               solute.name, position[0], position[1], position[2], value));
         substance.now.push_back(value);
       }
-      substance.before = substance.next = substance.now;
+      if(substance.diffuses())
+        substance.before = substance.next = substance.now;
       substance.initial_mass = mass_of(substance);
     }
   }
@@ -132,7 +129,7 @@ namespace meltfront::reference_fem
     std::fill(depression.begin(), depression.end(), 0.);
     for(const Substance &substance : substances)
       for(std::size_t i = 0; i < depression.size(); ++i)
-        depression[i] += substance.slope * std::max(substance.next[i], 0.);
+        depression[i] += substance.slope * std::max(substance.in_use()[i], 0.);
   }
 
   std::vector<double> AlloySolver::initial_enthalpy() const
@@ -154,32 +151,11 @@ namespace meltfront::reference_fem
   {
     step = formula;
     last_enthalpy = &enthalpy;
-    if(diffusion)
-      for(Substance &substance : substances)
+    for(Substance &substance : substances)
+      if(substance.diffuses())
         for(std::size_t i = 0; i < substance.next.size(); ++i)
           substance.next[i]
               = std::max(extrapolate(step, substance.now[i], substance.before[i]), 0.);
-    if(!mixed)
-      return;
-    if(mixed->before.empty())
-    {
-      for(std::size_t i = 0; i < enthalpy.size(); ++i)
-        mixed->now[i] = diagram.conductivity(1 - state(i, enthalpy[i]).liquid_fraction);
-      mixed->before = mixed->next = mixed->now;
-    }
-    const auto [least, most] = std::minmax(scene.material.solid.conductivity,
-                                           scene.material.liquid.conductivity);
-    for(std::size_t i = 0; i < enthalpy.size(); ++i)
-      mixed->next[i]
-          = std::clamp(extrapolate(step, mixed->now[i], mixed->before[i]), least, most);
-  }
-
-  void AlloySolver::mix_conductivities()
-  {
-    if(!mixed)
-      return;
-    mixed->matrix.weigh(mesh.conduction, mixed->next, arithmetic_mean);
-    linear_solver->conductances_changed();
   }
 
   double AlloySolver::enthalpy_at(std::size_t node, double excess, double last) const
@@ -200,30 +176,26 @@ namespace meltfront::reference_fem
   /** The liquid that a pass leaves. */
   void AlloySolver::melt(const CompensatedVector &u, const std::vector<double> &heat)
   {
-    const cases::ScopedTimer timer(solute_cost.seconds);
-    ++solute_cost.calls;
     for(std::size_t i = 0; i < u.size(); ++i)
     {
       const double enthalpy = free[i] ? heat[i] / mesh.volume[i]
                                       : enthalpy_at(i, u[i], (*last_enthalpy)[i]);
       const double f = graph.state(enthalpy, depression[i]).liquid_fraction;
-      liquid.mass_fraction[i] = f > least_liquid ? f : 0;
-      liquid.volume_fraction[i]
-          = f > least_liquid ? 1 - diagram.volume_fraction(1 - f) : 0;
+      liquid[i] = f > least_liquid ? f : 0;
     }
   }
 
-  /** Returns the largest relative change. */
-  double AlloySolver::renew_conductivities()
+  /** Take the conductances of the temperatures where they have changed, or are the first
+   * of a step; returns whether they have changed. */
+  bool AlloySolver::renew_conduction(const CompensatedVector &u, bool first)
   {
-    double change = 0;
-    for(std::size_t i = 0; i < mixed->next.size(); ++i)
+    const bool changed = conduction->renew(u) > coupling_tolerance;
+    if(first || changed)
     {
-      const double value = diagram.conductivity(1 - liquid.mass_fraction[i]);
-      change = std::max(change, std::abs(value - mixed->next[i]) / value);
-      mixed->next[i] = value;
+      conduction->adopt();
+      linear_solver->conductances_changed();
     }
-    return change;
+    return changed;
   }
 
   /** Solute spreads in the liquid that there is; returns the largest change of the
@@ -233,14 +205,14 @@ namespace meltfront::reference_fem
     diffusion->set_liquid(liquid);
     for(Substance &substance : substances)
     {
-      if(!(substance.diffusivity > 0))
+      if(!substance.diffuses())
         continue;
       for(std::size_t i = 0; i < supply.size(); ++i)
       {
         supply[i] = density * mesh.volume[i]
                     * step.combine(substance.now[i], substance.before[i]);
         const double whole = graph.eutectic_liquid_fraction(depression[i]);
-        fixed[i] = substance.next[i] * std::max(1 - liquid.mass_fraction[i] / whole, 0.);
+        fixed[i] = liquid[i] < whole ? substance.next[i] * (1 - liquid[i] / whole) : 0;
       }
       diffusion->step(c, substance.diffusivity, supply, fixed, substance.next);
     }
@@ -263,38 +235,36 @@ namespace meltfront::reference_fem
     StepOutcome result;
     if(diffusion)
       mix_depression();
+    if(conduction)
+      renew_conduction(u, true);
     for(int pass = 0; pass < most_passes && !result.converged; ++pass)
     {
-      mix_conductivities();
       const StepOutcome outcome = newton->solve(c, rhs, iteration_limit, u, heat);
       all_iterations += outcome.iterations;
-      ++all_passes;
+      ++solute_cost.calls;
       result.iterations = std::max(result.iterations, outcome.iterations);
       result.graph_inconsistency = outcome.graph_inconsistency;
       if(!outcome.converged)
         return result;
-      melt(u, heat);
-      double change = 0;
-      if(mixed)
-        change = renew_conductivities();
+      result.converged = true;
       if(diffusion)
-        change = std::max(change, diffuse(c));
-      result.converged = change <= coupling_tolerance;
+      {
+        melt(u, heat);
+        result.converged = diffuse(c) <= coupling_tolerance;
+      }
+      if(conduction && renew_conduction(u, false))
+        result.converged = false;
     }
     return result;
   }
 
   void AlloySolver::accept()
   {
-    const auto shift = [](auto &history)
-    {
-      history.before.swap(history.now);
-      history.now = history.next;
-    };
-    if(diffusion)
-      for(Substance &substance : substances)
-        shift(substance);
-    if(mixed)
-      shift(*mixed);
+    for(Substance &substance : substances)
+      if(substance.diffuses())
+      {
+        substance.before.swap(substance.now);
+        substance.now = substance.next;
+      }
   }
 } // namespace meltfront::reference_fem

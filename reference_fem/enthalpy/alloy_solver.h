@@ -3,6 +3,7 @@
 
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/mesh.h>
+#include <reference_fem/enthalpy/mush_conduction.h>
 #include <reference_fem/enthalpy/mush_newton.h>
 #include <reference_fem/enthalpy/solute_diffusion.h>
 #include <reference_fem/enthalpy/time_scheme.h>
@@ -16,14 +17,12 @@ namespace meltfront::reference_fem
   /**
    * The effects solute, solute_diffusion and eutectic: heat and solutes of an alloy in
    * local equilibrium. The unknown is t = T - T_m itself, since no variable of
-   * Kirchhoff's is common to nodes of different composition; a cell conducts with the
-   * mean of its nodes' conductivities theta k_s + (1 - theta) k_l.
+   * Kirchhoff's is common to nodes of different composition (see MushConduction).
    *
    * A step is coupled by passes: heat with given conductivities and composition
-   * (MushNewton), then the conductivities and the liquid that this leaves, then solute in
-   * that liquid (SoluteDiffusion), until nothing changes any more. What they start from
-   * is extrapolated from the last two steps. The step is thereby implicit in everything,
-   * and of the time scheme's order.
+   * (MushNewton), then solute in the liquid that this leaves (SoluteDiffusion), until
+   * nothing changes any more, starting from what the last two steps extrapolate to. The
+   * step is thereby implicit in everything, and of the time scheme's order.
    */
   class AlloySolver : public NonlinearSolver
   {
@@ -78,7 +77,7 @@ namespace meltfront::reference_fem
     /** The stiffness matrix with the conductivities of the last pass. */
     const ConductionMatrix &conduction_matrix() const
     {
-      return mixed ? mixed->matrix : mesh.conduction;
+      return conduction ? conduction->matrix() : mesh.conduction;
     }
 
     /**
@@ -95,14 +94,10 @@ namespace meltfront::reference_fem
     long work() const override;
     GraphCost graph_cost() const override;
 
-    /** Newton's iterations and passes since the start. */
+    /** Newton's iterations since the start. */
     long iterations() const
     {
       return all_iterations;
-    }
-    long passes() const
-    {
-      return all_passes;
     }
 
     /** What an effect cost, of those that are simulated here. */
@@ -114,22 +109,24 @@ namespace meltfront::reference_fem
       std::size_t index; ///< in the alloy
       double slope;      ///< of the liquidus (K)
       double diffusivity;
-      std::vector<double> now, before, next; ///< C by node
+      std::vector<double> now;          ///< C by node
+      std::vector<double> before, next; ///< the same, empty if it does not diffuse
       double initial_mass;
       std::vector<double> at_sites;
-    };
 
-    /** Conductivities that are mixed from both phases'. */
-    struct Mixed
-    {
-      std::vector<double> now, before, next; ///< by node
-      ConductionMatrix matrix;
+      bool diffuses() const
+      {
+        return diffusivity > 0;
+      }
+      const std::vector<double> &in_use() const
+      {
+        return diffuses() ? next : now;
+      }
     };
 
     void place_solutes();
     void mix_depression();
-    void mix_conductivities();
-    double renew_conductivities();
+    bool renew_conduction(const CompensatedVector &u, bool first);
     double diffuse(double c);
     void melt(const CompensatedVector &u, const std::vector<double> &heat);
     double mass_of(const Substance &substance) const;
@@ -138,19 +135,18 @@ namespace meltfront::reference_fem
     const Discretization &mesh;
     const std::vector<char> &free;
     MushGraph graph;
-    cases::PhaseDiagram diagram;
     double density;
     std::vector<Substance> substances;
-    std::vector<double> depression; ///< by node, of the composition in use (K)
-    LiquidState liquid;
-    std::optional<Mixed> mixed;
+    std::vector<double> depression;           ///< by node, of the composition in use (K)
+    std::optional<MushConduction> conduction; ///< where the phases conduct differently
     std::optional<SoluteDiffusion> diffusion;
+    std::vector<double> liquid;        ///< mass fraction by node, where solute diffuses
     std::vector<double> supply, fixed; ///< work space of diffusion
     std::unique_ptr<LinearSolver> linear_solver;
     std::unique_ptr<MushNewton> newton;
     StepFormula step;
     const std::vector<double> *last_enthalpy = nullptr;
-    long all_iterations = 0, all_passes = 0;
+    long all_iterations = 0;
     cases::EffectCost solute_cost{cases::Effect::solute};
   };
 

@@ -31,16 +31,16 @@ namespace meltfront::reference_fem
         + mesh.volume.size() * (5 * sizeof(double) + sizeof(std::size_t) + sizeof(char)));
   }
 
-  void SoluteDiffusion::set_liquid(const LiquidState &liquid)
+  void SoluteDiffusion::set_liquid(const std::vector<double> &mass_fraction)
   {
     const cases::ScopedTimer timer(effect_cost.seconds);
-    network.weigh(mesh.conduction, liquid.volume_fraction,
+    network.weigh(mesh.conduction, mass_fraction,
                   [this](double a, double b) { return density * harmonic_mean(a, b); });
     linear_solver->conductances_changed();
     for(std::size_t i = 0; i < active.size(); ++i)
     {
-      active[i] = liquid.mass_fraction[i] > 0;
-      liquid_mass[i] = density * mesh.volume[i] * liquid.mass_fraction[i];
+      active[i] = mass_fraction[i] > 0;
+      liquid_mass[i] = density * mesh.volume[i] * mass_fraction[i];
     }
   }
 

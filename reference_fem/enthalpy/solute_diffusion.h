@@ -15,21 +15,15 @@ namespace meltfront::reference_fem
   using LinearSolverMaker
       = std::function<std::unique_ptr<LinearSolver>(const ConductionMatrix &)>;
 
-  /** The liquid's share of what is at each node; both zero where there is none. */
-  struct LiquidState
-  {
-    std::vector<double> mass_fraction, volume_fraction;
-  };
-
   /**
    * The effect solute_diffusion: solute that spreads in the liquid of every site,
    *
-   *   d(rho C)/dt = div(theta_l rho D grad C_l),   C = f C_l + C_fixed,
+   *   d(rho C)/dt = div(f rho D grad C_l),   C = f C_l + C_fixed,
    *
    * C the mass fraction of all that is at a node, C_l that of its liquid, f the liquid's
-   * mass fraction, theta_l its volume fraction and C_fixed what eutectic solid holds.
-   * With lumped masses and theta_l averaged harmonically between neighbours (no solute
-   * passes a solid node), an implicit step is
+   * mass fraction and C_fixed what eutectic solid holds. With lumped masses and f
+   * averaged harmonically between neighbours (no solute passes a solid node), an implicit
+   * step is
    *
    *   m_i f_i C_l,i + c D sum_j g_ij (C_l,i - C_l,j) = supply_i - m_i C_fixed,i .
    *
@@ -43,8 +37,8 @@ namespace meltfront::reference_fem
     SoluteDiffusion(const Discretization &mesh, double density,
                     const LinearSolverMaker &make_linear_solver);
 
-    /** State the liquid in which solute spreads. */
-    void set_liquid(const LiquidState &liquid);
+    /** State f by node, zero where there is no liquid. */
+    void set_liquid(const std::vector<double> &mass_fraction);
 
     /**
      * Make a step.
@@ -68,7 +62,7 @@ namespace meltfront::reference_fem
   private:
     const Discretization &mesh;
     double density;
-    ConductionMatrix network; ///< theta_l rho g_ij
+    ConductionMatrix network; ///< f rho g_ij
     std::unique_ptr<LinearSolver> linear_solver;
     std::vector<char> active; ///< there is liquid
     std::vector<double> liquid_mass, in_liquid, residual, change;
