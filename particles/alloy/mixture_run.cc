@@ -34,7 +34,7 @@ namespace meltfront::particles
         , initial(dis, substance)
         , flows(dis, substance, effects, parameters, initial.uniform())
         , size(flows.padded_size())
-        , bounds(cases::temperature_bounds(scene))
+        , bounds(initial.bounds(scene, substance))
         , particle_mass(dis.particle_volume * substance.density)
         , plan(plan_steps(parameters.sph, scene, flows.monotone_step(particle_mass),
                           dis.kernel.smoothing_length()))

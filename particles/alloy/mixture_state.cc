@@ -81,6 +81,30 @@ namespace meltfront::particles
     }
   }
 
+  cases::TemperatureBounds MixtureState::bounds(const cases::Scene &scene,
+                                                const AlloySubstance &substance) const
+  {
+    cases::TemperatureBounds result = cases::temperature_bounds(scene);
+    if(!substance.diffuses())
+      return result;
+    double highest[cases::most_solutes] = {};
+    for(std::size_t a = 0; a < enthalpy.size(); ++a)
+    {
+      double content[cases::most_solutes] = {};
+      for(std::size_t s = 0; s < concentration.size(); ++s)
+        content[s] = concentration[s][a];
+      const double liquid
+          = substance.diagram.equilibrium(enthalpy[a], content[0], content[1])
+                .liquid_fraction;
+      for(std::size_t s = 0; s < concentration.size() && liquid > 0; ++s)
+        highest[s] = std::max(highest[s], content[s] / liquid);
+    }
+    result.lower = std::min(result.lower,
+                            std::max(substance.diagram.liquidus(highest[0], highest[1]),
+                                     substance.alloy.eutectic_temperature));
+    return result;
+  }
+
   bool MixtureState::uniform() const
   {
     return std::all_of(concentration.begin(), concentration.end(),

@@ -18,6 +18,14 @@ namespace meltfront::particles
     std::vector<double> enthalpy;                   ///< J/kg
     std::vector<std::vector<double>> concentration; ///< one array per solute
 
+    /**
+     * Bounds on the temperature. Where solute diffuses, brine that gets saltier melts ice
+     * and cools: the lower bound then reaches down to the liquidus (or the eutectic
+     * temperature) of the highest concentrations in the liquid.
+     */
+    cases::TemperatureBounds bounds(const cases::Scene &scene,
+                                    const AlloySubstance &substance) const;
+
     /** All particles have the same concentrations. */
     bool uniform() const;
   };

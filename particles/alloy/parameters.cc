@@ -13,11 +13,13 @@ namespace meltfront::particles
     int resolve_dimension(const std::string &method, const cases::Scene &scene,
                           long wanted, int of_slab)
     {
-      if(scene.domain.shape != cases::DomainShape::slab
-         && scene.domain.shape != cases::DomainShape::box
-         && scene.domain.shape != cases::DomainShape::ball)
-        throw cases::Refusal(
-            fmt::format("{} simulates slabs, boxes and balls only", method));
+      if(scene.domain.shape == cases::DomainShape::shell
+         || (scene.domain.outline
+             && scene.boundary(cases::Side::outer).kind
+                    != cases::BoundaryKind::insulated))
+        throw cases::Refusal(fmt::format(
+            "{} simulates slabs, boxes, balls and what an insulated outline bounds",
+            method));
       if(scene.domain.shape == cases::DomainShape::slab)
         return wanted > 0 ? static_cast<int>(wanted) : of_slab;
       if(wanted > 0 && wanted != scene.domain.dimension)

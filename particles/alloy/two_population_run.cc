@@ -84,7 +84,7 @@ namespace meltfront::particles
         , initial(dis, substance)
         , sites(dis, substance, parameters, initial, (n + 7) / 8 * 8)
         , flows(dis, substance, effects, parameters, sites)
-        , bounds(cases::temperature_bounds(scene))
+        , bounds(initial.bounds(scene, substance))
         , monotone(flows.monotone_step())
         , temperature(n)
         , solid_fraction(n)

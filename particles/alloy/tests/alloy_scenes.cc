@@ -60,20 +60,32 @@ namespace meltfront::particles::testing
 
   namespace
   {
-    /** Entropy of heat and of mixing (J/K), temperatures in degrees Celsius. */
-    double entropy(const Snapshot &s, const Scene &scene)
+    /** Entropy of heat and of the change of phase (J/K per area), degrees Celsius. */
+    double entropy(const Snapshot &s, const Material &m)
     {
-      const Material &m = scene.material;
       double sum = 0;
       for(std::size_t i = 0; i < s.weights.size(); ++i)
       {
-        const double mass = s.weights[i] * m.solid.density;
         const double liquid = 1 - s.solid_fraction[i];
-        sum += mass * m.liquid.specific_heat_capacity * liquid
-               * std::log(s.temperature[i] + 273.15);
-        sum += mass * m.solid.specific_heat_capacity * s.solid_fraction[i]
-               * std::log(s.temperature[i] + 273.15);
-        sum += mass * liquid * m.latent_heat / 273.15;
+        const double capacity = liquid * m.liquid.specific_heat_capacity
+                                + s.solid_fraction[i] * m.solid.specific_heat_capacity;
+        sum += s.weights[i] * m.solid.density
+               * (capacity * std::log((s.temperature[i] + 273.15) / 273.15)
+                  + liquid * m.latent_heat / 273.15);
+      }
+      return sum;
+    }
+
+    /** -sum m_l [C ln C + (1 - C) ln(1 - C)] of the first solute in the liquid. */
+    double mixing_entropy(const Snapshot &s, const Material &m)
+    {
+      double sum = 0;
+      for(std::size_t i = 0; i < s.concentration[0].size(); ++i)
+      {
+        const double liquid = 1 - s.solid_fraction[i];
+        const double c = s.concentration[0][i] / liquid;
+        sum -= s.weights[i] * m.solid.density * liquid
+               * (c * std::log(c) + (1 - c) * std::log(1 - c));
       }
       return sum;
     }
@@ -126,7 +138,9 @@ namespace meltfront::particles::testing
         outcome.heat = s.heat;
         outcome.times.push_back(s.time);
         outcome.solids.push_back(outcome.solid);
-        outcome.entropies.push_back(entropy(s, scene));
+        outcome.entropies.push_back(entropy(s, scene.material));
+        if(!s.concentration[0].empty())
+          outcome.mixing_entropies.push_back(mixing_entropy(s, scene.material));
       }
 
     private:

@@ -42,7 +42,9 @@ namespace meltfront::particles::testing
     cases::HeatBudget heat;         ///< at the end
     cases::RunDescription description;
     cases::Cost cost;
-    std::vector<double> times, solids, entropies; ///< of all snapshots
+    std::vector<double> times, solids; ///< of all snapshots
+    std::vector<double> entropies;     ///< of heat and the change of phase
+    std::vector<double> mixing_entropies;
   };
 
   /** Run a method, looking at every `every`-th step. */
