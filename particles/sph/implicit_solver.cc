@@ -41,14 +41,14 @@ namespace meltfront::particles
   {
     heat_flow.follow(enthalpy);
     wall_flow = heat_flow.evaluate(enthalpy, equation.fraction, flow);
-    double largest = 0;
+    double largest = 0, zero = 0;
     for(std::size_t a = 0; a < equation.base.size(); ++a)
     {
       residual[a] = equation.base[a] + equation.factor * flow[a] - enthalpy[a];
-      // Written so that a value that is not a number is the largest.
-      largest = std::abs(residual[a]) <= largest ? largest : std::abs(residual[a]);
+      largest = std::max(largest, std::abs(residual[a]));
+      zero += 0 * residual[a]; // not a number if the residual is not finite
     }
-    return largest;
+    return largest + zero;
   }
 
   double ImplicitSolver::tolerance(const ImplicitEquation &equation,
@@ -104,10 +104,13 @@ namespace meltfront::particles
          || !std::isfinite(size))
         break;
       ++outcome.iterations;
-      krylov_iterations += krylov
-                               .solve(diagonal, residual, correction, linear_tolerance,
-                                      most_linear_iterations)
-                               .iterations;
+      const int iterations = krylov
+                                 .solve(diagonal, residual, correction, linear_tolerance,
+                                        most_linear_iterations)
+                                 .iterations;
+      if(iterations == 0)
+        break;
+      krylov_iterations += iterations;
       correct(enthalpy);
     }
     for(std::size_t a = 0; a < equation.base.size(); ++a)

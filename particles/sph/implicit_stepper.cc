@@ -122,16 +122,18 @@ namespace meltfront::particles
     enthalpy = before;
     if(!attempt(begin, middle, with, heat) || !attempt(middle, end, with, heat))
       return failed;
-    double difference = 0, change = 0, size = 0;
+    double difference = 0, size = 0;
+    change = 0;
     for(std::size_t a = 0; a < n; ++a)
     {
       difference += std::abs(whole[a] - enthalpy[a]);
       change += std::abs(enthalpy[a] - before[a]);
       size += std::abs(enthalpy[a]);
     }
-    // A state at rest has no change to compare with.
-    constexpr double at_rest = 1e-10;
-    return difference / std::max({change, at_rest * size, 1e-300});
+    // Where hardly anything moves there is nothing to compare with but the state itself.
+    constexpr double at_rest = 1e-5;
+    const double scale = std::max(moved + change, at_rest * size);
+    return difference > 0 ? difference / scale : 0.;
   }
 
   double ImplicitStepper::make_controlled_step(long step, double begin)
@@ -148,10 +150,11 @@ namespace meltfront::particles
       const double error = compare(begin, end, with, heat);
       constexpr double caution = 0.9, least = 0.2, most = 2;
       next_step = (end - begin)
-                  * std::clamp(caution * std::pow(wanted_error / error, 1 / order), least,
-                               most);
+                  * std::clamp(caution * std::pow(wanted_error / error, 1 / (order + 1)),
+                               least, most);
       if(error <= wanted_error)
       {
+        moved += change;
         book(heat.through, heat.held);
         return end;
       }

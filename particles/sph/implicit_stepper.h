@@ -16,9 +16,9 @@ namespace meltfront::particles
    *
    * Where an error is wanted, each step is made once whole and once in two halves, and
    * the halves are kept if both agree: the sum over the particles of the differences of
-   * their enthalpy, over the sum of its changes, is at most the wanted error. So the
-   * error of what has frozen in a whole run is of the order of the wanted error, however
-   * many steps it takes.
+   * their enthalpy, over the sum of all its changes since the start, is at most the
+   * wanted error. The differences that a phase change within a step makes fall with its
+   * length only in proportion to all changes so far, not to the step's own.
    */
   class ImplicitStepper : public Stepper
   {
@@ -49,8 +49,8 @@ namespace meltfront::particles
     /** @return false if the step failed; the state is then of no use. */
     bool attempt(double begin, double end, TimeScheme scheme, WallHeat &heat);
 
-    /** One step whole and in halves. @return their difference over the change, or
-     * infinity where a step failed; the state is that of the halves. */
+    /** One step whole and in halves. @return their difference over what has changed so
+     * far, or infinity where a step failed; the state is that of the halves. */
     double compare(double begin, double end, TimeScheme scheme, WallHeat &heat);
 
     [[noreturn]] void fail(long step, double time) const;
@@ -58,6 +58,8 @@ namespace meltfront::particles
     TimeScheme scheme;
     double wanted_error; ///< of a step; 0: steps of equal length
     double next_step;    ///< to be tried next where an error is wanted (s)
+    double moved = 0;    ///< all changes of the enthalpies so far, summed (J/kg)
+    double change = 0;   ///< the same in the step compared last
     ImplicitSolver solver;
     std::vector<double> base, flow, before, whole;
     long most_iterations = 0;

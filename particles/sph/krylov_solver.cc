@@ -179,8 +179,17 @@ namespace meltfront::particles
     impl.parameters->set("Convergence Tolerance", tolerance);
     impl.parameters->set("Maximum Iterations", most_iterations);
     impl.solver.setParameters(impl.parameters);
-    const Belos::ReturnType result = impl.solver.solve();
+    bool converged = false;
+    try
+    {
+      converged = impl.solver.solve() == Belos::Converged;
+    }
+    catch(const Belos::StatusTestError &)
+    {
+      // A value that is not a number: no solution.
+      return {false, 0};
+    }
     std::copy_n(impl.solution->Values(), x.size(), x.begin());
-    return {result == Belos::Converged, impl.solver.getNumIters()};
+    return {converged, impl.solver.getNumIters()};
   }
 } // namespace meltfront::particles

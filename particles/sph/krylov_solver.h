@@ -8,8 +8,10 @@
 namespace meltfront::particles
 {
   /**
-   * Solves linear systems whose matrix is known by its products with vectors only: GMRES
-   * (Saad and Schultz 1986) of Trilinos' Belos, preconditioned by the matrix's diagonal.
+   * Solves linear systems whose matrix is known by its products with vectors only:
+   * BiCGStab (van der Vorst 1992) of Trilinos' Belos, preconditioned by the matrix's
+   * diagonal. It keeps no growing basis, whose orthogonalisation costs more than these
+   * products do.
    * All sums run in a fixed order.
    */
   class KrylovSolver
@@ -27,7 +29,7 @@ namespace meltfront::particles
     struct Outcome
     {
       bool converged;
-      int iterations;
+      int iterations; ///< 0 if there is no solution: x is then as it was
     };
 
     /**
