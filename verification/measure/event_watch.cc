@@ -14,8 +14,8 @@ namespace meltfront::verification
   {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-    /** A site of this solid fraction or more belongs to a body of solid. */
-    constexpr double solid_from = 0.5;
+    /** A site of this solid fraction or more is frozen throughout. */
+    constexpr double solid_from = 1 - 1e-12;
 
     /** In particle spacings: the eight neighbours on a square lattice touch. */
     constexpr double touching_distance = 1.5;
@@ -31,16 +31,21 @@ namespace meltfront::verification
       return sum;
     }
 
-    /** When a value passes a threshold between two times. */
+    /** When a value passes a threshold between two times, which it may only seem to do.
+     */
     double crossing_time(double time_before, double before, double time, double now,
                          double threshold)
     {
-      return time_before + (time - time_before) * (threshold - before) / (now - before);
+      if(now == before)
+        return time;
+      const double share = (threshold - before) / (now - before);
+      return time_before + (time - time_before) * std::clamp(share, 0., 1.);
     }
   } // namespace
 
   ContactWatch::ContactWatch(const cases::Scene &scene, double spacing)
-    : spacing(spacing)
+    : material(scene.material)
+    , spacing(spacing)
     , last_time(nan)
     , contact(nan)
   {
@@ -52,6 +57,15 @@ namespace meltfront::verification
   double ContactWatch::time() const
   {
     return contact;
+  }
+
+  double ContactWatch::heat_until_frozen(const cases::Snapshot &snapshot,
+                                         std::size_t site) const
+  {
+    return material.latent_heat * (1 - snapshot.solid_fraction[site])
+           + material.solid.specific_heat_capacity
+                 * std::min(snapshot.temperature[site] - material.melting_temperature,
+                            0.);
   }
 
   bool ContactWatch::moved(const cases::Snapshot &snapshot) const
@@ -70,7 +84,14 @@ namespace meltfront::verification
       positions[d].assign(snapshot.positions[d].begin(), snapshot.positions[d].end());
     find_touching(snapshot);
     find_seeds(snapshot);
-    solid_fraction.assign(snapshot.solid_fraction.begin(), snapshot.solid_fraction.end());
+    const std::size_t n = snapshot.temperature.size();
+    solid.resize(n);
+    heat.resize(n);
+    for(std::size_t i = 0; i < n; ++i)
+    {
+      solid[i] = snapshot.solid_fraction[i] >= solid_from;
+      heat[i] = heat_until_frozen(snapshot, i);
+    }
     rebuild();
   }
 
@@ -122,13 +143,13 @@ namespace meltfront::verification
     }
   }
 
-  /** The bodies of the last snapshot, from nothing. */
+  /** The bodies of the solid sites, from nothing. */
   void ContactWatch::rebuild()
   {
-    body.resize(solid_fraction.size());
+    body.resize(solid.size());
     std::iota(body.begin(), body.end(), 0);
     for(std::uint32_t site = 0; site < body.size(); ++site)
-      if(solid_fraction[site] >= solid_from)
+      if(solid[site])
         join(site);
   }
 
@@ -146,7 +167,7 @@ namespace meltfront::verification
   void ContactWatch::join(std::uint32_t site)
   {
     for(const std::uint32_t other : touching[site])
-      if(solid_fraction[other] >= solid_from)
+      if(solid[other])
         body[body_of(other)] = body_of(site);
   }
 
@@ -154,7 +175,7 @@ namespace meltfront::verification
   {
     for(std::size_t a = 0; a < seeds.size(); ++a)
       for(std::size_t b = 0; b < a; ++b)
-        if(solid_fraction[seeds[a]] >= solid_from && seeds[a] != seeds[b]
+        if(solid[seeds[a]] && seeds[a] != seeds[b]
            && body_of(seeds[a]) == body_of(seeds[b]))
           return true;
     return false;
@@ -170,34 +191,40 @@ namespace meltfront::verification
       if(connected())
         contact = snapshot.time;
     }
-    frozen.clear();
-    bool melted = false;
-    for(std::uint32_t i = 0; i < body.size(); ++i)
-    {
-      const double before = solid_fraction[i], now = snapshot.solid_fraction[i];
-      if(before < solid_from && now >= solid_from)
-        frozen.emplace_back(
-            crossing_time(last_time, before, snapshot.time, now, solid_from), i);
-      melted = melted || (before >= solid_from && now < solid_from);
-    }
-    std::ranges::sort(frozen);
-    if(melted)
-    {
-      // Bodies may have come apart.
-      for(std::size_t i = 0; i < body.size(); ++i)
-        solid_fraction[i] = std::min(solid_fraction[i], snapshot.solid_fraction[i]);
-      rebuild();
-    }
+    follow(snapshot);
     for(const auto &[when, site] : frozen)
     {
-      solid_fraction[site] = snapshot.solid_fraction[site];
+      solid[site] = 1;
       join(site);
       if(std::isnan(contact) && connected())
         contact = when;
     }
-    std::ranges::copy(snapshot.solid_fraction, solid_fraction.begin());
     last_time = snapshot.time;
     return !std::isnan(contact);
+  }
+
+  /** Find what has frozen since the last snapshot, in its order; take apart what has
+   * melted. */
+  void ContactWatch::follow(const cases::Snapshot &snapshot)
+  {
+    frozen.clear();
+    bool melted = false;
+    for(std::uint32_t i = 0; i < body.size(); ++i)
+    {
+      const double now = heat_until_frozen(snapshot, i);
+      const bool is_solid = snapshot.solid_fraction[i] >= solid_from;
+      if(is_solid && !solid[i])
+        frozen.emplace_back(crossing_time(last_time, heat[i], snapshot.time, now, 0), i);
+      if(!is_solid && solid[i])
+      {
+        solid[i] = 0;
+        melted = true;
+      }
+      heat[i] = now;
+    }
+    std::ranges::sort(frozen);
+    if(melted) // bodies may have come apart
+      rebuild();
   }
 
   EventWatch::EventWatch(const cases::Scene &scene, const std::vector<TimedEvent> &events,

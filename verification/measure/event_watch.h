@@ -13,12 +13,14 @@
 namespace meltfront::verification
 {
   /**
-   * When two bodies of solid first connect. A body is made of sites of solid fraction 1/2
-   * or more that touch: corners of one cell of a mesh, particles nearer than 1.5
-   * spacings. The bodies are those around the scene's sinks, each found by the site that
-   * is nearest to it.
+   * When two bodies of solid first connect. A body is made of sites frozen throughout
+   * that touch: corners of one cell of a mesh, particles nearer than 1.5 spacings. (Sites
+   * half frozen, with the front in their middle, leave a gap of a spacing between two
+   * bodies that they join: contact would come early in proportion to the spacing.) The
+   * bodies are those around the scene's sinks, each found by the site that is nearest to
+   * it.
    *
-   * Sites join in the order in which their solid fractions pass 1/2, interpolated between
+   * Sites join in the order in which they freeze, interpolated in their enthalpy between
    * two snapshots: the time found is finer than a step.
    */
   class ContactWatch
@@ -39,17 +41,24 @@ namespace meltfront::verification
     void find_touching(const cases::Snapshot &snapshot);
     void find_seeds(const cases::Snapshot &snapshot);
     void rebuild();
+    void follow(const cases::Snapshot &snapshot);
     void join(std::uint32_t site);
+
+    /** Specific enthalpy (J/kg) above that of the solid at the melting point; of a liquid
+     * its latent heat. */
+    double heat_until_frozen(const cases::Snapshot &snapshot, std::size_t site) const;
     std::uint32_t body_of(std::uint32_t site);
     bool connected();
 
+    cases::Material material;
     std::vector<cases::Position> sinks;
     double spacing;
     std::array<std::vector<double>, 3> positions; ///< for which `touching` holds
     std::vector<std::vector<std::uint32_t>> touching;
-    std::vector<std::uint32_t> seeds;   ///< the sites nearest to the sinks
-    std::vector<std::uint32_t> body;    ///< a forest: each site points towards its root
-    std::vector<double> solid_fraction; ///< in the last snapshot
+    std::vector<std::uint32_t> seeds; ///< the sites nearest to the sinks
+    std::vector<std::uint32_t> body;  ///< a forest: each site points towards its root
+    std::vector<char> solid;          ///< sites frozen throughout, in the last snapshot
+    std::vector<double> heat;         ///< heat_until_frozen() in the last snapshot
     std::vector<std::pair<double, std::uint32_t>> frozen; ///< since then, with the times
     double last_time;
     double contact;

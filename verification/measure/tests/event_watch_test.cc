@@ -1,5 +1,5 @@
-#include <verification/measure/mirror_symmetry.h>
 #include <verification/measure/event_watch.h>
+#include <verification/measure/mirror_symmetry.h>
 #include <verification/measure/tests/fixtures.h>
 
 #include <gtest/gtest.h>
@@ -45,8 +45,8 @@ namespace meltfront::verification
       return scene;
     }
 
-    const std::vector<TimedEvent> all_events{TimedEvent::first_contact, TimedEvent::half_frozen,
-                                           TimedEvent::all_frozen};
+    const std::vector<TimedEvent> all_events{
+        TimedEvent::first_contact, TimedEvent::half_frozen, TimedEvent::all_frozen};
 
     /** Two fronts in a row of nine that move from its ends by 1 per second: the site i
      * freezes while they pass from i - 1/2 to i + 1/2. */
@@ -57,6 +57,7 @@ namespace meltfront::verification
       {
         const double from_end = std::min(i, 8 - i);
         state.solid_fraction[i] = std::clamp(time - from_end + 0.5, 0., 1.);
+        state.temperature[i] = std::min(from_end + 0.5 - time, 0.); // all properties one
       }
       return state;
     }
@@ -72,8 +73,8 @@ namespace meltfront::verification
         for(int i = 0; watch.pending() && i < 100; ++i)
           watch.observe(two_fronts(end = i * step).view(2, i * step));
         EXPECT_FALSE(watch.pending());
-        EXPECT_NEAR(watch.time(TimedEvent::first_contact), 4, step * step)
-            << "the site in the middle is half frozen";
+        EXPECT_NEAR(watch.time(TimedEvent::first_contact), 4.5, 1e-14)
+            << "the site in the middle is frozen";
         // 4.5 of 9 sites: after the ends' halves, 0.5 + 2 t.
         EXPECT_NEAR(watch.time(TimedEvent::half_frozen), 1.75, 1e-14);
         EXPECT_GE(watch.time(TimedEvent::all_frozen), 4.5);
@@ -122,9 +123,13 @@ namespace meltfront::verification
     protected:
       bool observe(const std::vector<int> &solid, double time)
       {
-        std::fill(state.solid_fraction.begin(), state.solid_fraction.end(), 0);
+        std::fill(state.solid_fraction.begin(), state.solid_fraction.end(), 0.9);
+        std::fill(state.temperature.begin(), state.temperature.end(), 0);
         for(const int site : solid)
+        {
           state.solid_fraction[site] = 1;
+          state.temperature[site] = -0.1;
+        }
         return watch.observe(state.view(2, time));
       }
 
@@ -176,8 +181,11 @@ namespace meltfront::verification
       state.snapshot.cells = cells;
       EXPECT_FALSE(watch.observe(state.view(2, 0)));
       state.solid_fraction[4] = 0.6;
-      EXPECT_TRUE(watch.observe(state.view(2, 1)));
-      EXPECT_NEAR(watch.time(), 0.5 / 0.6, 1e-15);
+      EXPECT_FALSE(watch.observe(state.view(2, 1)));
+      state.solid_fraction[4] = 1;
+      state.temperature[4] = -0.1;
+      EXPECT_TRUE(watch.observe(state.view(2, 2)));
+      EXPECT_NEAR(watch.time(), 1.8, 1e-15);
     }
 
     TEST(MirrorSymmetry, ComparesEachSiteWithItsImage)
