@@ -55,7 +55,15 @@ namespace meltfront::reference_fem
     case Effect::solute:
       return solute_cost;
     case Effect::solute_diffusion:
-      return diffusion ? diffusion->cost() : cases::EffectCost{effect};
+    {
+      if(!diffusion)
+        return cases::EffectCost{effect};
+      cases::EffectCost result = diffusion->cost();
+      result.bytes += mixing->bytes()
+                      + static_cast<long>((used.size() + found.size() + 3 * liquid.size())
+                                          * sizeof(double));
+      return result;
+    }
     case Effect::phase_conductivity:
       return cases::EffectCost{effect, solute_cost.calls,
                                conduction ? conduction->bytes() : 0};

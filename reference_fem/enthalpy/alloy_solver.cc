@@ -17,6 +17,9 @@ namespace meltfront::reference_fem
     /** Passes after which a step is given up and halved. */
     constexpr int most_passes = 40;
 
+    /** Passes that the concentrations to start the next from are combined of. */
+    constexpr int mixing_depth = 5;
+
     /** Less liquid than this share of a node's mass is round-off. */
     constexpr double least_liquid = 1e-14;
 
@@ -83,6 +86,13 @@ namespace meltfront::reference_fem
       liquid.resize(n);
       supply.resize(n);
       fixed.resize(n);
+      const auto diffusing
+          = std::count_if(substances.begin(), substances.end(),
+                          [](const Substance &s) { return s.diffuses(); });
+      const auto unknowns = static_cast<Eigen::Index>(n) * diffusing;
+      mixing.emplace(unknowns, mixing_depth);
+      used.resize(unknowns);
+      found.resize(unknowns);
     }
     linear_solver = make_linear_solver(conduction_matrix());
     newton = std::make_unique<MushNewton>(
@@ -186,22 +196,32 @@ namespace meltfront::reference_fem
   }
 
   /** Take the conductances of the temperatures where they have changed, or are the first
-   * of a step; returns whether they have changed. */
-  bool AlloySolver::renew_conduction(const CompensatedVector &u, bool first)
+   * of a step; returns their largest relative change. */
+  double AlloySolver::renew_conduction(const CompensatedVector &u, bool first)
   {
-    const bool changed = conduction->renew(u) > coupling_tolerance;
-    if(first || changed)
+    const double change = conduction->renew(u);
+    if(first || change > coupling_tolerance)
     {
       conduction->adopt();
       linear_solver->conductances_changed();
     }
-    return changed;
+    return change;
   }
 
-  /** Solute spreads in the liquid that there is; returns the largest change of the
-   * depression over the largest depression. */
+  void AlloySolver::gather(Eigen::VectorXd &depressions) const
+  {
+    Eigen::Index k = 0;
+    for(const Substance &substance : substances)
+      if(substance.diffuses())
+        for(const double value : substance.next)
+          depressions[k++] = substance.slope * value;
+  }
+
+  /** Solute spreads in the liquid that there is; returns the largest change that it makes
+   * to a solute's depression, over the largest depression. */
   double AlloySolver::diffuse(double c)
   {
+    gather(used);
     diffusion->set_liquid(liquid);
     for(Substance &substance : substances)
     {
@@ -209,23 +229,35 @@ namespace meltfront::reference_fem
         continue;
       for(std::size_t i = 0; i < supply.size(); ++i)
       {
-        supply[i] = density * mesh.volume[i]
-                    * step.combine(substance.now[i], substance.before[i]);
+        // As an increment: the weights then sum to one to the last digit.
+        const double start
+            = substance.now[i]
+              + step.weight_before * (substance.before[i] - substance.now[i]);
+        supply[i] = density * mesh.volume[i] * start;
         const double whole = graph.eutectic_liquid_fraction(depression[i]);
         fixed[i] = liquid[i] < whole ? substance.next[i] * (1 - liquid[i] / whole) : 0;
       }
       diffusion->step(c, substance.diffusivity, supply, fixed, substance.next);
     }
-    std::vector<double> &last = fixed;
-    last = depression;
+    gather(found);
     mix_depression();
-    double change = 0, largest = 0;
-    for(std::size_t i = 0; i < depression.size(); ++i)
-    {
-      change = std::max(change, std::abs(depression[i] - last[i]));
-      largest = std::max(largest, depression[i]);
-    }
-    return largest > 0 ? change / largest : 0;
+    const double largest = *std::max_element(depression.begin(), depression.end());
+    return largest > 0 ? (found - used).lpNorm<Eigen::Infinity>() / largest : 0;
+  }
+
+  /** Another pass is to come: choose the concentrations that it starts from. */
+  void AlloySolver::accelerate()
+  {
+    mixing->advance(used, found);
+    Eigen::Index k = 0;
+    for(Substance &substance : substances)
+      if(substance.diffuses())
+        for(double &value : substance.next)
+        {
+          value += substance.slope > 0 ? (used[k] - found[k]) / substance.slope : 0;
+          ++k;
+        }
+    mix_depression();
   }
 
   StepOutcome AlloySolver::solve(double c, const std::vector<double> &rhs,
@@ -234,7 +266,10 @@ namespace meltfront::reference_fem
   {
     StepOutcome result;
     if(diffusion)
+    {
       mix_depression();
+      mixing->restart();
+    }
     if(conduction)
       renew_conduction(u, true);
     for(int pass = 0; pass < most_passes && !result.converged; ++pass)
@@ -246,14 +281,18 @@ namespace meltfront::reference_fem
       result.graph_inconsistency = outcome.graph_inconsistency;
       if(!outcome.converged)
         return result;
-      result.converged = true;
+      double change = 0;
       if(diffusion)
       {
         melt(u, heat);
-        result.converged = diffuse(c) <= coupling_tolerance;
+        change = diffuse(c);
+        if(change > coupling_tolerance)
+          accelerate();
       }
-      if(conduction && renew_conduction(u, false))
-        result.converged = false;
+      if(conduction)
+        change = std::max(change, renew_conduction(u, false));
+      result.converged = change <= coupling_tolerance;
+      result.coupling_defect = change;
     }
     return result;
   }

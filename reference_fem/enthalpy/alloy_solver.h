@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_enthalpy_alloy_solver_h
 
 #include <cases/scene.h>
+#include <reference_fem/enthalpy/anderson_mixing.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/mush_conduction.h>
 #include <reference_fem/enthalpy/mush_newton.h>
@@ -126,8 +127,10 @@ namespace meltfront::reference_fem
 
     void place_solutes();
     void mix_depression();
-    bool renew_conduction(const CompensatedVector &u, bool first);
+    double renew_conduction(const CompensatedVector &u, bool first);
     double diffuse(double c);
+    void gather(Eigen::VectorXd &depressions) const;
+    void accelerate();
     void melt(const CompensatedVector &u, const std::vector<double> &heat);
     double mass_of(const Substance &substance) const;
 
@@ -142,6 +145,8 @@ namespace meltfront::reference_fem
     std::optional<SoluteDiffusion> diffusion;
     std::vector<double> liquid;        ///< mass fraction by node, where solute diffuses
     std::vector<double> supply, fixed; ///< work space of diffusion
+    std::optional<AndersonMixing> mixing;
+    Eigen::VectorXd used, found; ///< by a pass: slope times C of the solutes that diffuse
     std::unique_ptr<LinearSolver> linear_solver;
     std::unique_ptr<MushNewton> newton;
     StepFormula step;

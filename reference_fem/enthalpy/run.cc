@@ -301,11 +301,18 @@ namespace meltfront::reference_fem
     if(!std::isfinite(outcome.graph_inconsistency))
       throw cases::NumericalError(method_name, step_number + 1, step.next, "enthalpy",
                                   "is not finite");
-    if(step.next - step.now < smallest_step * nominal_step())
+    if(step.next - step.now >= smallest_step * nominal_step())
+      return;
+    if(outcome.coupling_defect > 0)
       throw cases::NumericalError(
-          method_name, step_number + 1, step.next, "enthalpy",
-          fmt::format("is off the enthalpy graph by {:.3g} after {} iterations, however "
-                      "short the step",
-                      outcome.graph_inconsistency, outcome.iterations));
+          method_name, step_number + 1, step.next, "concentration",
+          fmt::format(
+              "and heat are not coupled better than {:.3g}, however short the step",
+              outcome.coupling_defect));
+    throw cases::NumericalError(
+        method_name, step_number + 1, step.next, "enthalpy",
+        fmt::format("is off the enthalpy graph by {:.3g} after {} iterations, however "
+                    "short the step",
+                    outcome.graph_inconsistency, outcome.iterations));
   }
 } // namespace meltfront::reference_fem

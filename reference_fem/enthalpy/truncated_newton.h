@@ -23,6 +23,8 @@ namespace meltfront::reference_fem
      * round-off sets a floor.
      */
     double graph_inconsistency = 0;
+    /** Of an alloy: the last change by a pass, see AlloySolver::coupling_tolerance. */
+    double coupling_defect = 0;
   };
 
   /** The fixed parts of the problem that every step solves. */
