@@ -112,35 +112,17 @@ namespace meltfront::reference_fem::fitted
                              slack_of_bounds);
   }
 
-  IntegrationCost FittedRun::integrate(cases::Observer &observer)
+  void FittedRun::enter(const Stretch &stretch, cases::Observer &observer)
   {
-    report(observer, 0, scene.start_time, initial_state, true);
-    const Clock &clock = problem->physics().clock;
-    const double end = clock.clock(scene.end_time);
-    Integrator integrator(*problem, integration_options());
-    integrator.start(clock.clock(scene.start_time), initial_state);
-    integrator.advance_to(end, clock_step(),
-                          [&](const AcceptedStep &step)
-                          {
-                            const bool last = step.clock == end;
-                            const double time
-                                = last ? scene.end_time : clock.time(step.clock);
-                            check_temperatures(step.number, time, step.u);
-                            report(observer, step.number, time, step.u, last);
-                            return true;
-                          });
-    return integrator.cost();
-  }
-
-  void FittedRun::enter(const Stretch &stretch)
-  {
+    if(!stretch.event.text.empty())
+      observer.note(stretch.event.time, stretch.event.text);
     problem = stretch.problem;
     before = stretch.before;
     sites = std::make_unique<Sites>(*problem);
     most_unknowns = std::max<long>(most_unknowns, problem->size());
   }
 
-  IntegrationCost FittedRun::integrate_events(cases::Observer &observer)
+  IntegrationCost FittedRun::integrate(cases::Observer &observer)
   {
     const Clock &clock = problem->physics().clock;
     Stretch first{problem,
@@ -151,7 +133,7 @@ namespace meltfront::reference_fem::fitted
                   {}};
     Timeline timeline(
         {scene, effects, options, rays_of(scene, options)}, integration_options(),
-        {[&](const Stretch &stretch) { enter(stretch); },
+        {[&](const Stretch &stretch) { enter(stretch, observer); },
          [&](long step, double time, const dealii::Vector<double> &u, bool last)
          {
            check_temperatures(step, time, u);
@@ -169,9 +151,7 @@ namespace meltfront::reference_fem::fitted
     watch.restart();
     check_temperatures(0, scene.start_time, initial_state);
     most_unknowns = problem->size();
-    const IntegrationCost integration
-        = options.dimension == 1 ? integrate_events(observer) : integrate(observer);
-
+    const IntegrationCost integration = integrate(observer);
     const cases::Stopwatch::Seconds stepping = watch.elapsed();
     cases::Cost cost;
     cost.setup_wall = setup.wall;

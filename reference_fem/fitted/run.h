@@ -25,9 +25,8 @@ namespace meltfront::reference_fem::fitted
   private:
     cases::RunDescription description() const;
     IntegrationOptions integration_options() const;
-    void enter(const Stretch &stretch);
+    void enter(const Stretch &stretch, cases::Observer &observer);
     IntegrationCost integrate(cases::Observer &observer);
-    IntegrationCost integrate_events(cases::Observer &observer);
     double clock_step() const;
     void check_temperatures(long step, double time, const dealii::Vector<double> &u);
     void report(cases::Observer &observer, long step, double time,

@@ -65,17 +65,12 @@ namespace meltfront::reference_fem::fitted
   std::vector<cases::EffectCost>
   FittedRun::effect_costs(const IntegrationCost &cost) const
   {
-    // All effects are terms of the same integrals: there is no time of their own to tell.
+    // All effects are terms of the same integrals, entered once an iteration: none has
+    // memory or time of its own to tell.
     std::vector<cases::EffectCost> result;
-    const long rays = problem->mesh().surface.n_rays();
     for(const cases::EffectDecision &decision : effects.decisions())
       if(decision.on)
-        result.push_back({decision.effect, cost.iterations,
-                          decision.effect == cases::Effect::phase_change
-                                  || decision.effect == cases::Effect::wall_temperature
-                              ? rays * static_cast<long>(sizeof(double))
-                              : static_cast<long>(sizeof(double)),
-                          0});
+        result.push_back({decision.effect, cost.iterations, 0, 0});
     return result;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -188,6 +188,8 @@ namespace meltfront::verification
       text += fmt::format("  {:20} {:3}  {}{}\n", to_string(decision.effect),
                           decision.on ? "on" : "off", decision.reason, cost);
     }
+    for(const RunEvent &event : record.events)
+      text += fmt::format("At t = {:.6g}: {}\n", event.time, event.what);
     if(record.status != RunStatus::finished)
       return text;
     text += "Results:\n";

@@ -239,6 +239,9 @@ namespace meltfront::verification
             add(parameter.name, parameter.value, parameter.unit);
           for(const auto &[key, value] : run->options)
             add("option " + key, value, "");
+          for(const RunEvent &event : run->events)
+            add(fmt::format("event at t = {}", plain_number(event.time, 6)), event.what,
+                "");
         }
       return table.empty() ? Markup() : table_markup(table);
     }

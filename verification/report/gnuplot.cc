@@ -1,61 +1,32 @@
 #include <verification/report/gnuplot.h>
 
 #include <cases/error.h>
+#include <verification/matrix/temporary_directory.h>
 
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace meltfront::verification
 {
   namespace
   {
-    /** A file of its own that is removed again. */
-    class TemporaryFile
-    {
-    public:
-      TemporaryFile()
-      {
-        std::string pattern
-            = (std::filesystem::temp_directory_path() / "meltfront-plot-XXXXXX").string();
-        const int descriptor = mkstemp(pattern.data());
-        if(descriptor < 0)
-          throw cases::OutputError("cannot create a temporary file in "
-                                   + std::filesystem::temp_directory_path().string());
-        close(descriptor);
-        path = pattern;
-      }
-
-      TemporaryFile(const TemporaryFile &) = delete;
-      TemporaryFile &operator=(const TemporaryFile &) = delete;
-
-      ~TemporaryFile()
-      {
-        std::error_code ignored;
-        std::filesystem::remove(path, ignored);
-      }
-
-      std::string content() const
-      {
-        std::ifstream file(path, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
-      }
-
-      std::string path;
-    };
-
     std::string shell_quoted(const std::string &path)
     {
       std::string quoted = "'";
       for(const char c : path)
         quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
       return quoted + "'";
+    }
+
+    std::string content_of(const std::string &path)
+    {
+      std::ifstream file(path, std::ios::binary);
+      return {std::istreambuf_iterator<char>(file), {}};
     }
 
     std::string first_lines(const std::string &text)
@@ -69,10 +40,12 @@ namespace meltfront::verification
 
   std::string run_gnuplot(const std::string &script)
   {
-    const TemporaryFile input, messages;
-    std::ofstream(input.path) << script;
-    const std::string command = fmt::format("gnuplot {} 2>{}", shell_quoted(input.path),
-                                            shell_quoted(messages.path));
+    const TemporaryDirectory directory;
+    const std::string input = directory.path("script"),
+                      messages = directory.path("messages");
+    std::ofstream(input) << script;
+    const std::string command
+        = fmt::format("gnuplot {} 2>{}", shell_quoted(input), shell_quoted(messages));
     FILE *pipe = popen(command.c_str(), "r");
     if(!pipe)
       throw cases::OutputError("cannot start gnuplot, which draws the plots");
@@ -87,7 +60,7 @@ namespace meltfront::verification
                                "(Debian package gnuplot-nox)");
     if(status != 0)
       throw cases::OutputError("gnuplot could not draw a plot: "
-                               + first_lines(messages.content()));
+                               + first_lines(content_of(messages)));
     return output;
   }
 

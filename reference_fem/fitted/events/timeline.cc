@@ -141,7 +141,9 @@ namespace meltfront::reference_fem::fitted
       accept(stretch, step);
       before = step.clock;
       u = step.u;
-      if(has_front)
+      // In more dimensions no event is followed: a front that reaches an end has turned
+      // an element over.
+      if(has_front && setting.options.dimension == 1)
         arrives
             = approach_of(problem, u, step.rate[problem.mesh().front_node(0)]).remaining
               < steps_ahead * step.size;

@@ -10,8 +10,8 @@
 namespace meltfront::reference_fem::fitted
 {
   /**
-   * A run in one dimension through the events that change its mesh: a front that starts
-   * at a wall or a sink, and one that reaches a wall or the centre.
+   * A run through the events that change its mesh, which are followed in one dimension: a
+   * front that starts at a wall or a sink, and one that reaches a wall or the centre.
    *
    * A wall that passes the melting temperature is found to round-off, by a root of its
    * temperature over the length of the step. A front that is about to reach an end is

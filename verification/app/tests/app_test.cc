@@ -1,3 +1,5 @@
+#include <verification/matrix/temporary_directory.h>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +14,7 @@
 namespace
 {
   namespace fs = std::filesystem;
+  using meltfront::verification::TemporaryDirectory;
 
   struct Outcome
   {
@@ -34,23 +37,6 @@ namespace
     outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return outcome;
   }
-
-  /** A directory that goes away with the test. */
-  struct TemporaryDirectory
-  {
-    fs::path path;
-
-    TemporaryDirectory()
-    {
-      std::string name = (fs::temp_directory_path() / "meltfront-app-XXXXXX").string();
-      path = mkdtemp(name.data());
-    }
-
-    ~TemporaryDirectory()
-    {
-      fs::remove_all(path);
-    }
-  };
 
   nlohmann::json read_json(const fs::path &path)
   {
@@ -102,14 +88,14 @@ TEST(App, RunWritesRecordFrontPictureAndFields)
     const TemporaryDirectory directory;
     const Outcome outcome
         = meltfront("run plane-freezing --method " + method + " --n 20 --frames 3 --out "
-                    + directory.path.string());
+                    + directory.path().string());
     ASSERT_EQ(outcome.status, 0) << outcome.output;
-    const nlohmann::json record = read_json(directory.path / "run.json");
+    const nlohmann::json record = read_json(directory.path() / "run.json");
     EXPECT_GT(record.at("quantities").at("front_rms").get<double>(), 0);
     EXPECT_LT(record.at("quantities").at("front_rms").get<double>(), 0.02);
     for(const char *file :
         {"front.csv", "picture.svg", "fields.pvd", "fields-0000.vtu", "fields-0003.vtu"})
-      EXPECT_TRUE(fs::exists(directory.path / file)) << file;
+      EXPECT_TRUE(fs::exists(directory.path() / file)) << file;
   }
 }
 
@@ -118,7 +104,7 @@ TEST(App, ARunThatIsRefusedSaysWhyAndExitsWithTwo)
   const TemporaryDirectory directory;
   const Outcome outcome = meltfront(
       "run plane-freezing --method sph --n 20 --set sph.step_factor=1.1 --out "
-      + directory.path.string());
+      + directory.path().string());
   EXPECT_EQ(outcome.status, 2);
   expect_text(outcome, "refused");
 }
@@ -134,17 +120,17 @@ TEST(App, CompareMeasuresEveryMethodAndItsReportCanBeMadeAgain)
 {
   const TemporaryDirectory directory;
   const Outcome outcome = meltfront("compare plane-one-phase --n 8,16,24,32 --out "
-                                    + directory.path.string());
+                                    + directory.path().string());
   EXPECT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.output;
-  const nlohmann::json summary = read_json(directory.path / "summary.json");
+  const nlohmann::json summary = read_json(directory.path() / "summary.json");
   EXPECT_TRUE(summary.contains("passed"));
   for(const char *file :
       {"report.html", "tables/plane-one-phase.csv", "tables/plane-one-phase.md",
        "tables/plane-one-phase.tex", "runs/plane-one-phase/sph/n=32/run.json"})
-    EXPECT_TRUE(fs::exists(directory.path / file)) << file;
-  fs::remove(directory.path / "report.html");
-  EXPECT_EQ(meltfront("report " + directory.path.string()).status, outcome.status);
-  EXPECT_TRUE(fs::exists(directory.path / "report.html"));
+    EXPECT_TRUE(fs::exists(directory.path() / file)) << file;
+  fs::remove(directory.path() / "report.html");
+  EXPECT_EQ(meltfront("report " + directory.path().string()).status, outcome.status);
+  EXPECT_TRUE(fs::exists(directory.path() / "report.html"));
 }
 
 namespace
@@ -201,25 +187,25 @@ TEST(App, ARunCanStandInForAnExactSolution)
 {
   const TemporaryDirectory directory;
   write_referenced_case(
-      directory.path,
+      directory.path(),
       "sph[ step_factor = 0.4, dimension = 1 ]: solid_volume_2_error at n=64 <= 3e-3");
-  const Outcome outcome = meltfront("verify " + (directory.path / "matrix.prm").string()
-                                    + " --out " + (directory.path / "out").string());
+  const Outcome outcome = meltfront("verify " + (directory.path() / "matrix.prm").string()
+                                    + " --out " + (directory.path() / "out").string());
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   expect_text(outcome, "PASS  slab: sph[ step_factor = 0.4, dimension = 1 ]");
   expect_text(outcome, "the reference");
   for(const char *file : {"out/report.html", "out/tables/slab-reference.csv"})
-    EXPECT_TRUE(fs::exists(directory.path / file)) << file;
+    EXPECT_TRUE(fs::exists(directory.path() / file)) << file;
 }
 
 TEST(App, NamesTheNearestOptionInALabelOfACriterion)
 {
   const TemporaryDirectory directory;
-  write_referenced_case(directory.path,
+  write_referenced_case(directory.path(),
                         "fem-enthalpy[step=5]: worst budget_defect <= 1e-12");
-  const Outcome outcome = meltfront("verify " + (directory.path / "matrix.prm").string()
-                                    + " --out " + (directory.path / "out").string());
+  const Outcome outcome = meltfront("verify " + (directory.path() / "matrix.prm").string()
+                                    + " --out " + (directory.path() / "out").string());
   EXPECT_EQ(outcome.status, 2);
   expect_text(outcome, "'steps'");
-  EXPECT_FALSE(fs::exists(directory.path / "out/runs"));
+  EXPECT_FALSE(fs::exists(directory.path() / "out/runs"));
 }

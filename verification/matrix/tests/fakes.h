@@ -5,6 +5,7 @@
 #include <cases/error.h>
 #include <cases/method.h>
 #include <verification/matrix/matrix.h>
+#include <verification/matrix/temporary_directory.h>
 #include <verification/measure/tests/fixtures.h>
 
 #include <fmt/format.h>
@@ -136,28 +137,13 @@ namespace meltfront::verification::tests
   class ScratchDirectory
   {
   public:
-    ScratchDirectory()
-    {
-      std::string pattern
-          = (std::filesystem::temp_directory_path() / "meltfront-test-XXXXXX").string();
-      folder = mkdtemp(pattern.data());
-    }
-
-    ~ScratchDirectory()
-    {
-      std::filesystem::remove_all(folder);
-    }
-
-    ScratchDirectory(const ScratchDirectory &) = delete;
-    ScratchDirectory &operator=(const ScratchDirectory &) = delete;
-
     std::string path(const std::string &name = "") const
     {
-      return name.empty() ? folder : folder + "/" + name;
+      return directory.path(name);
     }
 
   private:
-    std::string folder;
+    TemporaryDirectory directory;
   };
 
   /** Append a line in one write, so that lines of several processes do not mix. */

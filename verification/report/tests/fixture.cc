@@ -188,35 +188,20 @@ namespace meltfront::verification::fixture
     return result;
   }
 
-  Directory::Directory()
-  {
-    std::string pattern
-        = (std::filesystem::temp_directory_path() / "meltfront-report-XXXXXX").string();
-    if(!mkdtemp(pattern.data()))
-      throw std::runtime_error("cannot create " + pattern);
-    directory = pattern;
-  }
-
-  Directory::~Directory()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(directory, ignored);
-  }
-
   std::string Directory::path() const
   {
-    return directory.string();
+    return directory.path();
   }
 
   std::string Directory::read(const std::string &file) const
   {
-    std::ifstream stream(directory / file, std::ios::binary);
+    std::ifstream stream(directory.path(file), std::ios::binary);
     EXPECT_TRUE(stream) << file;
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
   bool Directory::has(const std::string &file) const
   {
-    return std::filesystem::exists(directory / file);
+    return std::filesystem::exists(directory.path(file));
   }
 } // namespace meltfront::verification::fixture

@@ -2,8 +2,8 @@
 #define meltfront_verification_report_tests_fixture_h
 
 #include <verification/matrix/matrix_result.h>
+#include <verification/matrix/temporary_directory.h>
 
-#include <filesystem>
 #include <string>
 
 namespace meltfront::verification::fixture
@@ -28,18 +28,13 @@ namespace meltfront::verification::fixture
   class Directory
   {
   public:
-    Directory();
-    ~Directory();
-    Directory(const Directory &) = delete;
-    Directory &operator=(const Directory &) = delete;
-
     std::string path() const;
     /** A file in it; fails the test if there is none. */
     std::string read(const std::string &file) const;
     bool has(const std::string &file) const;
 
   private:
-    std::filesystem::path directory;
+    TemporaryDirectory directory;
   };
 } // namespace meltfront::verification::fixture
 
