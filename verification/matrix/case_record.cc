@@ -294,6 +294,8 @@ namespace meltfront::verification
     if(scene.domain.outline)
       record_outline(*scene.domain.outline, record);
     record.material = scene.material;
+    if(scene.alloy)
+      record.alloy = make_alloy_record(scene);
     record.initial_state = words(scene.initial);
     for(const cases::Side side : scene.sides())
       record.boundaries.push_back(
@@ -332,6 +334,8 @@ namespace meltfront::verification
       json["reference"]
           = {{"label", record.reference->label}, {"n", record.reference->n}};
     json["material"] = json_of(record.material);
+    if(record.alloy)
+      json["alloy"] = *record.alloy;
     json["start_time"] = json_of(record.start_time);
     json["end_time"] = json_of(record.end_time);
     json["front_exact_end"] = json_of(record.front_exact_end);
@@ -367,6 +371,8 @@ namespace meltfront::verification
       record.reference = cases::Reference{json.at("reference").at("label"),
                                           json.at("reference").at("n")};
     record.material = material_in(json.at("material"));
+    if(json.contains("alloy"))
+      record.alloy = json.at("alloy").get<AlloyRecord>();
     record.start_time = number_in(json.at("start_time"));
     record.end_time = number_in(json.at("end_time"));
     record.front_exact_end = number_in(json.at("front_exact_end"));

@@ -2,6 +2,7 @@
 #define meltfront_verification_matrix_case_record_h
 
 #include <cases/case.h>
+#include <verification/matrix/alloy_record.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -31,6 +32,7 @@ namespace meltfront::verification
     std::vector<double> outline_x, outline_y;
     double reference_length = 0;
     cases::Material material;
+    std::optional<AlloyRecord> alloy;
     std::string initial_state;           ///< in words and numbers
     std::vector<std::string> boundaries; ///< `x_min: fixed temperature -10`
     std::vector<cases::Position> source_positions;

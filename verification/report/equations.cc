@@ -1,3 +1,5 @@
+#include <verification/report/alloy_equations.h>
+#include <verification/report/equation_markup.h>
 #include <verification/report/equations.h>
 
 #include <verification/report/case_runs.h>
@@ -7,45 +9,6 @@ namespace meltfront::verification
 {
   namespace
   {
-    Markup symbol(const std::string &name, const std::string &index = "")
-    {
-      Markup result = element("i", name);
-      if(!index.empty())
-        result += element("sub", index);
-      return result;
-    }
-
-    Markup fraction(const Markup &above, const Markup &below)
-    {
-      return element("span", {{"class", "fraction"}},
-                     element("span", above) + element("span", below));
-    }
-
-    /** dT/dx and the like, with round d's. */
-    Markup derivative(const Markup &of, const Markup &by)
-    {
-      return fraction(text("∂") + of, text("∂") + by);
-    }
-
-    Markup number(double value)
-    {
-      return number_markup(value, 4);
-    }
-
-    /** A number before a symbol; one is left out. */
-    Markup factor(double value)
-    {
-      return value == 1 ? Markup() : number(value) + text(" ");
-    }
-
-    Markup line(const std::string &where, const Markup &equation)
-    {
-      return element("div", {{"class", "equation"}},
-                     element("span", {{"class", "where"}}, text(where))
-                         + element("span", equation))
-             + Markup("\n");
-    }
-
     bool radial(const CaseRecord &record)
     {
       return record.symmetry == "cylindrical" || record.symmetry == "spherical";
@@ -129,29 +92,34 @@ namespace meltfront::verification
 
   Markup equations(const CaseRecord &record)
   {
+    if(record.alloy)
+      return element("div", {{"class", "equations"}}, alloy_equations(record))
+             + conditions(record);
     const cases::Material &material = record.material;
     const std::string degrees = unit_of(record, " (K or °C)");
-    const Markup melting = number(material.melting_temperature);
-    Markup result = line("solid", heat_equation(record, material.solid, "s"))
-                    + line("liquid", heat_equation(record, material.liquid, "l"));
+    const Markup melting = equation_number(material.melting_temperature);
+    Markup result
+        = equation_line("solid", heat_equation(record, material.solid, "s"))
+          + equation_line("liquid", heat_equation(record, material.liquid, "l"));
     if(material.latent_heat > 0)
-      result += line("front", stefan_condition(record))
-                + line("", symbol("T") + text(" = ") + symbol("T", "m") + text(" = ")
-                               + melting
-                               + text(degrees + " at the front"
-                                      + (record.symmetry == "none"
-                                             ? ", n its normal into the liquid"
-                                             : "")));
+      result += equation_line("front", stefan_condition(record))
+                + equation_line("", symbol("T") + text(" = ") + symbol("T", "m")
+                                        + text(" = ") + melting
+                                        + text(degrees + " at the front"
+                                               + (record.symmetry == "none"
+                                                      ? ", n its normal into the liquid"
+                                                      : "")));
     else
       result += element("p", "There is no latent heat.");
     if(material.solid.density != material.liquid.density && record.symmetry == "planar")
-      result += line("motion",
-                     text("the liquid moves with ") + symbol("u") + text(" = (1 − ")
-                         + symbol("ρ", "s") + text("/") + symbol("ρ", "l") + text(") d")
-                         + symbol("s") + text("/d") + symbol("t") + text(" = ")
-                         + number(1 - material.solid.density / material.liquid.density)
-                         + text(" d") + symbol("s") + text("/d") + symbol("t")
-                         + text(" where that effect is on"));
+      result += equation_line(
+          "motion",
+          text("the liquid moves with ") + symbol("u") + text(" = (1 − ")
+              + symbol("ρ", "s") + text("/") + symbol("ρ", "l") + text(") d")
+              + symbol("s") + text("/d") + symbol("t") + text(" = ")
+              + equation_number(1 - material.solid.density / material.liquid.density)
+              + text(" d") + symbol("s") + text("/d") + symbol("t")
+              + text(" where that effect is on"));
     return element("div", {{"class", "equations"}}, result) + conditions(record);
   }
 
@@ -185,6 +153,8 @@ namespace meltfront::verification
                           {prose_number(record.material.latent_heat, 6)},
                           {std::string()},
                           {std::string()}});
+    if(record.alloy)
+      add_alloy_properties(record, group);
     return table_markup(table);
   }
 } // namespace meltfront::verification

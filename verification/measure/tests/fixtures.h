@@ -4,6 +4,7 @@
 #include <cases/scene.h>
 #include <cases/snapshot.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -53,6 +54,37 @@ namespace meltfront::verification::tests
   private:
     cases::Symmetry kind;
     bool solid_inside;
+  };
+
+  /** Half solid up to 0.5 sqrt(t), where the liquid holds 0.2, and liquid with 0.1
+   * beyond. */
+  class HalfFrozen : public LinearProfile
+  {
+  public:
+    HalfFrozen()
+      : LinearProfile(cases::Symmetry::planar)
+    {
+    }
+
+    bool mushy() const override
+    {
+      return true;
+    }
+
+    double solid_fraction(double coordinate, double time) const override
+    {
+      return coordinate < front(time) ? 0.5 : 0;
+    }
+
+    double concentration(double, double) const override
+    {
+      return 0.1;
+    }
+
+    double solid_volume(double lower, double upper, double time) const override
+    {
+      return 0.5 * (std::min(front(time), upper) - lower);
+    }
   };
 
   /** A state that owns what a snapshot views. */

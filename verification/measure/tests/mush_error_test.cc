@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 using namespace meltfront;
@@ -11,37 +10,6 @@ using namespace meltfront::verification;
 
 namespace
 {
-  /** Half solid up to 0.5 sqrt(t), where the liquid holds 0.2, and liquid with 0.1
-   * beyond. */
-  class HalfFrozen : public tests::LinearProfile
-  {
-  public:
-    HalfFrozen()
-      : LinearProfile(cases::Symmetry::planar)
-    {
-    }
-
-    bool mushy() const override
-    {
-      return true;
-    }
-
-    double solid_fraction(double coordinate, double time) const override
-    {
-      return coordinate < front(time) ? 0.5 : 0;
-    }
-
-    double concentration(double, double) const override
-    {
-      return 0.1;
-    }
-
-    double solid_volume(double lower, double upper, double time) const override
-    {
-      return 0.5 * (std::min(front(time), upper) - lower);
-    }
-  };
-
   tests::State exact_state()
   {
     tests::State state;
@@ -56,7 +24,7 @@ namespace
   MushError error_of(tests::State &state, double from = 0, double to = 1)
   {
     const std::vector<double> coordinates = state.positions[0];
-    return mush_error(state.view(1, 1), coordinates, HalfFrozen(), from, to, 0, 1);
+    return mush_error(state.view(1, 1), coordinates, tests::HalfFrozen(), from, to, 0, 1);
   }
 } // namespace
 
