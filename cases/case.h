@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,9 +17,10 @@ namespace meltfront::cases
   /** What a criterion asks of a quantity. */
   enum class Statistic
   {
-    value, ///< the quantity at one n
-    order, ///< the exponent fitted over all n of the table
-    worst  ///< the largest value over all n of the table
+    value,  ///< the quantity at one n
+    order,  ///< the exponent fitted over all n of the table
+    worst,  ///< the largest value over all n of the table
+    failure ///< whether the run at one n ends with a numerical error, as it is known to
   };
 
   /** A bound that a result must keep: an acceptance criterion of a case. */
@@ -28,7 +30,7 @@ namespace meltfront::cases
     std::string method;   ///< or a label, `fem-fitted[degree=2]`
     std::string quantity; ///< a column of the convergence table, e.g. `front_rms`
     Statistic statistic = Statistic::value;
-    int n = 0;      ///< for Statistic::value
+    int n = 0;      ///< for Statistic::value and failure
     int n_from = 0; ///< for the others: rows n_from <= n <= n_to of the table count
     int n_to = std::numeric_limits<int>::max();
     double lower = -std::numeric_limits<double>::infinity();
@@ -54,6 +56,10 @@ namespace meltfront::cases
     int n = 0;
     double value = 0;
   };
+
+  /** Plots of a case's report that restate figures of a paper. */
+  inline constexpr std::array<const char *, 5> figure_names{
+      "particles", "temperature", "solid fraction", "concentration", "front"};
 
   /** What happens once in a run, and when is measured. */
   enum class TimedEvent
@@ -116,6 +122,8 @@ namespace meltfront::cases
     Measurement measurement;
     std::vector<Criterion> criteria;
     std::vector<PrintedValue> printed;
+    /** By the plot, one of `figure_names`: `Monaghan et al. 2005, Fig. 6`. */
+    std::map<std::string, std::string> printed_figures;
     std::string file; ///< path that it was read from
     std::string text; ///< the file's text, for hashes and records
   };

@@ -166,6 +166,13 @@ namespace meltfront::cases
                                    [&paper](const std::string &text)
                                    { return parse_printed_value(text, paper); }));
       }
+      for(const std::string name : figure_names)
+        if(prm.given("Printed", name + " figure"))
+        {
+          prm.require("Printed", "source", "a printed figure needs the paper it is in");
+          c.printed_figures[name]
+              = paper + ", " + prm.get_text("Printed", name + " figure");
+        }
       for(const int i : prm.given_numbers("Limits", "limit"))
         c.limits.push_back(prm.get_text("Limits", fmt::format("limit {}", i)));
     }

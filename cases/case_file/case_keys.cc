@@ -272,6 +272,10 @@ namespace meltfront::cases
       prm.declare("Printed", text("source", "Paper that the values are printed in."));
       prm.declare_numbered("Printed",
                            text("value", "METHOD: QUANTITY at n=N = VALUE (TABLE)."), 40);
+      for(const std::string name : figure_names)
+        prm.declare("Printed", text(name + " figure",
+                                    "Figure of the paper that the report's plot of the "
+                                        + name + " restates, `Fig. 6`."));
       prm.declare_numbered("Limits", text("limit", "What the case does not show."), 20);
     }
   } // namespace

@@ -212,6 +212,16 @@ namespace meltfront::cases
     criterion.text = text;
     Cursor cursor(text);
     criterion.method = parse_label(cursor.up_to(':', "'METHOD:'"));
+    if(cursor.take("fails"))
+    {
+      criterion.statistic = Statistic::failure;
+      criterion.quantity = "failure";
+      criterion.n = read_n(cursor);
+      criterion.lower = criterion.upper = 1;
+      if(!cursor.at_end())
+        cursor.fail("the end");
+      return criterion;
+    }
     if(cursor.take("order of"))
       criterion.statistic = Statistic::order;
     else if(cursor.take("worst"))

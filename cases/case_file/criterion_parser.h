@@ -15,9 +15,10 @@ namespace meltfront::cases
    *   METHOD: QUANTITY at n=20 within 15 % of 0.01063
    *   METHOD: order of QUANTITY >= 1.25             (or <=, in, within)
    *   METHOD: worst QUANTITY <= 1e-12               (or >=, in, within)
+   *   METHOD: fails at n=60
    *
-   * the last two with `over n=20..50` after the quantity if only some rows count, and
-   * each with an optional tail `; known shortfall: SENTENCE`. METHOD may be a label with
+   * those of order and worst with `over n=20..50` after the quantity if only some rows count, and
+   * each but the last with an optional tail `; known shortfall: SENTENCE`. METHOD may be a label with
    * options, `fem-fitted[degree=2,time=bdf3]`.
    *
    * @throws InputError with the reason alone (the caller knows file, line and key).

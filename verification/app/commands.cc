@@ -85,8 +85,9 @@ namespace meltfront::verification
       for(const cases::Criterion &criterion : c.criteria)
       {
         check(criterion.method, fmt::format("criterion '{}'", criterion.text));
-        if(std::find(quantities.begin(), quantities.end(), criterion.quantity)
-           == quantities.end())
+        if(criterion.statistic != cases::Statistic::failure
+           && std::find(quantities.begin(), quantities.end(), criterion.quantity)
+                  == quantities.end())
           throw cases::InputError(fmt::format(
               "{}: criterion '{}': there is no quantity '{}'; the nearest is '{}'",
               c.file, criterion.text, criterion.quantity,

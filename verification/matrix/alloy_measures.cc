@@ -15,7 +15,6 @@ namespace meltfront::verification
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr const char *errors[]
         = {"temperature_rms", "solid_fraction_rms", "concentration_rms", "ice_error"};
-    constexpr std::size_t most_marks = 4;
   } // namespace
 
   AlloyMeasures::AlloyMeasures(const cases::Case &c, const cases::Scene &simulated,
@@ -123,7 +122,7 @@ namespace meltfront::verification
       for(const char *error : errors)
       {
         list.push_back(error);
-        for(std::size_t mark = 1; mark <= most_marks; ++mark)
+        for(int mark = 1; mark <= cases::most_marks; ++mark)
           list.push_back(fmt::format("{}_{}", error, mark));
       }
       for(const char *name :

@@ -20,7 +20,7 @@ namespace meltfront::verification
    *
    * temperature_rms, solid_fraction_rms, concentration_rms, ice_error: MushError at the
    * end (K, mass fractions, relative), between Measurement::temperature_from and
-   * temperature_to; the same with _1 to _4 at Measurement::marks, each in the first
+   * temperature_to; the same with _1 to _8 at Measurement::marks, each in the first
    * snapshot at or after the mark, against the exact state of the snapshot's own time;
    * mass_defect, solute_defect: largest relative defect of any snapshot, of all mass and
    * of the solute that has the larger one;

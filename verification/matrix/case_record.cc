@@ -52,6 +52,8 @@ namespace meltfront::verification
         return "value";
       case cases::Statistic::order:
         return "order";
+      case cases::Statistic::failure:
+        return "failure";
       default:
         return "worst";
       }
@@ -59,10 +61,11 @@ namespace meltfront::verification
 
     cases::Statistic statistic_named(const std::string &name)
     {
-      if(name == name_of(cases::Statistic::value))
-        return cases::Statistic::value;
-      return name == name_of(cases::Statistic::order) ? cases::Statistic::order
-                                                      : cases::Statistic::worst;
+      for(const cases::Statistic statistic :
+          {cases::Statistic::value, cases::Statistic::order, cases::Statistic::failure})
+        if(name == name_of(statistic))
+          return statistic;
+      return cases::Statistic::worst;
     }
 
     std::string words(const cases::Boundary &boundary)
@@ -314,6 +317,7 @@ namespace meltfront::verification
     record.measurement = c.measurement;
     record.criteria = c.criteria;
     record.printed = c.printed;
+    record.printed_figures = c.printed_figures;
     record.text = c.text;
     record.hash = sha256(c.text);
     return record;
@@ -346,6 +350,7 @@ namespace meltfront::verification
       json["source_positions"].push_back(json_of(position));
     for(const cases::Criterion &criterion : record.criteria)
       json["criteria"].push_back(json_of(criterion));
+    json["printed_figures"] = record.printed_figures;
     for(const cases::PrintedValue &printed : record.printed)
       json["printed"].push_back(json_of(printed));
   }
@@ -381,6 +386,8 @@ namespace meltfront::verification
       record.source_positions.push_back(position_in(position));
     for(const auto &criterion : json.at("criteria"))
       record.criteria.push_back(criterion_in(criterion));
+    if(json.contains("printed_figures")) // older records lack it
+      json.at("printed_figures").get_to(record.printed_figures);
     for(const auto &printed : json.at("printed"))
       record.printed.push_back(printed_in(printed));
   }

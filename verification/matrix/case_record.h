@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,7 +45,8 @@ namespace meltfront::verification
     cases::Measurement measurement;
     std::vector<cases::Criterion> criteria;
     std::vector<cases::PrintedValue> printed;
-    std::string text, hash; ///< the case file and its SHA-256
+    std::map<std::string, std::string> printed_figures; ///< by cases::figure_names
+    std::string text, hash;                             ///< the case file and its SHA-256
   };
 
   CaseRecord make_case_record(const cases::Case &c);

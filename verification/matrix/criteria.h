@@ -36,11 +36,12 @@ namespace meltfront::verification
    * reference run of those of its own difference from itself. A criterion is not
    * judged, and listed as an omission, if the matrix has no such run: no run of the
    * method at its n, none at all for `worst`, fewer than four resolutions for an order.
-   * A run that failed, was refused at the criterion's n or is missing makes the
-   * value NaN, which does not pass.
+   * A criterion of failure holds if all its runs ended with an error that the method saw
+   * itself. Any other run that failed, was refused at the criterion's n or is missing
+   * makes the value NaN, which does not pass.
    *
-   * `passed` asks that every criterion judged passes and that no run failed or is
-   * missing.
+   * `passed` asks that every criterion judged passes and that no run failed that is not
+   * known to, or is missing.
    *
    * Omissions are the refused, failed and missing runs with their reasons, and the
    * criteria that were not judged.

@@ -49,6 +49,7 @@ namespace meltfront::verification
         caption += " Blue: solid; orange: liquid.";
       if(!record.source_positions.empty())
         caption += " Star: source.";
+      caption += restated(record, "particles");
       SceneContent content{run ? run : runs.finest(), front, {}};
       if(const RunRecord *tracked = tracked_run(runs))
       {
@@ -204,7 +205,8 @@ namespace meltfront::verification
         return {};
       return context.plots.figure(
           runs.record->name + "-front-resolutions", front_of_resolutions(runs, *chosen),
-          text("Front against time of " + chosen->label + " at all its resolutions."));
+          text("Front against time of " + chosen->label + " at all its resolutions."
+               + restated(*runs.record, "front")));
     }
 
     Markup budget(const ReportContext &context, const CaseRuns &runs)

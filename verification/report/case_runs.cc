@@ -202,6 +202,14 @@ namespace meltfront::verification
     return std::nan("");
   }
 
+  std::string restated(const CaseRecord &record, const std::string &figure)
+  {
+    const auto found = record.printed_figures.find(figure);
+    return found == record.printed_figures.end()
+               ? std::string()
+               : fmt::format(" Restates {}.", found->second);
+  }
+
   std::string volume_unit(const CaseRecord &record)
   {
     constexpr const char *units[] = {"m", "m²", "m³"};

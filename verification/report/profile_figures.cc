@@ -29,20 +29,23 @@ namespace meltfront::verification
                 : fmt::format("at t = {}{}",
                               plain_number(record.measurement.marks[mark], 6),
                               unit_of(record, " s"));
-      const auto figure
-          = [&](ProfileQuantity quantity, const char *name, const char *what) -> Markup
+      const auto figure = [&](ProfileQuantity quantity, const std::string &name,
+                              const char *what) -> Markup
       {
         const Plot plot = profile_plot(runs, context.styles, quantity, mark);
         if(nothing_to_draw(plot))
           return {};
-        const std::string suffix = end ? "" : fmt::format("-{}", mark + 1);
+        std::string file
+            = record.name + "-" + name + (end ? "" : fmt::format("-{}", mark + 1));
+        std::replace(file.begin(), file.end(), ' ', '-');
         return context.plots.figure(
-            record.name + "-" + name + suffix, plot,
-            text(fmt::format("{} {}, each method's finest run.", what, when)));
+            file, plot,
+            text(fmt::format("{} {}, each method's finest run.{}", what, when,
+                             restated(record, name))));
       };
       return element("div", {{"class", "pair"}},
                      figure(ProfileQuantity::temperature, "temperature", "Temperature")
-                         + figure(ProfileQuantity::solid_fraction, "solid-fraction",
+                         + figure(ProfileQuantity::solid_fraction, "solid fraction",
                                   "Mass fraction of solid, the share of the latent heat "
                                   "that is lost,"))
              + figure(ProfileQuantity::concentration, "concentration",

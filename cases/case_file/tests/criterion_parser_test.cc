@@ -33,6 +33,16 @@ TEST(Criterion, TakesRangesAndShares)
   EXPECT_DOUBLE_EQ(negative.upper, -1.8);
 }
 
+TEST(Criterion, TakesAFailureThatIsKnown)
+{
+  const Criterion c = parse_criterion("sph-2005[step_factor=2]: fails at n=60");
+  EXPECT_EQ(c.statistic, Statistic::failure);
+  EXPECT_EQ(c.method, "sph-2005[step_factor=2]");
+  EXPECT_EQ(c.n, 60);
+  EXPECT_THROW(parse_criterion("sph: fails at n=60 <= 1"), InputError);
+  EXPECT_THROW(parse_criterion("sph: fails"), InputError);
+}
+
 TEST(Criterion, TakesOrdersAndWorstValues)
 {
   const Criterion order = parse_criterion("sph: order of front_rms >= 1.25");

@@ -145,6 +145,20 @@ namespace meltfront::verification
       EXPECT_FALSE(evaluated(runs, {}).passed);
     }
 
+    TEST(Criteria, AFailureThatIsKnownSpoilsNothingAndMustHappen)
+    {
+      const auto fails = criterion(cases::Statistic::failure, 1, 1, 40, "failure");
+      const auto runs = [](RunStatus status)
+      { return std::vector{run_at(20, 0.1), ended(40, status, "blew up at step 7")}; };
+      EXPECT_TRUE(evaluated(runs(RunStatus::failed), {fails}).passed);
+      EXPECT_FALSE(evaluated(runs(RunStatus::finished), {fails}).passed);
+      EXPECT_FALSE(evaluated(runs(RunStatus::refused), {fails}).passed);
+      // A run that was killed did not see the error itself.
+      auto killed = runs(RunStatus::failed);
+      killed[1].provenance["ended"] = "killed";
+      EXPECT_FALSE(evaluated(killed, {fails}).passed);
+    }
+
     TEST(Criteria, AreNotJudgedWithoutSuchARunAndSaySo)
     {
       using enum cases::Statistic;
