@@ -60,6 +60,8 @@ namespace meltfront::cases::similarity
     Place at(const Real &value) const
     {
       using std::abs;
+      if(places.size() == 1)
+        return places.front();
       const auto after = std::lower_bound(places.begin() + 1, places.end() - 1, value,
                                           [](const Place &place, const Real &v)
                                           { return place.state[0] > v; });
@@ -67,19 +69,19 @@ namespace meltfront::cases::similarity
       const Real whole = after->parameter - from.parameter;
       Real step = whole * (from.state[0] - value) / (from.state[0] - after->state[0]);
       Place found = stepped(from, step);
-      // Newton's method; what is left after a few steps is round-off.
-      constexpr int most_iterations = 20;
-      for(int i = 0; i < most_iterations; ++i)
+      // Newton's method, until its steps no longer shrink: round-off.
+      Real last_change = abs(whole);
+      for(;;)
       {
         State rate;
         rates(found.state, rate, found.parameter);
         const Real change = (value - found.state[0]) / rate[0];
+        if(!(2 * abs(change) < last_change))
+          return found;
+        last_change = abs(change);
         step += change;
         found = stepped(from, step);
-        if(!(abs(change) > 4 * std::numeric_limits<Real>::epsilon() * abs(whole)))
-          break;
       }
-      return found;
     }
 
   private:
