@@ -16,7 +16,7 @@ namespace meltfront::cases
    * A polygon is exact to round-off in all that is asked of it. A polar curve is resolved
    * by chords that leave it by no more than 1e-7 of its size. Whether a point lies inside
    * is asked of the curve itself; area, perimeter and nearest points are improved from
-   * the chords' to higher order, to 1e-12 (area, perimeter) and 1e-9 (points) of the size
+   * the chords' to higher order, to 1e-11 (area, perimeter) and 1e-9 (points) of the size
    * where the radius is smooth and to 1e-7 at its kinks.
    */
   class Outline

@@ -44,7 +44,7 @@ namespace meltfront::cases::test
                                  "    set centre = 0.1, 0.2\n"
                                  "    set reference length = 3\n"));
     const Outline &outline = *c.scene.domain.outline;
-    EXPECT_NEAR(outline.area(), 3.14159265358979 * 0.25 * (1 + 0.02), 1e-14);
+    EXPECT_NEAR(outline.area(), 3.14159265358979 * 0.25 * (1 + 0.02), 1e-11);
     EXPECT_EQ(outline.centre(), (Outline::Point{0.1, 0.2}));
     EXPECT_EQ(c.scene.domain.side(), 3);
     EXPECT_TRUE(outline.inside({0.69, 0.2, 0}));
@@ -103,7 +103,7 @@ namespace meltfront::cases::test
     expect_complaint(walled("outer", "periodic"), "cannot be periodic");
     expect_complaint(replaced(outlined(corners), "set temperature = 10",
                               "set temperature = if(y > 0.95, 0/0, 10)"),
-                     "is nan at x = ");
+                     "nan at x = ");
   }
 
   TEST(OutlineCase, ExactSolutionsAreNotHeldAgainstItsFluxes)

@@ -89,7 +89,7 @@ TEST(SharpFront, ShellsThatCannotBe)
             "lacks; its walls are inner, outer");
   EXPECT_EQ(about_annulus("kind = insulated", "kind = periodic"),
             "a.prm:30: key 'kind' in subsection 'Scene/Walls/outer' cannot be periodic: "
-            "walls of a ball or a shell face no other");
+            "walls of a ball, a shell or an outline face no other");
   EXPECT_EQ(about_annulus("  subsection Walls\n",
                           "  subsection Source 1\n    set position = 0, 0\n    set power "
                           "= 1\n  end\n  subsection Walls\n"),
@@ -188,9 +188,9 @@ TEST(SharpFront, MeasuresAndReferencesThatCannotBe)
   EXPECT_EQ(measure(annulus, "set marks = 0.2"),
             "a.prm:35: key 'marks' in subsection 'Measure' must ascend between the "
             "scene's start (0) and its end (0.2), which 0.2 does not");
-  EXPECT_EQ(measure(annulus, "set marks = 0.01, 0.02, 0.03, 0.04, 0.05"),
-            "a.prm:35: key 'marks' in subsection 'Measure' needs one to four numbers "
-            "separated by commas, not '0.01, 0.02, 0.03, 0.04, 0.05'");
+  EXPECT_EQ(measure(annulus, "set marks = 1, 2, 3, 4, 5, 6, 7, 8, 9"),
+            "a.prm:35: key 'marks' in subsection 'Measure' needs one to eight numbers "
+            "separated by commas, not '1, 2, 3, 4, 5, 6, 7, 8, 9'");
   EXPECT_EQ(measure(slab, "set front mode = 2"),
             "a.prm:35: key 'front mode' in subsection 'Measure' has no meaning here: "
             "only a disk or a shell in 2 dimensions without symmetry has modes");

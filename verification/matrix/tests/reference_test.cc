@@ -172,7 +172,12 @@ namespace meltfront::verification
       c.reference = cases::Reference{"fine", 64};
       c.measurement.front_mode = 4;
       c.measurement.marks = {0.1, 0.25};
+      c.measurement.events = {cases::TimedEvent::all_frozen};
+      c.measurement.mirror = 1;
       c.scene.domain.inner_radius = 0.2;
+      c.scene.domain.reference_length = 3;
+      c.scene.domain.outline = std::make_shared<const cases::Outline>(
+          std::vector<cases::Outline::Point>{{0, 0}, {1, 0}, {0.5, 2}});
       c.scene.initial.front = cases::Field::uniform(-1);
       c.scene.initial.front->expression = "x-0.5";
       const CaseRecord record = make_case_record(c);
@@ -185,7 +190,12 @@ namespace meltfront::verification
       EXPECT_EQ(read.reference->n, 64);
       EXPECT_EQ(read.measurement.marks, c.measurement.marks);
       EXPECT_EQ(read.measurement.front_mode, 4);
+      EXPECT_EQ(read.measurement.events, c.measurement.events);
+      EXPECT_EQ(read.measurement.mirror, 1);
       EXPECT_EQ(read.inner_radius, 0.2);
+      EXPECT_EQ(read.reference_length, 3);
+      EXPECT_EQ(read.outline_x, (std::vector{0., 1., 0.5}));
+      EXPECT_EQ(read.outline_y, (std::vector{0., 0., 2.}));
     }
   } // namespace
 } // namespace meltfront::verification

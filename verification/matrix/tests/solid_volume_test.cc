@@ -106,6 +106,41 @@ namespace meltfront::verification
       EXPECT_NEAR(observer.series().solid_volume.back(), growing(1), 1e-15);
     }
 
+    TEST(Events, LookAtEveryStepUntilTheyHaveHappened)
+    {
+      cases::Case c = disk_case();
+      c.measurement.samples = 50;
+      c.measurement.events = {cases::TimedEvent::half_frozen};
+      RunObserver observer(c, c.scene, "fake");
+      // The first of two equal sites freezes until t = 0.8.
+      const int taken
+          = drive(observer, 1000,
+                  [](double time) { return pi / 2 * std::min(1., time / 0.8005); });
+      const auto values = observer.quantities();
+      EXPECT_NEAR(values.at("half_frozen"), 0.8005, 1e-3);
+      EXPECT_TRUE(std::isnan(values.at("all_frozen"))) << "not asked for";
+      EXPECT_TRUE(std::isnan(values.at("mirror_asymmetry"))) << "not asked for";
+      EXPECT_GE(taken, 802) << "every step up to the event";
+      EXPECT_LE(taken, 802 + 12) << "samples after it";
+      EXPECT_EQ(observer.series().time.size(), 51u) << "events add nothing to the series";
+    }
+
+    TEST(Events, MirrorSymmetryIsMeasuredWhereAskedFor)
+    {
+      cases::Case c = disk_case();
+      for(const int direction : {0, 1})
+      {
+        c.measurement.mirror = direction;
+        RunObserver observer(c, c.scene, "fake");
+        drive(observer, 100, growing);
+        const double asymmetry = observer.quantities().at("mirror_asymmetry");
+        if(direction == 0)
+          EXPECT_TRUE(std::isnan(asymmetry)) << "both sites lie right of the origin";
+        else
+          EXPECT_EQ(asymmetry, 0) << "each site is its own image";
+      }
+    }
+
     TEST(SolidVolumeOverTime, TellsHowFarItFellBackOfItsNetChange)
     {
       const cases::Case c = disk_case();
