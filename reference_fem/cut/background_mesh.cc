@@ -1,20 +1,17 @@
 #include <reference_fem/cut/background_mesh.h>
 
 #include <cases/error.h>
-#include <reference_fem/cut/quadrature.h>
-
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/grid_generator.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meltfront::reference_fem::cut
 {
-  using cases::DomainShape;
-
   cases::Position position(const Point &point)
   {
     return {point[0], point[1], 0};
@@ -42,35 +39,51 @@ namespace meltfront::reference_fem::cut
 
   namespace
   {
-    /** Positive beyond the rim: distance to it (m). */
-    double beyond_rim(const cases::Domain &domain, const Point &point)
+    /** A box that holds the domain, in cells of equal size. */
+    struct Box
     {
-      const double outer = point.norm() - domain.radius;
-      return domain.shape == DomainShape::shell
-                 ? std::max(outer, domain.inner_radius - point.norm())
-                 : outer;
-    }
+      Point lower, upper;
+      std::array<unsigned int, dim> cells;
+    };
 
-    void make_cartesian_mesh(const cases::Domain &domain, int n,
-                             dealii::Triangulation<dim> &triangulation)
+    Box divided_box(const cases::Domain &domain, int n)
     {
       if(domain.dimension != dim)
         throw cases::Refusal("fem-cut simulates boxes, disks and annuli in two "
                              "dimensions: no slabs, and not in three dimensions");
-      Point lower{-domain.radius, -domain.radius}, upper{domain.radius, domain.radius};
+      Box box{{-domain.radius, -domain.radius}, {domain.radius, domain.radius}, {}};
       if(!domain.round())
         for(int d = 0; d < dim; ++d)
         {
-          lower[d] = domain.lower[d];
-          upper[d] = domain.upper[d];
+          box.lower[d] = domain.lower[d];
+          box.upper[d] = domain.upper[d];
         }
-      std::vector<unsigned int> repetitions(dim);
-      const double cell = (upper[0] - lower[0]) / n;
+      const double cell = (box.upper[0] - box.lower[0]) / n;
       for(int d = 0; d < dim; ++d)
-        repetitions[d] = static_cast<unsigned int>(
-            std::max(1L, std::lround((upper[d] - lower[d]) / cell)));
-      dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, repetitions, lower,
-                                                        upper, true);
+        box.cells[d] = static_cast<unsigned int>(
+            std::max(1L, std::lround((box.upper[d] - box.lower[d]) / cell)));
+      return box;
+    }
+
+    std::array<unsigned int, dim>
+    make_cartesian_mesh(const cases::Domain &domain, int n, int refinement,
+                        dealii::Triangulation<dim> &triangulation)
+    {
+      Box box = divided_box(domain, n);
+      for(unsigned int &cells : box.cells)
+      {
+        if(cells % (1u << refinement) != 0)
+          throw cases::Refusal(fmt::format(
+              "fem-cut: {} cells along a side cannot be made by dividing larger ones {} "
+              "times in two (option `refinement`): a multiple of {} or refinement = 0 "
+              "would be right",
+              cells, refinement, 1u << refinement));
+        cells >>= refinement;
+      }
+      dealii::GridGenerator::subdivided_hyper_rectangle(
+          triangulation, std::vector<unsigned int>(box.cells.begin(), box.cells.end()),
+          box.lower, box.upper, true);
+      return box.cells;
     }
 
     std::vector<unsigned int>
@@ -103,17 +116,67 @@ namespace meltfront::reference_fem::cut
   } // namespace
 
   BackgroundMesh::BackgroundMesh(const cases::Scene &scene, int n, int degree,
-                                 int level_set_degree)
+                                 int level_set_degree, int refinement,
+                                 const RefinementCriterion &divided,
+                                 const BackgroundMesh *finest_rim)
     : element(degree)
     , level_set_element(level_set_degree)
     , domain(scene.domain)
+    , refinement(refinement)
+    , triangulation(dealii::Triangulation<dim>::limit_level_difference_at_vertices)
     , dofs(triangulation)
     , level_set_dofs(triangulation)
   {
     // Sums over threads would round differently from run to run.
     dealii::MultithreadInfo::set_thread_limit(1);
-    make_cartesian_mesh(domain, n, triangulation);
+    base_cells = make_cartesian_mesh(domain, n, refinement, triangulation);
+    const auto base = triangulation.begin_active();
+    spacing = Cell{{}, base->vertex(3) - base->vertex(0), {}, {}}.width();
+    spacing /= 1 << refinement;
+    if(divided)
+      divide(divided);
     number();
+    read_cells();
+    read_faces();
+    place.assign(cells.size(), Place::inside);
+    if(!domain.round())
+      return;
+    if(finest_rim)
+      take_rim(*finest_rim);
+    else
+      cut_rim();
+  }
+
+  void BackgroundMesh::divide(const RefinementCriterion &divided)
+  {
+    for(int level = 0; level < refinement; ++level)
+    {
+      for(const auto &cell : triangulation.active_cell_iterators_on_level(level))
+        if(divided(cell->vertex(0), cell->vertex(3) - cell->vertex(0)))
+          cell->set_refine_flag();
+      triangulation.execute_coarsening_and_refinement();
+    }
+  }
+
+  unsigned int BackgroundMesh::cell_at(const Point &point) const
+  {
+    const auto first = triangulation.begin(0);
+    const Gradient size = first->vertex(3) - first->vertex(0);
+    unsigned int base = 0;
+    for(int d = dim - 1; d >= 0; --d)
+      base = base * base_cells[d]
+             + static_cast<unsigned int>(
+                 std::clamp(std::floor((point[d] - first->vertex(0)[d]) / size[d]), 0.,
+                            base_cells[d] - 1.));
+    dealii::Triangulation<dim>::cell_iterator cell(&triangulation, 0,
+                                                   static_cast<int>(base));
+    while(cell->has_children())
+    {
+      const Point middle = cell->child(0)->vertex(3);
+      cell = cell->child((point[0] >= middle[0] ? 1 : 0)
+                         + (point[1] >= middle[1] ? 2 : 0));
+    }
+    return cell->active_cell_index();
   }
 
   void BackgroundMesh::number()
@@ -127,19 +190,10 @@ namespace meltfront::reference_fem::cut
           expansions[dof].emplace_back(static_cast<unsigned int>(other), weight);
       else
         expansions[dof].emplace_back(dof, 1.);
-    read_cells();
-    read_faces();
-    place.assign(cells.size(), Place::inside);
-    rim_cells.clear();
-    if(domain.round())
-      cut_rim();
   }
 
   void BackgroundMesh::read_cells()
   {
-    cells.clear();
-    triangulation_cells.clear();
-    spacing = std::numeric_limits<double>::infinity();
     positions.resize(dofs.n_dofs());
     level_set_positions.resize(level_set_dofs.n_dofs());
     for(const auto &cell : dofs.active_cell_iterators())
@@ -152,7 +206,6 @@ namespace meltfront::reference_fem::cut
           {lower, cell->vertex(dealii::GeometryInfo<dim>::vertices_per_cell - 1) - lower,
            dof_indices(cell), dof_indices(level_set_cell)});
       const Cell &added = cells.back();
-      spacing = std::min(spacing, added.width());
       for(unsigned int i = 0; i < added.dofs.size(); ++i)
         positions[added.dofs[i]] = added.real(element.unit_support_point(i));
       for(unsigned int i = 0; i < added.level_set_dofs.size(); ++i)
@@ -163,8 +216,6 @@ namespace meltfront::reference_fem::cut
 
   void BackgroundMesh::read_faces()
   {
-    inner_faces.clear();
-    wall_faces.clear();
     for(const auto &cell : triangulation.active_cell_iterators())
       for(const unsigned int face : cell->face_indices())
       {
@@ -184,36 +235,6 @@ namespace meltfront::reference_fem::cut
         const bool coarser = cell->neighbor_is_coarser(face);
         if(coarser || here < neighbor->active_cell_index())
           inner_faces.push_back({here, neighbor->active_cell_index(), direction, upper});
-      }
-  }
-
-  void BackgroundMesh::cut_rim()
-  {
-    Values beyond(level_set_dofs.n_dofs());
-    for(std::size_t i = 0; i < beyond.size(); ++i)
-      beyond[i] = beyond_rim(domain, level_set_positions[i]);
-    CutIntegrator integrator(*this, beyond);
-    const double middle = (domain.inner_radius + domain.radius) / 2;
-    for(unsigned int cell = 0; cell < cells.size(); ++cell)
-      switch(integrator.sides()[cell])
-      {
-      case CutIntegrator::Side::inside:
-        break;
-      case CutIntegrator::Side::outside:
-        place[cell] = Place::outside;
-        break;
-      case CutIntegrator::Side::cut:
-        CutQuadrature quadrature = integrator.integrate(cell);
-        if(quadrature.inside.empty())
-        {
-          place[cell] = Place::outside;
-          break;
-        }
-        place[cell] = Place::on_rim;
-        const bool outer = cells[cell].real({0.5, 0.5}).norm() > middle;
-        rim_cells.push_back({cell, outer ? cases::Side::outer : cases::Side::inner,
-                             std::move(quadrature.inside),
-                             std::move(quadrature.surface)});
       }
   }
 

@@ -9,6 +9,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,13 @@ namespace meltfront::reference_fem::cut
     double width() const;
   };
 
+  /** Whether a cell, given by its lower corner and its size, is to be divided. */
+  using RefinementCriterion
+      = std::function<bool(const Point &lower, const Gradient &size)>;
+
+  /** Divides the cells that the rim of a disk or of an annulus cuts. */
+  RefinementCriterion divided_at_rim(const cases::Domain &domain);
+
   /** A face between two cells; where they differ in size `fine` is the smaller. */
   struct InnerFace
   {
@@ -90,19 +98,29 @@ namespace meltfront::reference_fem::cut
 
   /**
    * The Cartesian mesh behind a scene: it fills a box; the rim of a disk or of an annulus
-   * cuts it as the front does. deal.II holds triangulation, degrees of freedom and
-   * hanging nodes; the rest reads them from plain arrays.
+   * cuts it as the front does. Cells may be divided where it matters; neighbours, also
+   * across a corner, differ by one division at most. deal.II holds triangulation, degrees
+   * of freedom and hanging nodes; the rest reads them from plain arrays.
    */
   class BackgroundMesh
   {
   public:
     /**
-     * @param n cells along the domain's side
+     * @param n finest cells along the domain's side
      * @param degree of the temperature's elements, 1 or 2
      * @param level_set_degree of the level set's elements, 1 or 2
-     * @throws cases::Refusal for a scene that is not two-dimensional
+     * @param refinement divisions of the base mesh's cells, of which n / 2^refinement lie
+     * along the side
+     * @param divided which cells are divided; empty: none
+     * @param finest_rim a mesh with the finest cells all along the rim, for the parts of
+     * larger cells that lie inside: the domain is then the same on every mesh. Needed
+     * where cells of unequal size may meet the rim.
+     * @throws cases::Refusal for a scene that is not two-dimensional and for a number of
+     * finest cells that the base mesh's cells cannot be divided into
      */
-    BackgroundMesh(const cases::Scene &scene, int n, int degree, int level_set_degree);
+    BackgroundMesh(const cases::Scene &scene, int n, int degree, int level_set_degree,
+                   int refinement = 0, const RefinementCriterion &divided = {},
+                   const BackgroundMesh *finest_rim = nullptr);
 
     const dealii::FE_Q<dim> element, level_set_element;
     std::vector<Cell> cells;
@@ -112,6 +130,15 @@ namespace meltfront::reference_fem::cut
     std::vector<Place> place;
     std::vector<Point> positions, level_set_positions; ///< by degree of freedom
     double spacing; ///< shortest side of the finest cells (m)
+
+    /** Whether a cell is one of the finest. */
+    bool finest(unsigned int cell) const
+    {
+      return cells[cell].width() < 1.5 * spacing;
+    }
+
+    /** The cell that holds a point. */
+    unsigned int cell_at(const Point &point) const;
 
     /** Unconstrained degrees of freedom and weights that a degree of freedom of the
      * temperature stands for. */
@@ -140,12 +167,16 @@ namespace meltfront::reference_fem::cut
     }
 
   private:
+    void divide(const RefinementCriterion &divided);
     void number();
     void read_cells();
     void read_faces();
     void cut_rim();
+    void take_rim(const BackgroundMesh &finest_rim);
 
     const cases::Domain domain;
+    const int refinement;
+    std::array<unsigned int, dim> base_cells; ///< by direction
     dealii::Triangulation<dim> triangulation;
     std::vector<dealii::Triangulation<dim>::active_cell_iterator> triangulation_cells;
     dealii::DoFHandler<dim> dofs, level_set_dofs;

@@ -1,6 +1,7 @@
 #include <reference_fem/cut/heat_problem.h>
 
 #include <reference_fem/cut/quadrature.h>
+#include <reference_fem/cut/transfer.h>
 
 #include <algorithm>
 
@@ -37,11 +38,11 @@ namespace meltfront::reference_fem::cut
             ratio * ratio / (1 + ratio) / step};
   }
 
-  HeatProblem::HeatProblem(const cases::Scene &scene, const BackgroundMesh &mesh,
+  HeatProblem::HeatProblem(const cases::Scene &scene, double spacing,
                            const Stabilization &stabilization, double smoothing)
-    : sinks(scene, smallest_sink_distance * mesh.spacing)
+    : sinks(scene, smallest_sink_distance * spacing)
     , scene(scene)
-    , mesh(mesh)
+    , spacing(spacing)
     , stabilization(stabilization)
     , smoothing(smoothing)
   {
@@ -54,9 +55,9 @@ namespace meltfront::reference_fem::cut
 
   void HeatProblem::set_front(State &state, Values level_set) const
   {
-    keep_off_nodes(mesh, level_set);
-    state.geometry = std::make_shared<CutGeometry>(mesh, level_set);
-    redistance(mesh, *state.geometry, level_set);
+    keep_off_nodes(*state.mesh, level_set);
+    state.geometry = std::make_shared<CutGeometry>(*state.mesh, level_set);
+    redistance(*state.mesh, *state.geometry, level_set);
     state.level_set = std::move(level_set);
   }
 
@@ -87,8 +88,22 @@ namespace meltfront::reference_fem::cut
     return result;
   }
 
+  State HeatProblem::transferred(const State &state,
+                                 std::shared_ptr<const BackgroundMesh> mesh) const
+  {
+    const Transfer transfer(*state.mesh, *mesh);
+    State result{state.time, std::move(mesh), {}, {}, {}, {}, state.wall_power};
+    set_front(result, transfer.level_set(state.level_set));
+    for(const Phase phase : phases)
+      result.unknown[index(phase)]
+          = transfer.temperature(state.unknown[index(phase)], *result.geometry, phase);
+    result.speed = transfer.speed(state.speed);
+    return result;
+  }
+
   /** What stands for a phase that is absent. */
-  Values HeatProblem::values_on_front(const PhaseEquation &equation) const
+  Values HeatProblem::values_on_front(const BackgroundMesh &mesh,
+                                      const PhaseEquation &equation) const
   {
     Values result;
     for(const Point &point : mesh.positions)
@@ -105,7 +120,7 @@ namespace meltfront::reference_fem::cut
                                               const State &state, const Cell &cell,
                                               const Point &unit) const
   {
-    const double shift = difference * mesh.spacing, layer = kink_layer * mesh.spacing;
+    const double shift = difference * spacing, layer = kink_layer * spacing;
     const Point here = cell.real(unit);
     const auto gradient = [&](const Point &point)
     {
@@ -118,7 +133,7 @@ namespace meltfront::reference_fem::cut
       }
       return result;
     };
-    const ValueAndGradient front = evaluate(mesh, cell, state.level_set, unit);
+    const ValueAndGradient front = evaluate(*state.mesh, cell, state.level_set, unit);
     const double slope = front.gradient.norm();
     if(!(slope > 0))
       return gradient(here);
@@ -136,7 +151,7 @@ namespace meltfront::reference_fem::cut
                                         const PointFunction &temperature) const
   {
     const double conductivity = properties(phase).conductivity;
-    const double length = projection_length * mesh.spacing;
+    const double length = projection_length * spacing;
     const auto smooth_part = [this, phase, time = state.time,
                               &temperature](const Point &point) {
       return temperature(point) - (phase == Phase::solid ? sinks.value(point, time) : 0);
@@ -161,10 +176,11 @@ namespace meltfront::reference_fem::cut
     {
       const PhaseEquation equation = projection(phase, state, temperature);
       Values &unknown = state.unknown[index(phase)];
-      unknown = values_on_front(equation);
+      unknown = values_on_front(*state.mesh, equation);
       if(!state.geometry->has(phase))
         continue;
-      PhaseProblem problem(mesh, *state.geometry, state.level_set, phase, stabilization);
+      PhaseProblem problem(*state.mesh, *state.geometry, state.level_set, phase,
+                           stabilization);
       unknown = problem.solve(equation);
       flux[index(phase)] = problem.front_flux(equation, unknown);
       unknowns += problem.unknowns;
@@ -182,14 +198,15 @@ namespace meltfront::reference_fem::cut
       for(const SurfacePoint &point : cut.front)
       {
         const Gradient singular
-            = sinks.gradient(mesh.cells[cut.cell].real(point.unit), state.time);
+            = sinks.gradient(state.mesh->cells[cut.cell].real(point.unit), state.time);
         double heat = scene.material.solid.conductivity * (singular * point.normal);
         for(const std::vector<double> &phase_flux : flux)
           if(!phase_flux.empty())
             heat += phase_flux[speed.size()];
         speed.push_back(heat / latent);
       }
-    state.speed = extend_speed(mesh, *state.geometry, state.level_set, speed, smoothing);
+    state.speed
+        = extend_speed(*state.mesh, *state.geometry, state.level_set, speed, smoothing);
   }
 
   PointFunction HeatProblem::change_of_sinks(const TimeDerivative &derivative,
@@ -238,10 +255,10 @@ namespace meltfront::reference_fem::cut
     {
       const PhaseEquation equation = this->equation(phase, state, before, older);
       Values &unknown = state.unknown[index(phase)];
-      unknown = values_on_front(equation);
+      unknown = values_on_front(*state.mesh, equation);
       if(!geometry.has(phase))
         continue;
-      PhaseProblem problem(mesh, geometry, state.level_set, phase, stabilization);
+      PhaseProblem problem(*state.mesh, geometry, state.level_set, phase, stabilization);
       unknown = problem.solve(equation);
       flux[index(phase)] = problem.front_flux(equation, unknown);
       state.wall_power += problem.wall_heat(equation, unknown);
@@ -249,6 +266,7 @@ namespace meltfront::reference_fem::cut
       entries += problem.entries;
     }
     find_speed(state, flux);
+    most_unknowns = std::max(most_unknowns, unknowns);
     ++solves;
   }
 
@@ -265,8 +283,9 @@ namespace meltfront::reference_fem::cut
   double HeatProblem::temperature(const State &state, Phase phase, unsigned int number,
                                   const Point &unit) const
   {
-    const Cell &cell = mesh.cells[number];
-    const double value = field_value(mesh, cell, state.unknown[index(phase)], unit);
+    const Cell &cell = state.mesh->cells[number];
+    const double value
+        = field_value(*state.mesh, cell, state.unknown[index(phase)], unit);
     return phase == Phase::solid ? value + sinks.value(cell.real(unit), state.time)
                                  : value;
   }
@@ -274,20 +293,32 @@ namespace meltfront::reference_fem::cut
   double HeatProblem::sensible_heat(const State &state) const
   {
     double sum = 0;
+    const BackgroundMesh &mesh = *state.mesh;
     const double melting = scene.material.melting_temperature;
     for(const Phase phase : phases)
     {
       double heat = 0;
-      const auto add = [&](unsigned int cell, const std::vector<VolumePoint> &points)
+      for(unsigned int number = 0; number < mesh.cells.size(); ++number)
       {
-        for(const VolumePoint &point : points)
-          heat += point.weight * (temperature(state, phase, cell, point.unit) - melting);
-      };
-      for(unsigned int cell = 0; cell < mesh.cells.size(); ++cell)
-        if(CutGeometry::is(state.geometry->location[cell], phase)
-           && mesh.place[cell] == Place::inside)
-          add(cell, whole_cell(mesh.cells[cell]));
-      state.geometry->visit_parts(mesh, phase, add);
+        const Cell &cell = mesh.cells[number];
+        if(!CutGeometry::is(state.geometry->location[number], phase)
+           || mesh.place[number] != Place::inside)
+          continue;
+        for(const VolumePoint &point : whole_cell(cell))
+          heat += point.weight
+                  * (field_value(mesh, cell, state.unknown[index(phase)], point.unit)
+                     - melting);
+        if(phase == Phase::solid)
+          heat += sinks.integral(cell.lower, cell.size, state.time);
+      }
+      state.geometry->visit_parts(
+          mesh, phase,
+          [&](unsigned int cell, const std::vector<VolumePoint> &points)
+          {
+            for(const VolumePoint &point : points)
+              heat += point.weight
+                      * (temperature(state, phase, cell, point.unit) - melting);
+          });
       sum += properties(phase).volumetric_heat_capacity() * heat;
     }
     return sum;
@@ -301,9 +332,9 @@ namespace meltfront::reference_fem::cut
 
   bool HeatProblem::in_solid(const State &state, const Point &point) const
   {
-    for(std::size_t number = 0; number < mesh.cells.size(); ++number)
+    for(std::size_t number = 0; number < state.mesh->cells.size(); ++number)
     {
-      const Point unit = mesh.cells[number].unit(point);
+      const Point unit = state.mesh->cells[number].unit(point);
       if(unit[0] >= 0 && unit[0] <= 1 && unit[1] >= 0 && unit[1] <= 1
          && state.geometry->location[number] == Location::solid)
         return true;

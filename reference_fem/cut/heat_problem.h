@@ -18,6 +18,7 @@ namespace meltfront::reference_fem::cut
   struct State
   {
     double time = 0;
+    std::shared_ptr<const BackgroundMesh> mesh;
     Values level_set; ///< signed distance, negative in the solid (m)
     std::shared_ptr<const CutGeometry> geometry;
     std::array<Values, 2> unknown; ///< by Phase
@@ -38,7 +39,8 @@ namespace meltfront::reference_fem::cut
   class HeatProblem
   {
   public:
-    HeatProblem(const cases::Scene &scene, const BackgroundMesh &mesh,
+    /** @param spacing of the finest cells (m) */
+    HeatProblem(const cases::Scene &scene, double spacing,
                 const Stabilization &stabilization, double smoothing);
 
     /** Geometry of a front; the level set becomes a distance beside it. */
@@ -50,8 +52,13 @@ namespace meltfront::reference_fem::cut
      */
     void project(State &state, const PointFunction &temperature);
 
-    /** Temperatures, speed and wall power at state.time for the front of the state. */
+    /** Temperatures, speed and wall power at state.time for the front of the state; all
+     * states on one mesh. */
     void solve(State &state, const State &before, const State *older);
+
+    /** The same state on another mesh, whose cells at the front are those of its own. */
+    State transferred(const State &state,
+                      std::shared_ptr<const BackgroundMesh> mesh) const;
 
     /** Temperature of a phase at a point of a cell. */
     double temperature(const State &state, Phase phase, unsigned int cell,
@@ -67,12 +74,14 @@ namespace meltfront::reference_fem::cut
     bool in_solid(const State &state, const Point &point) const;
 
     SinkField sinks;
-    long solves = 0, unknowns = 0;
-    long entries = 0; ///< of matrices, over all solves
+    long solves = 0, unknowns = 0; ///< unknowns of the last solve, both phases
+    long most_unknowns = 0;        ///< of any solve
+    long entries = 0;              ///< of matrices, over all solves
 
   private:
     const cases::PhaseProperties &properties(Phase phase) const;
-    Values values_on_front(const PhaseEquation &equation) const;
+    Values values_on_front(const BackgroundMesh &mesh,
+                           const PhaseEquation &equation) const;
     PhaseEquation projection(Phase phase, const State &state,
                              const PointFunction &temperature) const;
     Gradient gradient_beside_front(const PointFunction &function, Phase phase,
@@ -87,7 +96,7 @@ namespace meltfront::reference_fem::cut
     double sink_wall_power(const State &state) const;
 
     const cases::Scene &scene;
-    const BackgroundMesh &mesh;
+    const double spacing;
     const Stabilization &stabilization;
     double smoothing;
   };

@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_cut_options_h
 
 #include <cases/method.h>
+#include <reference_fem/cut/front_band.h>
 #include <reference_fem/cut/phase_problem.h>
 
 #include <vector>
@@ -17,6 +18,8 @@ namespace meltfront::reference_fem::cut
     explicit RunOptions(const cases::Options &options);
 
     int degree, level_set_degree;
+    int refinement;
+    BandWidths widths;
     double step_factor;
     long fewest_steps;
     int solves;

@@ -30,6 +30,10 @@ namespace meltfront::reference_fem::cut
     /** A step that moves the front farther is halved so many times before it is cut. */
     constexpr int most_halvings = 8;
 
+    /** Cells: beyond the band into which phases are extended, the mesh is to be finest
+     * for so far more, for the next step. */
+    constexpr double reach_of_step = farthest_move + 0.1;
+
     /** Both phases are to be this deep at the start, in cells. */
     constexpr double least_depth = 1.4;
 
@@ -44,8 +48,11 @@ namespace meltfront::reference_fem::cut
     , effects(effects)
     , resolution(resolution)
     , options(resolution.options)
-    , mesh(scene, resolution.n, options.degree, options.level_set_degree)
-    , heat(scene, mesh, options.stabilization, options.smoothing)
+    , finest_rim(options.refinement > 0 && scene.domain.round()
+                     ? make_mesh(divided_at_rim(scene.domain), nullptr)
+                     : nullptr)
+    , state{scene.start_time, make_mesh({}, finest_rim.get()), {}, {}, {}, {}, 0}
+    , heat(scene, state.mesh->spacing, options.stabilization, options.smoothing)
     , bounds(cases::temperature_bounds(scene))
   {
     for(const cases::Side side : scene.sides())
@@ -53,6 +60,14 @@ namespace meltfront::reference_fem::cut
         throw cases::Refusal("fem-cut does not simulate periodic walls");
     if(!(scene.material.latent_heat > 0))
       throw cases::Refusal("fem-cut follows a front: it needs a latent heat above zero");
+  }
+
+  std::shared_ptr<const BackgroundMesh>
+  CutRun::make_mesh(const RefinementCriterion &divided, const BackgroundMesh *rim) const
+  {
+    return std::make_shared<const BackgroundMesh>(scene, resolution.n, options.degree,
+                                                  options.level_set_degree,
+                                                  options.refinement, divided, rim);
   }
 
   cases::Cost CutRun::run(cases::Observer &observer)
@@ -80,7 +95,7 @@ namespace meltfront::reference_fem::cut
     cost.stepping_wall = stepping.wall;
     cost.stepping_cpu = stepping.cpu;
     cost.steps = step_number;
-    cost.unknowns = heat.unknowns;
+    cost.unknowns = heat.most_unknowns;
     cost.work = heat.entries;
     cost.solver_iterations = heat.solves;
     cost.most_iterations = options.solves;
@@ -91,19 +106,23 @@ namespace meltfront::reference_fem::cut
 
   void CutRun::start()
   {
-    const Start found = find_start(scene, mesh.spacing, options.seed_cells);
+    const Start found = find_start(scene, state.mesh->spacing, options.seed_cells);
     start_in_words = found.description;
     state.time = found.time;
-    heat.set_front(state, signed_distance_to_zeros(mesh, found.level_set));
+    if(options.refinement > 0)
+      state.mesh = make_mesh(refined_about(points_of_front(*state.mesh, found.level_set),
+                                           *state.mesh, options.widths),
+                             finest_rim.get());
+    heat.set_front(state, signed_distance_to_zeros(*state.mesh, found.level_set));
     require_resolved();
     heat.project(state, found.temperature);
     step_number = found.time > scene.start_time ? 1 : 0;
-
     check(state);
   }
 
   void CutRun::require_resolved() const
   {
+    const BackgroundMesh &mesh = *state.mesh;
     double lowest = 0, highest = 0;
     for(std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
       if(state.geometry->location[cell] != Location::outside)
@@ -126,7 +145,8 @@ namespace meltfront::reference_fem::cut
         = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
     double step = longest;
     if(state.speed.largest > 0)
-      step = std::min(step, options.step_factor * mesh.spacing / state.speed.largest);
+      step = std::min(step,
+                      options.step_factor * state.mesh->spacing / state.speed.largest);
     step = fresh ? first_step_share * step : std::min(step, largest_growth * last_step);
     const double rest = scene.end_time - state.time;
     if(step >= rest * (1 - 1e-10))
@@ -138,7 +158,7 @@ namespace meltfront::reference_fem::cut
   Values CutRun::displaced(const Values &displacement, const std::vector<char> &band,
                            bool &limited) const
   {
-    const double farthest = farthest_move * mesh.spacing;
+    const double farthest = farthest_move * state.mesh->spacing;
     Values result = state.level_set;
     for(std::size_t i = 0; i < result.size(); ++i)
     {
@@ -147,7 +167,7 @@ namespace meltfront::reference_fem::cut
       limited = limited || !(std::abs(displacement[i]) <= farthest);
       result[i] -= std::clamp(displacement[i], -farthest, farthest);
     }
-    mesh.distribute_level_set(result);
+    state.mesh->distribute_level_set(result);
     return result;
   }
 
@@ -203,6 +223,7 @@ namespace meltfront::reference_fem::cut
   {
     double step = next_step();
     State next;
+    next.mesh = state.mesh;
     try
     {
       for(int halvings = 0; !attempt(step, halvings == most_halvings, next); ++halvings)
@@ -230,10 +251,29 @@ namespace meltfront::reference_fem::cut
     fresh = false;
     ++step_number;
     check(state);
+    follow_front();
+  }
+
+  /** A new mesh where the front nears the end of the finest cells. */
+  void CutRun::follow_front()
+  {
+    if(options.refinement == 0
+       || !leaves_band(*state.mesh, *state.geometry, state.level_set,
+                       options.stabilization.extension + reach_of_step))
+      return;
+    const auto mesh
+        = make_mesh(refined_about(points_of_front(*state.mesh, *state.geometry),
+                                  *state.mesh, options.widths),
+                    finest_rim.get());
+    state = heat.transferred(state, mesh);
+    if(older)
+      *older = heat.transferred(*older, mesh);
+    ++meshes;
   }
 
   void CutRun::check(const State &checked) const
   {
+    const BackgroundMesh &mesh = *checked.mesh;
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for(unsigned int number = 0; number < mesh.cells.size(); ++number)
     {

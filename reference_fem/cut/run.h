@@ -8,6 +8,7 @@
 #include <reference_fem/cut/options.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ namespace meltfront::reference_fem::cut
     cases::Cost run(cases::Observer &observer);
 
   private:
+    std::shared_ptr<const BackgroundMesh> make_mesh(const RefinementCriterion &divided,
+                                                    const BackgroundMesh *rim) const;
     void start();
     void require_resolved() const;
     void step();
@@ -34,6 +37,7 @@ namespace meltfront::reference_fem::cut
     Values displaced(const Values &displacement, const std::vector<char> &band,
                      bool &limited) const;
     void accept(State next);
+    void follow_front();
     void check(const State &state) const;
 
     cases::RunDescription description() const;
@@ -50,16 +54,16 @@ namespace meltfront::reference_fem::cut
     const cases::Resolution &resolution;
     cases::Stopwatch watch;
     RunOptions options;
-    BackgroundMesh mesh;
+    std::shared_ptr<const BackgroundMesh> finest_rim; ///< none for boxes
+    State state;
     HeatProblem heat;
     cases::TemperatureBounds bounds;
     std::string start_in_words;
 
-    State state;
     std::optional<State> older;
     double last_step = 0;
     bool fresh = true; ///< no step was made yet
-    long step_number = 0, capped_steps = 0;
+    long step_number = 0, capped_steps = 0, meshes = 1;
     double boundary_heat = 0, initial_heat = 0;
 
     std::array<std::vector<double>, dim> site_positions, front_positions;

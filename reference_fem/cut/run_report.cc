@@ -12,7 +12,7 @@ namespace meltfront::reference_fem::cut
   {
     cases::RunDescription result;
     result.dimension = dim;
-    result.spacing = mesh.spacing;
+    result.spacing = state.mesh->spacing;
     result.time_step
         = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
     result.unknowns = heat.unknowns;
@@ -20,7 +20,13 @@ namespace meltfront::reference_fem::cut
         {"elements",
          fmt::format("degree {}, each phase on the cells that it cuts", options.degree),
          ""},
-        {"mesh", fmt::format("{} Cartesian cells", mesh.cells.size()), ""},
+        {"mesh", fmt::format("{} Cartesian cells", state.mesh->cells.size()), ""},
+        {"refinement about the front",
+         options.refinement > 0 ? fmt::format(
+             "{} divisions, {:g} finest cells to each side, the mesh follows",
+             options.refinement, options.widths.finest)
+                                : "none",
+         ""},
         {"front",
          fmt::format("level set of degree {}, Nitsche's condition, ghost penalty",
                      options.level_set_degree),
@@ -58,9 +64,9 @@ namespace meltfront::reference_fem::cut
       return;
     }
     State seeded = std::move(state);
-    state = State{};
-    state.time = scene.start_time;
-    heat.set_front(state, Values(mesh.level_set_positions.size(), mesh.spacing));
+    state = State{scene.start_time, seeded.mesh, {}, {}, {}, {}, 0};
+    heat.set_front(state,
+                   Values(state.mesh->level_set_positions.size(), state.mesh->spacing));
     heat.project(state,
                  [this](const Point &point) {
                    return scene.initial.temperature(position(point), scene.start_time);
@@ -84,6 +90,7 @@ namespace meltfront::reference_fem::cut
   /** Vertices as sites without weight; those beyond the rim are moved onto it. */
   void CutRun::add_vertices()
   {
+    const BackgroundMesh &mesh = *state.mesh;
     constexpr unsigned int none = static_cast<unsigned int>(-1);
     std::vector<unsigned int> site_of_dof(mesh.positions.size(), none);
     for(unsigned int number = 0; number < mesh.cells.size(); ++number)
@@ -115,6 +122,7 @@ namespace meltfront::reference_fem::cut
 
   void CutRun::collect_sites()
   {
+    const BackgroundMesh &mesh = *state.mesh;
     for(int d = 0; d < dim; ++d)
     {
       site_positions[d].clear();

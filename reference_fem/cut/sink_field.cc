@@ -21,6 +21,14 @@ namespace meltfront::reference_fem::cut
           return true;
       return false;
     }
+    /** A second antiderivative of ln |(x, y)|, in x and in y. */
+    double antiderivative(double x, double y)
+    {
+      if(x == 0 || y == 0)
+        return 0;
+      return x * y * (std::log(std::hypot(x, y)) - 1.5)
+             + (x * x * std::atan(y / x) + y * y * std::atan(x / y)) / 2;
+    }
   } // namespace
 
   SinkField::SinkField(const cases::Scene &scene, double smallest_distance)
@@ -52,6 +60,21 @@ namespace meltfront::reference_fem::cut
       const Gradient away = point - places[i];
       sum -= scene.sources[i].power(time)
              / std::max(away.norm_square(), smallest_distance * smallest_distance) * away;
+    }
+    return sum / (2 * std::numbers::pi * scene.material.solid.conductivity);
+  }
+
+  double SinkField::integral(const Point &lower, const Gradient &size, double time) const
+  {
+    double sum = 0;
+    for(std::size_t i = 0; i < places.size(); ++i)
+    {
+      const Gradient first = lower - places[i], last = first + size;
+      const double logarithm
+          = antiderivative(last[0], last[1]) - antiderivative(first[0], last[1])
+            - antiderivative(last[0], first[1]) + antiderivative(first[0], first[1]);
+      sum -= scene.sources[i].power(time)
+             * (logarithm - size[0] * size[1] * std::log(scene.domain.side()));
     }
     return sum / (2 * std::numbers::pi * scene.material.solid.conductivity);
   }

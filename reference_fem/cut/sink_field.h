@@ -24,6 +24,10 @@ namespace meltfront::reference_fem::cut
     /** K/m */
     Gradient gradient(const Point &point, double time) const;
 
+    /** Integral of S over a rectangle (K m^2), in closed form: quadratures miss the
+     * logarithm at a source by an amount that changes with the mesh. */
+    double integral(const Point &lower, const Gradient &size, double time) const;
+
     /** Whether a power changes, so that S does. */
     bool varies() const
     {

@@ -1,12 +1,9 @@
 #include <cases/error.h>
-#include <cases/exact/line_sink.h>
-#include <reference_fem/cut/cut.h>
-#include <reference_fem/enthalpy/tests/support.h>
+#include <reference_fem/cut/tests/cut_support.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <numbers>
 
 namespace meltfront::reference_fem::tests
@@ -14,75 +11,6 @@ namespace meltfront::reference_fem::tests
   namespace
   {
     using namespace cases;
-
-    /** What a run showed, by step. */
-    class Course : public Observer
-    {
-    public:
-      bool wants(long, double) override
-      {
-        return true;
-      }
-
-      void observe(const Snapshot &snapshot) override
-      {
-        double solid = 0, moment = 0;
-        for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
-        {
-          const double part = snapshot.weights[i] * snapshot.solid_fraction[i];
-          solid += part;
-          moment += part * (snapshot.positions[0][i] + 2 * snapshot.positions[1][i]);
-        }
-        time.push_back(snapshot.time);
-        area.push_back(solid);
-        last_moment = moment;
-        defect = snapshot.heat.defect();
-      }
-
-      bool monotone() const
-      {
-        return std::is_sorted(area.begin(), area.end());
-      }
-
-      std::vector<double> time, area;
-      double last_moment = 0; ///< of the solid, with x + 2 y (m^3)
-      double defect = 0;      ///< of the heat balance, at the end
-      Cost cost;
-    };
-
-    Course run_cut(const Scene &scene, int n,
-                   const std::map<std::string, std::string> &options = {})
-    {
-      const auto method = make_fem_cut();
-      const EffectSet effects = effects_called_for(scene);
-      const Scene simulated = simulated_scene(scene, effects);
-      Resolution resolution;
-      resolution.n = n;
-      resolution.options = Options(method->option_declarations());
-      for(const auto &[key, text] : options)
-        resolution.options.set(key, text);
-      Course course;
-      course.cost = method->solve(simulated, effects, resolution, course);
-      return course;
-    }
-
-    PointSource sink(double x, double y, double strength)
-    {
-      return {{x, y, 0},
-              "constant",
-              [strength](double) { return -strength; },
-              [strength](double time) { return -strength * time; }};
-    }
-
-    constexpr double end = 475000;
-
-    Scene sink_in_disk(const std::shared_ptr<const LineSink> &exact)
-    {
-      Scene scene = ball(water(), 2, 0.5, 10, end);
-      set_boundary(scene, Side::outer, exact_wall(exact));
-      scene.sources.push_back(sink(0, 0, exact->strength()));
-      return scene;
-    }
 
     TEST(FemCut, SinkInADiskFromCold)
     {
@@ -96,13 +24,7 @@ namespace meltfront::reference_fem::tests
         const Course course = run_cut(sink_in_disk(exact), cells);
         EXPECT_TRUE(course.monotone());
         EXPECT_EQ(course.cost.capped_steps, 0);
-        double sum = 0;
-        for(std::size_t i = 1; i < course.time.size(); ++i)
-          sum += std::pow(std::sqrt(course.area[i] / std::numbers::pi)
-                              - exact->front(course.time[i]),
-                          2);
-        errors.push_back(std::sqrt(sum / static_cast<double>(course.time.size() - 1))
-                         / exact->front(end));
+        errors.push_back(front_error(course, *exact));
         defects.push_back(course.defect);
       }
       EXPECT_LE(errors.back(), 2e-4);
@@ -110,40 +32,6 @@ namespace meltfront::reference_fem::tests
       // The scheme does not conserve heat by construction: its defect is an error.
       EXPECT_LE(defects.back(), 5e-5);
       EXPECT_GE(fitted_order(n, defects), 1.3);
-    }
-
-    /** Disks of ice, each with the logarithmic profile of its sink, in insulated liquid
-     * at the melting temperature and above. */
-    Scene disks(const std::vector<Position> &places, double duration,
-                const Position &lower = {-1, -0.5, 0},
-                const Position &upper = {1, 0.5, 0})
-    {
-      constexpr double radius = 0.15;
-      Material material = normalised_material();
-      material.melting_temperature = 0;
-      Scene scene = box(material, 2, lower, upper, 0, duration);
-      const auto nearest = [places](const Position &p)
-      {
-        double least = 1e300;
-        for(const Position &place : places)
-          least = std::min(least, std::hypot(p[0] - place[0], p[1] - place[1]));
-        return least;
-      };
-      for(const Position &place : places)
-        scene.sources.push_back(sink(place[0], place[1], 2));
-      scene.initial.front = Field{
-          "circles", [nearest](const Position &p, double) { return nearest(p) - radius; },
-          false};
-      scene.initial.temperature
-          = {"logarithms",
-             [nearest](const Position &p, double)
-             {
-               const double r = nearest(p);
-               return r < radius ? std::log(r / radius) / std::numbers::pi
-                                 : 0.1 * (1 - std::exp((radius - r) / 0.1));
-             },
-             false};
-      return scene;
     }
 
     TEST(FemCut, DisksMergeAndTheirAreaOnlyGrows)
