@@ -86,7 +86,7 @@ namespace meltfront::reference_fem
    * volumes add up to the mesh's volume.
    *
    * @param dimension one of mesh_dimensions()
-   * @throws cases::Refusal if the scene cannot be meshed so
+   * @throws cases::Refusal if the scene cannot be meshed so (outlines: mesh_outline())
    */
   std::unique_ptr<Mesh> make_mesh(const cases::Scene &scene, int dimension, int n);
 } // namespace meltfront::reference_fem
