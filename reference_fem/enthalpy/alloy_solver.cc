@@ -20,6 +20,10 @@ namespace meltfront::reference_fem
     /** Passes that the concentrations to start the next from are combined of. */
     constexpr int mixing_depth = 5;
 
+    /** Ahead of solute that spreads there is as little of it as a double can hold. Below
+     * this (K) no temperature feels it: the node is that of the pure solvent. */
+    constexpr double least_depression = 1e-10;
+
     /** Less liquid than this share of a node's mass is round-off. */
     constexpr double least_liquid = 1e-14;
 
@@ -140,6 +144,8 @@ namespace meltfront::reference_fem
     for(const Substance &substance : substances)
       for(std::size_t i = 0; i < depression.size(); ++i)
         depression[i] += substance.slope * std::max(substance.in_use()[i], 0.);
+    for(double &fall : depression)
+      fall = fall < least_depression ? 0 : fall;
   }
 
   std::vector<double> AlloySolver::initial_enthalpy() const
