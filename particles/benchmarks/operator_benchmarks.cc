@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <numeric>
 
@@ -92,7 +91,10 @@ namespace meltfront::particles::benchmarks
       const double *u = crowd.u.data(), *solute = crowd.solute.data();
       const auto heat = [u](std::size_t a, std::size_t b) { return u[b] - u[a]; };
       const auto diffusion = [u, solute](std::size_t a, std::size_t b)
-      { return std::min(u[a], u[b]) > 0 ? solute[b] - solute[a] : 0.; };
+      {
+        const double difference = solute[b] - solute[a];
+        return (u[a] > 0) & (u[b] > 0) ? difference : 0.;
+      };
       for(auto _ : state)
       {
         crowd.rows.apply_pairs(heat, diffusion, crowd.result, crowd.result_2, threads);

@@ -31,32 +31,84 @@ namespace meltfront::particles
         }
         std::partial_sum(first.begin(), first.end(), first.begin());
         members.resize(points.size());
+        for(int d = 0; d < dimension; ++d)
+          coordinate[d].resize(points.size());
         std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
         for(std::size_t i = 0; i < points.size(); ++i)
-          members[next[cell_of[i]]++] = i;
+        {
+          const std::uint32_t place = next[cell_of[i]]++;
+          members[place] = i;
+          for(int d = 0; d < dimension; ++d)
+            coordinate[d][place] = points.position[d][i];
+        }
       }
 
-      /** Visit every point in the cells around a place, each point once. */
-      template <typename Visit>
-      void visit(const std::array<double, 3> &place, const Visit &visitor) const
+      /**
+       * Append the points nearer to a place than a radius, in any order. The loop has no
+       * branch: each point is written, and counted only if it is near.
+       * @param entries has room for all points of the cells around the place
+       */
+      template <int Dimension>
+      std::size_t find(const std::array<double, 3> &place, double radius,
+                       std::uint32_t *entries) const
       {
-        const std::array<int, 3> centre = cell_index(place);
-        std::array<int, 3> cell{};
-        for(int k = -1; k <= 1; ++k)
-          for(int j = -1; j <= 1; ++j)
-            for(int i = -1; i <= 1; ++i)
-            {
-              if(!neighbour_cell(0, centre[0], i, cell[0])
-                 || !neighbour_cell(1, centre[1], j, cell[1])
-                 || !neighbour_cell(2, centre[2], k, cell[2]))
-                continue;
-              const std::uint32_t number = cell_number(cell);
-              for(std::uint32_t m = first[number]; m < first[number + 1]; ++m)
-                visitor(members[m]);
-            }
+        const double squared_radius = radius * radius;
+        std::size_t found = 0;
+        visit_ranges(place,
+                     [&](std::uint32_t begin, std::uint32_t end)
+                     {
+                       for(std::uint32_t m = begin; m < end; ++m)
+                       {
+                         double squared = 0;
+                         for(int d = 0; d < Dimension; ++d)
+                         {
+                           const double difference
+                               = periodicity.shortest(d, place[d] - coordinate[d][m]);
+                           squared += difference * difference;
+                         }
+                         entries[found] = members[m];
+                         found += squared < squared_radius;
+                       }
+                     });
+        return found;
+      }
+
+      /** Number of points in the cells around a place. */
+      std::size_t candidates(const std::array<double, 3> &place) const
+      {
+        std::size_t sum = 0;
+        visit_ranges(place, [&sum](std::uint32_t begin, std::uint32_t end)
+                     { sum += end - begin; });
+        return sum;
       }
 
     private:
+      /** Visit the ranges of points in the cells around a place: cells that are next to
+       * each other along x are so in memory. */
+      template <typename Visit>
+      void visit_ranges(const std::array<double, 3> &place, const Visit &visitor) const
+      {
+        const std::array<int, 3> centre = cell_index(place);
+        std::array<int, 3> cell{};
+        const bool wraps = periodicity.period[0] > 0 && count[0] > 1;
+        for(int k = -1; k <= 1; ++k)
+          for(int j = -1; j <= 1; ++j)
+          {
+            if(!neighbour_cell(1, centre[1], j, cell[1])
+               || !neighbour_cell(2, centre[2], k, cell[2]))
+              continue;
+            cell[0] = 0;
+            const std::uint32_t line = cell_number(cell);
+            const int low = centre[0] - 1, high = centre[0] + 1;
+            visitor(first[line + std::max(low, 0)],
+                    first[line + std::min(high, count[0] - 1) + 1]);
+            if(wraps && low < 0)
+              visitor(first[line + count[0] - 1], first[line + count[0]]);
+            if(wraps && high == count[0])
+              visitor(first[line], first[line + 1]);
+          }
+      }
+
       void set_up_direction(const ParticleStorage &points, int d, double radius)
       {
         const auto &x = points.position[d];
@@ -108,6 +160,7 @@ namespace meltfront::particles
       std::array<double, 3> width{1, 1, 1};
       std::vector<std::uint32_t> first;
       std::vector<std::uint32_t> members;
+      std::array<std::vector<double>, 3> coordinate; ///< of the members
     };
 
     void require_long_periods(const ParticleStorage &particles, double radius,
@@ -121,48 +174,81 @@ namespace meltfront::particles
               periodicity.period[d], d, radius));
     }
 
+    /** Rows of the points near each particle, in any order, itself among them if it is
+     * one of the points. */
+    template <int Dimension>
+    void collect(const ParticleStorage &particles, const CellGrid &grid, double radius,
+                 std::vector<std::size_t> &begin, std::vector<std::uint32_t> &entries)
+    {
+      begin.assign(1, 0);
+      begin.reserve(particles.size() + 1);
+      entries.clear();
+      for(std::size_t a = 0; a < particles.size(); ++a)
+      {
+        const auto place = particles.point(a);
+        const std::size_t needed = begin.back() + grid.candidates(place);
+        if(needed > entries.size())
+          entries.resize(std::max(needed, 2 * entries.size()));
+        begin.push_back(
+            begin.back()
+            + grid.find<Dimension>(place, radius, entries.data() + begin.back()));
+      }
+      entries.resize(begin.back());
+    }
+
     void collect(const ParticleStorage &particles, const ParticleStorage &others,
-                 double radius, const Periodicity &periodicity, bool same,
+                 double radius, const Periodicity &periodicity,
                  std::vector<std::size_t> &begin, std::vector<std::uint32_t> &entries)
     {
       require_long_periods(particles, radius, periodicity);
       const CellGrid grid(others, radius, periodicity);
-      begin.assign(1, 0);
-      begin.reserve(particles.size() + 1);
-      for(std::size_t a = 0; a < particles.size(); ++a)
+      switch(particles.dimension)
       {
-        const auto place = particles.point(a);
-        grid.visit(place,
-                   [&](std::uint32_t b)
-                   {
-                     if(same && b == a)
-                       return;
-                     double squared = 0;
-                     for(int d = 0; d < particles.dimension; ++d)
-                     {
-                       const double difference
-                           = periodicity.shortest(d, place[d] - others.position[d][b]);
-                       squared += difference * difference;
-                     }
-                     if(squared < radius * radius)
-                       entries.push_back(b);
-                   });
-        std::sort(entries.begin() + begin.back(), entries.end());
-        begin.push_back(entries.size());
+      case 1:
+        return collect<1>(particles, grid, radius, begin, entries);
+      case 2:
+        return collect<2>(particles, grid, radius, begin, entries);
+      default:
+        return collect<3>(particles, grid, radius, begin, entries);
       }
+    }
+
+    /**
+     * Order the rows of a symmetric list, and leave out each particle itself: particles
+     * in ascending order are appended to the rows of their neighbours.
+     */
+    void order_symmetric(std::vector<std::size_t> &begin,
+                         std::vector<std::uint32_t> &entries)
+    {
+      const std::size_t n = begin.size() - 1;
+      std::vector<std::uint32_t> ordered(entries.size() - n);
+      std::vector<std::size_t> next(n);
+      for(std::size_t a = 0; a < n; ++a)
+        next[a] = begin[a] - a;
+      for(std::size_t a = 0; a < n; ++a)
+        for(std::size_t e = begin[a]; e < begin[a + 1]; ++e)
+          if(entries[e] != a)
+            ordered[next[entries[e]]++] = a;
+      for(std::size_t a = 0; a <= n; ++a)
+        begin[a] -= a;
+      entries.swap(ordered);
     }
   } // namespace
 
   NeighbourList::NeighbourList(const ParticleStorage &particles, double radius,
                                const Periodicity &periodicity)
   {
-    collect(particles, particles, radius, periodicity, true, begin, entries);
+    collect(particles, particles, radius, periodicity, begin, entries);
+    order_symmetric(begin, entries);
   }
 
   NeighbourList::NeighbourList(const ParticleStorage &particles,
                                const ParticleStorage &others, double radius,
                                const Periodicity &periodicity)
   {
-    collect(particles, others, radius, periodicity, false, begin, entries);
+    collect(particles, others, radius, periodicity, begin, entries);
+    for(std::size_t a = 0; a < rows(); ++a)
+      std::sort(entries.begin() + static_cast<std::ptrdiff_t>(begin[a]),
+                entries.begin() + static_cast<std::ptrdiff_t>(begin[a + 1]));
   }
 } // namespace meltfront::particles

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -117,45 +118,77 @@ namespace meltfront::particles
                          std::vector<std::uint32_t> &adjacent) const;
 
   private:
-    template <typename Pair>
-    void apply_to_slice(std::size_t slice, const Pair &pair, double *result) const
+    /**
+     * Sums of the eight rows of a slice. Vectors of the compiler stay in registers, where
+     * an array would be written and read again for each entry.
+     */
+    class LaneSums
     {
+    public:
+      void add(const double *terms)
+      {
+        Half low, high;
+        std::memcpy(&low, terms, sizeof(low));
+        std::memcpy(&high, terms + lanes / 2, sizeof(high));
+        first += low;
+        second += high;
+      }
+
+      void store(double *result) const
+      {
+        std::memcpy(result, &first, sizeof(first));
+        std::memcpy(result + lanes / 2, &second, sizeof(second));
+      }
+
+    private:
+      using Half [[gnu::vector_size(lanes / 2 * sizeof(double))]] = double;
+      Half first{}, second{};
+    };
+
+    template <typename Pair>
+    void apply_to_slice(std::size_t slice, const Pair &given, double *result) const
+    {
+      const Pair pair = given; // a copy's members stay in registers
       const std::size_t row = slice * lanes;
-      double sum[lanes] = {};
+      LaneSums sums;
       for(std::size_t e = slice_begin[slice]; e < slice_begin[slice + 1]; e += lanes)
       {
         const std::uint32_t *neighbour = neighbours_of.data() + e;
         const double *factor = coefficient.data() + e;
+        double term[lanes];
 #pragma omp simd
         for(std::size_t lane = 0; lane < lanes; ++lane)
-          sum[lane] += factor[lane] * pair(row + lane, neighbour[lane]);
+          term[lane] = factor[lane] * pair(row + lane, neighbour[lane]);
+        sums.add(term);
       }
-      for(std::size_t lane = 0; lane < lanes; ++lane)
-        result[row + lane] = sum[lane];
+      sums.store(result + row);
     }
 
     template <typename First, typename Second>
-    void apply_to_slice(std::size_t slice, const First &first, const Second &second,
-                        double *first_result, double *second_result) const
+    void apply_to_slice(std::size_t slice, const First &first_given,
+                        const Second &second_given, double *first_result,
+                        double *second_result) const
     {
+      const First first = first_given;
+      const Second second = second_given;
       const std::size_t row = slice * lanes;
-      double first_sum[lanes] = {}, second_sum[lanes] = {};
+      LaneSums first_sums, second_sums;
       for(std::size_t e = slice_begin[slice]; e < slice_begin[slice + 1]; e += lanes)
       {
         const std::uint32_t *neighbour = neighbours_of.data() + e;
         const double *factor = coefficient.data() + e;
+        double first_term[lanes], second_term[lanes];
 #pragma omp simd
         for(std::size_t lane = 0; lane < lanes; ++lane)
         {
-          first_sum[lane] += factor[lane] * first(row + lane, neighbour[lane]);
-          second_sum[lane] += factor[lane] * second(row + lane, neighbour[lane]);
+          first_term[lane] = factor[lane] * first(row + lane, neighbour[lane]);
+          second_term[lane] = factor[lane] * second(row + lane, neighbour[lane]);
         }
+        first_sums.add(first_term);
+        second_sums.add(second_term);
       }
-      for(std::size_t lane = 0; lane < lanes; ++lane)
-      {
-        first_result[row + lane] = first_sum[lane];
-        second_result[row + lane] = second_sum[lane];
-      }
+      first_sums.store(first_result + row);
+      second_sums.store(second_result + row);
     }
 
     std::size_t n_rows = 0;

@@ -50,19 +50,41 @@ namespace meltfront::particles
       fill_outline();
     else
       fill_slab_or_box(p);
-    jitter(particles, p.jitter * spacing, p.seed,
-           [this](const cases::Position &position)
-           {
-             if(layout == LatticeLayout::cell_centred)
-               return true;
-             for(const PlaneWall &wall : walls)
-               if(std::abs(position[wall.direction] - wall.coordinate) < 1e-6 * spacing)
-                 return false;
-             return true;
-           });
+    disturb(p);
     reorder(particles, order_along_curve(particles, spacing));
     weights.assign(particles.size(), particle_volume / cross_section);
     find_held_particles();
+  }
+
+  /** Jitter the particles, but for those on walls, and relax them if that is wanted. */
+  void Discretisation::disturb(const SphParameters &p)
+  {
+    if(!displaced)
+      return;
+    const auto movable = [this](const cases::Position &position)
+    {
+      if(layout == LatticeLayout::cell_centred)
+        return true;
+      for(const PlaneWall &wall : walls)
+        if(std::abs(position[wall.direction] - wall.coordinate) < 1e-6 * spacing)
+          return false;
+      return true;
+    };
+    jitter(particles, p.jitter * spacing, p.seed, movable);
+    if(p.arrangement != Arrangement::relaxed)
+      return;
+    if(scene.domain.outline)
+      throw cases::Refusal(
+          "particles within an outline are not relaxed: nothing holds them inside");
+    RelaxationBounds bounds{periodicity, {}, {dimension, {}}, movable};
+    for(const PlaneWall &wall : walls)
+      bounds.mirrors.push_back({wall.direction, wall.coordinate,
+                                wall.coordinate > scene.domain.lower[wall.direction]});
+    if(scene.domain.shape == DomainShape::ball)
+      bounds.fixed
+          = arrange_in_shell(dimension, scene.domain.radius,
+                             scene.domain.radius + kernel.support(), spacing, layout);
+    relaxation = relax(particles, kernel, spacing, bounds);
   }
 
   void Discretisation::fill_slab_or_box(const SphParameters &p)

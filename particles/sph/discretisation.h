@@ -5,6 +5,7 @@
 #include <particles/core/kernels.h>
 #include <particles/core/neighbour_list.h>
 #include <particles/core/particle_storage.h>
+#include <particles/core/relaxation.h>
 #include <particles/sph/parameters.h>
 
 #include <vector>
@@ -34,7 +35,8 @@ namespace meltfront::particles
     LatticeLayout layout;
     double spacing; ///< dp (m)
     SmoothingKernel kernel;
-    bool displaced; ///< the particles are jittered
+    bool displaced;        ///< the particles are jittered
+    Relaxation relaxation; ///< of the particles, where they were relaxed
     ParticleStorage particles;
     /** Lattice points outside a ball within reach of its particles: they hold the rim's
      * values. */
@@ -52,6 +54,7 @@ namespace meltfront::particles
     void fill_slab_or_box(const SphParameters &parameters);
     void fill_ball();
     void fill_outline();
+    void disturb(const SphParameters &parameters);
     void find_held_particles();
   };
 } // namespace meltfront::particles

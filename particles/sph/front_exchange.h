@@ -114,18 +114,18 @@ namespace meltfront::particles
       return from_wall(a, state.u[b]);
     }
 
+    /** Written without branches, so that eight rows advance together. */
     double from_wall(std::size_t a, double other) const
     {
       const double own = state.u[a];
-      return exchanges_across(own, other) ? other * scale(other) - own * scale(own)
-                                          : other - own;
+      const double harmonic = other * scale(other) - own * scale(own);
+      return exchanges_across(own, other) ? harmonic : other - own;
     }
 
     /** Whether the harmonic mean holds between two values. */
     bool exchanges_across(double own, double other) const
     {
-      return melting_is_liquid ? (own < 0) != (other < 0)
-                               : (own < 0 && other > 0) || (own > 0 && other < 0);
+      return (own * other < 0) | (melting_is_liquid & ((own < 0) != (other < 0)));
     }
 
     double scale(double u) const

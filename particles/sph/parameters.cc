@@ -17,6 +17,21 @@ namespace meltfront::particles
                                                   "crank-nicolson"};
       return names;
     }
+
+    /** In the order of the enumeration. */
+    const std::vector<std::string> &arrangement_names()
+    {
+      static const std::vector<std::string> names{"lattice", "jittered", "relaxed"};
+      return names;
+    }
+
+    /** The enumerator that a word stands for. */
+    template <typename Enumeration>
+    Enumeration choice(const std::vector<std::string> &names, const std::string &name)
+    {
+      return static_cast<Enumeration>(std::find(names.begin(), names.end(), name)
+                                      - names.begin());
+    }
   } // namespace
 
   const SphPolicy &corrected_policy()
@@ -86,9 +101,17 @@ namespace meltfront::particles
          0, 1e6},
         {"step_error", "1", 0.0,
          "Wanted relative error of each implicit step, which sets its length; 0: steps "
-         "of "
-         "equal length by step_factor.",
+         "of equal length by step_factor.",
          0, 1},
+        {"refine", "", std::string("space"),
+         "What n is the number of: particles along the side, or equal steps in time.", 0,
+         0, std::vector<std::string>{"space", "time"}},
+        {"particles", "1", 80L,
+         "Particles along the side where n is the number of steps.", 5, 1e6},
+        {"arrangement", "", std::string("jittered"),
+         "Particles on a lattice, displaced from it by `jitter` (by nothing if that is "
+         "0), or relaxed after that until they crowd nowhere.",
+         0, 0, arrangement_names()},
         {"jitter", "1", 0.0,
          "Random displacement of each particle, in particle spacings and per direction.",
          0, 0.4},
@@ -104,11 +127,19 @@ namespace meltfront::particles
       return name == "partner" ? FrontRule::partner : FrontRule::liquid;
     }
 
-    TimeScheme time_scheme(const std::string &name)
+    Arrangement resolve_arrangement(const SphPolicy &policy, const std::string &name,
+                                    double jitter)
     {
-      const auto &names = time_scheme_names();
-      return static_cast<TimeScheme>(std::find(names.begin(), names.end(), name)
-                                     - names.begin());
+      const auto arrangement = choice<Arrangement>(arrangement_names(), name);
+      if(arrangement == Arrangement::lattice && jitter > 0)
+        throw cases::Refusal(fmt::format(
+            "{} does not displace particles from a lattice: jitter has to be 0",
+            policy.name));
+      if(arrangement == Arrangement::relaxed && jitter == 0)
+        throw cases::Refusal(fmt::format(
+            "{} relaxes particles that are displaced: jitter has to be positive",
+            policy.name));
+      return arrangement;
     }
 
     int resolve_dimension(const SphPolicy &policy, const cases::Scene &scene, long wanted)
@@ -138,7 +169,10 @@ namespace meltfront::particles
     const cases::Options &options = resolution.options;
     SphParameters p;
     p.dimension = resolve_dimension(policy, scene, options.get_integer("dimension"));
-    p.columns = policy.as_published ? resolution.n : 0;
+    const bool in_time = options.get_string("refine") == "time";
+    p.n = in_time ? static_cast<int>(options.get_integer("particles")) : resolution.n;
+    p.steps = in_time ? resolution.n : 0;
+    p.columns = policy.as_published ? p.n : 0;
     p.kernel = kernel_shape(options.get_string("kernel"));
     p.smoothing = options.get_double("smoothing");
     if(p.smoothing == 0)
@@ -147,7 +181,8 @@ namespace meltfront::particles
                                                       : LatticeLayout::cell_centred;
     p.moment_correction = options.get_bool("moment_correction");
     p.front = front_rule(options.get_string("front"));
-    p.time_scheme = time_scheme(options.get_string("time_scheme"));
+    p.time_scheme
+        = choice<TimeScheme>(time_scheme_names(), options.get_string("time_scheme"));
     p.stages = static_cast<int>(options.get_integer("stages"));
     p.step_factor = options.get_double("step_factor");
     p.step_error = options.get_double("step_error");
@@ -156,10 +191,15 @@ namespace meltfront::particles
           "{} chooses steps by a wanted error (step_error) for the implicit schemes "
           "backward-euler and crank-nicolson only",
           policy.name));
+    if(p.step_error > 0 && in_time)
+      throw cases::Refusal(fmt::format(
+          "{} takes as many steps as n says or as step_error asks for, not both",
+          policy.name));
     p.jitter = options.get_double("jitter");
+    p.arrangement
+        = resolve_arrangement(policy, options.get_string("arrangement"), p.jitter);
     p.seed = resolution.seed;
     p.threads = resolution.threads;
-    p.n = resolution.n;
     return p;
   }
 } // namespace meltfront::particles

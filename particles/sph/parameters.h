@@ -20,6 +20,14 @@ namespace meltfront::particles
                   ///< section 3)
   };
 
+  /** Where the particles are. */
+  enum class Arrangement
+  {
+    lattice,
+    jittered, ///< displaced from a lattice at random
+    relaxed   ///< jittered, then moved until they crowd nowhere
+  };
+
   enum class TimeScheme
   {
     euler,
@@ -75,10 +83,12 @@ namespace meltfront::particles
     int stages;         ///< most stages of a super step
     double step_factor; ///< 0: the paper's step
     double step_error;  ///< wanted of each implicit step; 0: steps of equal length
-    double jitter;      ///< in particle spacings
+    Arrangement arrangement;
+    double jitter; ///< in particle spacings
     std::uint64_t seed;
     int threads;
-    int n;
+    int n;     ///< particles along the domain's side
+    int steps; ///< of the run; 0: by step_factor or step_error
   };
 
   /** @throws cases::Refusal for a dimension in which the scene cannot be simulated. */

@@ -136,6 +136,11 @@ namespace meltfront::particles
             "");
         if(dis.displaced)
           add("jitter", fmt::format("{:.6g}", parameters.jitter), "spacings");
+        if(const Relaxation &done = dis.relaxation; done.sweeps > 0)
+          add("relaxation",
+              fmt::format("{} sweeps, spread of the second moment from {:.3g} to {:.3g}",
+                          done.sweeps, done.spread_before, done.spread_after),
+              "");
         add("particles", fmt::format("{}", n), "1");
         for(const cases::Parameter &parameter : heat_flow.describe())
           description.parameters.push_back(parameter);

@@ -43,6 +43,65 @@ namespace meltfront::particles
     return (double(stages) * stages + stages - 2) / 4;
   }
 
+  namespace
+  {
+    /** Fewest stages, at least three, with which a super step reaches so many times the
+     * step of explicit Euler. */
+    int stages_for(double reach)
+    {
+      int stages = 3;
+      while(super_step_reach(stages) < reach * (1 - 1e-12))
+        ++stages;
+      return stages;
+    }
+
+    void refuse_unstable_step(double step, double monotone)
+    {
+      if(step > monotone * (1 + 1e-12))
+        throw cases::Refusal(fmt::format(
+            "a step of {:.6g} s is {:.4g} times the largest one, {:.6g} s, that keeps "
+            "the maximum principle and is certainly stable",
+            step, step / monotone, monotone));
+    }
+
+    /** So many equal steps; super steps with the fewest stages that reach so far. */
+    StepPlan plan_given_steps(const SphParameters &p, double duration, double euler,
+                              double monotone)
+    {
+      StepPlan plan{p.steps, duration / p.steps, 1, monotone, 1, 0};
+      if(p.time_scheme == TimeScheme::euler)
+        refuse_unstable_step(plan.step, monotone);
+      if(p.time_scheme == TimeScheme::rkl2)
+      {
+        plan.stages = stages_for(plan.step / euler);
+        if(plan.stages > p.stages)
+          throw cases::Refusal(fmt::format(
+              "a step of {:.6g} s needs super steps of {} stages, and at most {} are "
+              "allowed",
+              plan.step, plan.stages, p.stages));
+        plan.resolved_steps = std::min<long>(8, p.steps);
+      }
+      return plan;
+    }
+
+    StepPlan plan_long_steps(const SphParameters &p, double duration, double euler,
+                             double monotone)
+    {
+      StepPlan plan{steps_for(duration, euler), 0, 1, monotone, 1, 8};
+      if(p.time_scheme != TimeScheme::rkl2)
+        return plan;
+      const long steps = steps_for(duration, euler * super_step_reach(p.stages));
+      const int stages = stages_for(duration / (euler * steps));
+      // Few stages gain nothing over as many explicit steps.
+      if(stages * steps < plan.steps)
+      {
+        plan.steps = steps;
+        plan.stages = stages;
+      }
+      return plan;
+    }
+  } // namespace
+
   StepPlan plan_steps(const SphParameters &p, const cases::Scene &scene, double monotone,
                       double smoothing_length)
   {
@@ -50,31 +109,16 @@ namespace meltfront::particles
     const double euler = p.step_factor > 0
                              ? p.step_factor * monotone
                              : published_step(scene.material, smoothing_length);
-    if(is_implicit(p.time_scheme))
+    if(is_implicit(p.time_scheme) && p.steps == 0)
     {
       const long steps
           = std::max(1L, std::lround(std::ceil(duration / euler * (1 - 1e-12))));
       return {steps, duration / steps, 1, monotone, 1, 0};
     }
-    if(euler > monotone * (1 + 1e-12))
-      throw cases::Refusal(fmt::format(
-          "a step of {:.6g} s is {:.4g} times the largest one, {:.6g} s, that keeps the "
-          "maximum principle and is certainly stable",
-          euler, euler / monotone, monotone));
-    StepPlan plan{steps_for(duration, euler), 0, 1, monotone, 1, 8};
-    if(p.time_scheme == TimeScheme::rkl2)
-    {
-      const long steps = steps_for(duration, euler * super_step_reach(p.stages));
-      int stages = 3;
-      while(super_step_reach(stages) * euler * steps < duration * (1 - 1e-12))
-        ++stages;
-      // Few stages gain nothing over as many explicit steps.
-      if(stages * steps < plan.steps)
-      {
-        plan.steps = steps;
-        plan.stages = stages;
-      }
-    }
+    if(!is_implicit(p.time_scheme))
+      refuse_unstable_step(euler, monotone);
+    StepPlan plan = p.steps > 0 ? plan_given_steps(p, duration, euler, monotone)
+                                : plan_long_steps(p, duration, euler, monotone);
     plan.step = duration / plan.steps;
     plan.euler_substeps
         = std::max(1, static_cast<int>(std::ceil(plan.step / euler * (1 - 1e-12))));

@@ -1,3 +1,4 @@
+#include <cases/error.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/tests/scenes.h>
 
@@ -141,6 +142,29 @@ namespace meltfront::particles::testing
         all.push_back({"jitter", amount});
         EXPECT_LE(run(*method, plane_freezing(), 80, all).front_rms, bound) << amount;
       }
+    }
+
+    // Errors that an independent code had on jittered particles bound those on relaxed.
+    TEST(Convergence, RelaxedParticles)
+    {
+      const OptionTexts common{{"smoothing", "1.3"}, {"arrangement", "relaxed"}};
+      for(const char *amount : {"0.1", "0.3"})
+      {
+        OptionTexts options = common;
+        options.push_back({"jitter", amount});
+        const Outcome sink = run(*method, line_sink(), 40, options);
+        EXPECT_LE(sink.front_rms, 3.2e-3) << amount;
+        EXPECT_LE(sink.largest_defect, 1e-12);
+        options.push_back({"dimension", "2"});
+        const Outcome plane = run(*method, plane_freezing(), 40, options);
+        EXPECT_LE(plane.front_rms, 5.2e-3) << amount;
+        EXPECT_LE(plane.largest_defect, 1e-12);
+      }
+      EXPECT_THROW(run(*method, line_sink(), 20, {{"arrangement", "relaxed"}}),
+                   cases::Refusal);
+      EXPECT_THROW(
+          run(*method, line_sink(), 20, {{"arrangement", "lattice"}, {"jitter", "0.1"}}),
+          cases::Refusal);
     }
 
     // From the exact state the first front is known to a small part of a particle.

@@ -237,6 +237,31 @@ namespace meltfront::particles::testing
                    cases::Refusal);
     }
 
+    // n counts steps: as many are made, on the particles that the option says.
+    TEST(Implicit, RefinesInTime)
+    {
+      const Problem problem = plane_freezing();
+      const auto in_time = [&](const char *scheme, int n, const char *stages)
+      {
+        return run(*method, problem, n,
+                   {{"refine", "time"},
+                    {"particles", "40"},
+                    {"time_scheme", scheme},
+                    {"stages", stages}});
+      };
+      for(const char *scheme : {"rkl2", "backward-euler", "crank-nicolson"})
+        for(const int steps : {20, 100})
+        {
+          const Outcome outcome = in_time(scheme, steps, "64");
+          EXPECT_EQ(outcome.cost.steps, steps) << scheme;
+          EXPECT_EQ(outcome.cost.unknowns, 40);
+          EXPECT_NEAR(outcome.description.time_step, problem.scene.end_time / steps,
+                      1e-12);
+        }
+      EXPECT_THROW(in_time("euler", 20, "8"), cases::Refusal);
+      EXPECT_THROW(in_time("rkl2", 5, "8"), cases::Refusal);
+    }
+
     // A source that is not a number from some time on ends the run at that step.
     TEST(Implicit, StopsWhereTheEquationsCannotBeSolved)
     {
