@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <particles/alloy/mixture_state.h>
+#include <particles/sph/initial_state.h>
 
 #include <fmt/format.h>
 
@@ -62,7 +63,11 @@ namespace meltfront::particles
     const bool exact_means
         = scene.initial.exact
           && scene.initial.exact->symmetry() == cases::Symmetry::planar;
-    const double melting = substance.material.melting_temperature;
+    if(concentration.empty())
+    {
+      enthalpy = initial_enthalpy(dis);
+      return;
+    }
     for(std::size_t a = 0; a < enthalpy.size(); ++a)
     {
       const cases::Position position = dis.particles.point(a);
@@ -72,10 +77,6 @@ namespace meltfront::particles
         content[s] = concentration[s][a];
       if(exact_means)
         enthalpy[a] = planar_mean(dis, substance.density, position[0]);
-      else if(temperature == melting
-              && substance.diagram.depression(content[0], content[1]) == 0)
-        enthalpy[a] = substance.material.enthalpy(
-            temperature, scene.initial.solid_fraction_at_melting);
       else
         enthalpy[a] = substance.diagram.enthalpy(temperature, content[0], content[1]);
     }

@@ -54,8 +54,7 @@ namespace meltfront::particles
        || parameters.exchange == PhaseExchange::published)
     {
       kernel_sums.emplace(dis);
-      for(auto *array :
-          {&solid_volume, &normaliser, &new_ice, &new_heat, &gained, &density})
+      for(auto *array : {&solid_volume, &normaliser, &new_ice, &new_heat, &gained})
         array->assign(padded, 0.);
       for(std::size_t a = 0; a < n; ++a)
         new_ice[a] = is_held[a] ? 0. : 1.;
@@ -185,9 +184,8 @@ namespace meltfront::particles
     const bool summed = parameters.exchange == PhaseExchange::published;
     if(summed)
     {
-      kernel_sums->sum(ice.mass, gained);     // density of ice, equation 4.18
-      kernel_sums->sum(liquid.mass, density); // density of liquid, equation 4.11
-      work += 2 * static_cast<long>(kernel_sums->interactions());
+      kernel_sums->sum(ice.mass, gained); // density of ice, equation 4.18
+      work += static_cast<long>(kernel_sums->interactions());
     }
     for(std::size_t a = 0; a < n; ++a)
     {
@@ -206,8 +204,9 @@ namespace meltfront::particles
       if(summed)
       {
         ice.share[a] = any_ice ? ice.mass[a] / (gained[a] * volume) : 0.;
-        liquid.share[a] = any_liquid ? liquid.mass[a] / (density[a] * volume) : 0.;
-        solid_volume[a] = std::clamp(gained[a] / crystal_density, 0., 1.);
+        // Where ice fills more than all volume a thousandth is left to the liquid.
+        solid_volume[a] = std::clamp(gained[a] / crystal_density, 0., 0.999);
+        liquid.share[a] = liquid_fraction[a] / (1 - solid_volume[a]);
         continue;
       }
       ice.share[a] = std::min(ice.mass[a] / (crystal_density * volume), 1.);

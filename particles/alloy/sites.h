@@ -89,7 +89,7 @@ namespace meltfront::particles
     std::optional<KernelSums> kernel_sums;
     std::vector<double> normaliser;        ///< zeta of equation 4.14
     std::vector<double> new_ice, new_heat; ///< made by each liquid, not yet given
-    std::vector<double> gained, density;
+    std::vector<double> gained;
   };
 } // namespace meltfront::particles
 

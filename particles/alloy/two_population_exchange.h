@@ -61,9 +61,10 @@ namespace meltfront::particles
   };
 
   /**
-   * As published (Monaghan, Huppert and Worster 2005, equation 4.2): volumes from
-   * densities summed over the kernel, and the harmonic mean of the conductivities times
-   * volume fractions, v_p v_q 2 k_p k_q/(k_p + k_q) (T_q - T_p).
+   * As published (Monaghan, Huppert and Worster 2005, equation 4.2): volumes m/(theta
+   * rho) with the ice's volume fraction from its density summed over the kernel, and the
+   * harmonic mean of the conductivities times volume fractions, v_p v_q 2 k_p k_q/(k_p +
+   * k_q) (T_q - T_p).
    */
   struct PublishedPair
   {
