@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace meltfront::particles
 {
@@ -11,6 +12,9 @@ namespace meltfront::particles
     constexpr int watched_sweeps = 10; ///< over which the spread has to fall
     constexpr double least_gain = 0.01;
     constexpr double longest_move = 0.05; ///< in spacings
+
+    /** Unit integral of (1 - r)^3 in 1, 2 and 3 dimensions. */
+    constexpr double spike_norm[] = {2, 10 / std::numbers::pi, 15 / std::numbers::pi};
 
     using Vector = std::array<double, 3>;
 
@@ -109,11 +113,18 @@ namespace meltfront::particles
                                                              - others.position[d][b]);
           squared += difference[d] * difference[d];
         }
-        const double slope
-            = volume * kernel.radial_derivative_over_distance(std::sqrt(squared));
+        const double distance = std::sqrt(squared);
+        const double support = kernel.support();
+        const double rest = std::max(0., 1 - distance / support);
+        const double spike = -3 * spike_norm[particles.dimension - 1] * rest * rest
+                             / (support * std::max(distance, 1e-6 * spacing));
+        double cells = 1; // of the support's side
         for(int d = 0; d < particles.dimension; ++d)
-          shift[a][d] += slope * difference[d];
-        moment[a] -= slope * squared / particles.dimension;
+          cells *= spacing / support;
+        for(int d = 0; d < particles.dimension; ++d)
+          shift[a][d] += cells * spike * difference[d];
+        moment[a] -= volume * kernel.radial_derivative_over_distance(distance) * squared
+                     / particles.dimension;
       }
 
       double spread() const

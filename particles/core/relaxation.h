@@ -40,8 +40,10 @@ namespace meltfront::particles
    * Move disordered particles away from where they crowd, against the gradient of their
    * concentration,
    *
-   *   r_a -= (h^2/2) sum_b V F_ab (r_a - r_b),
+   *   r_a -= (h^2/2) sum_b V S_ab (r_a - r_b),
    *
+   * S = W'/r of the kernel (1 - r/support)^3 (Desbrun and Gascuel 1996), whose slope does
+   * not vanish at r = 0, so that no particles pair up,
    * by at most a twentieth of a spacing at once (particle shifting: Lind, Xu, Stansby and
    * Rogers 2012), until the spread of the second moment mu_a = -(1/d) sum_b V F_ab
    * r_ab^2 has settled: until ten sweeps together lower it by less than a hundredth, or
