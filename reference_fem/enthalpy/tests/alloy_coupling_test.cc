@@ -175,6 +175,27 @@ namespace meltfront::reference_fem::tests
       }
     }
 
+    TEST(AlloyCoupling, SoluteSpreadsIntoWhatIsPure)
+    {
+      // Half of it water and ice, half of it brine, with and without a eutectic.
+      for(const double eutectic : {-8., -1e300})
+      {
+        Scene scene = melt(0.05, 0, 20000);
+        scene.alloy->solutes[0].diffusivity = diffusivity;
+        scene.alloy->eutectic_temperature = eutectic;
+        scene.initial.temperature
+            = along_x([](double x) { return -1 + 8 * std::sin(310 * x + 1); });
+        scene.initial.concentration
+            = {along_x([](double x) { return x < 0.025 ? 0. : 0.3; })};
+        const RunRecord record = run(scene, 40);
+        expect_closed(record);
+        EXPECT_GE(*std::min_element(record.concentration[0].begin(),
+                                    record.concentration[0].end()),
+                  0);
+        EXPECT_GT(record.concentration[0][19], 0.01);
+      }
+    }
+
     TEST(AlloyCoupling, AStripIsTheSlab)
     {
       std::shared_ptr<const MushyLayer> exact;
