@@ -64,12 +64,6 @@ namespace meltfront::cases::similarity
       return front_composition;
     }
 
-    /** Whether the factor of f' has kept its sign, so that there is a mush. */
-    bool holds() const
-    {
-      return path.last().state[0] > 0 && path.last().state[0] < front;
-    }
-
   private:
     using MushPath = Path<Real, 5>; ///< eta, x, q, H, solid
     using State = typename MushPath::State;
