@@ -159,6 +159,12 @@ namespace meltfront::verification
   void RunObserver::measure(const cases::Snapshot &snapshot, bool keep)
   {
     const auto [lowest, highest] = std::ranges::minmax(snapshot.temperature);
+    if(snapshot.step == 0 && std::isfinite(lowest) && std::isfinite(highest))
+    {
+      // The scene's bounds are sampled: its extremes may lie between the samples.
+      bounds.lower = std::min(bounds.lower, lowest);
+      bounds.upper = std::max(bounds.upper, highest);
+    }
     judge(snapshot, lowest, highest);
     const double beyond = std::max({bounds.lower - lowest, highest - bounds.upper, 0.});
     overshoot = std::fmax(overshoot, beyond / (bounds.upper - bounds.lower));
