@@ -86,23 +86,24 @@ namespace meltfront::particles
                                                 const AlloySubstance &substance) const
   {
     cases::TemperatureBounds result = cases::temperature_bounds(scene);
-    if(!substance.diffuses())
-      return result;
     double highest[cases::most_solutes] = {};
     for(std::size_t a = 0; a < enthalpy.size(); ++a)
     {
       double content[cases::most_solutes] = {};
       for(std::size_t s = 0; s < concentration.size(); ++s)
         content[s] = concentration[s][a];
-      const double liquid
-          = substance.diagram.equilibrium(enthalpy[a], content[0], content[1])
-                .liquid_fraction;
+      const auto [temperature, liquid]
+          = substance.diagram.equilibrium(enthalpy[a], content[0], content[1]);
+      // The scene's bounds are sampled: its extremes may lie at a particle in between.
+      result.lower = std::min(result.lower, temperature);
+      result.upper = std::max(result.upper, temperature);
       for(std::size_t s = 0; s < concentration.size() && liquid > 0; ++s)
         highest[s] = std::max(highest[s], content[s] / liquid);
     }
-    result.lower = std::min(result.lower,
-                            std::max(substance.diagram.liquidus(highest[0], highest[1]),
-                                     substance.alloy.eutectic_temperature));
+    if(substance.diffuses())
+      result.lower = std::min(result.lower,
+                              std::max(substance.diagram.liquidus(highest[0], highest[1]),
+                                       substance.alloy.eutectic_temperature));
     return result;
   }
 
