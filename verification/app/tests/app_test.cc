@@ -23,7 +23,7 @@ namespace
   };
 
   /** Run the program as a user would. */
-  Outcome meltfront(const std::string &arguments)
+  Outcome run_program(const std::string &arguments)
   {
     Outcome outcome;
     std::FILE *pipe = popen(
@@ -52,7 +52,7 @@ namespace
 
 TEST(App, ListNamesWhatThereIs)
 {
-  const Outcome outcome = meltfront("list");
+  const Outcome outcome = run_program("list");
   EXPECT_EQ(outcome.status, 0);
   for(const char *name : {"plane-freezing", "sph-2005", "fem-enthalpy",
                           "phase_conductivity", "stability", "step_factor"})
@@ -61,24 +61,24 @@ TEST(App, ListNamesWhatThereIs)
 
 TEST(App, BadArgumentsExitWithTwoAndNameTheNearest)
 {
-  EXPECT_EQ(meltfront("").status, 2);
-  const Outcome unknown_command = meltfront("verfy");
+  EXPECT_EQ(run_program("").status, 2);
+  const Outcome unknown_command = run_program("verfy");
   EXPECT_EQ(unknown_command.status, 2);
   expect_text(unknown_command, "the nearest is 'verify'");
-  const Outcome no_file = meltfront("verify nowhere/matrix.prm");
+  const Outcome no_file = run_program("verify nowhere/matrix.prm");
   EXPECT_EQ(no_file.status, 2);
   expect_text(no_file, "there is no matrix file 'nowhere/matrix.prm'");
-  const Outcome unknown_case = meltfront("run plane-freezin --method sph");
+  const Outcome unknown_case = run_program("run plane-freezin --method sph");
   EXPECT_EQ(unknown_case.status, 2);
   expect_text(unknown_case, "plane-freezing");
-  const Outcome unknown_method = meltfront("run plane-freezing --method fem-entalpy");
+  const Outcome unknown_method = run_program("run plane-freezing --method fem-entalpy");
   EXPECT_EQ(unknown_method.status, 2);
   expect_text(unknown_method, "fem-enthalpy");
   const Outcome unknown_option
-      = meltfront("run plane-freezing --method sph --set sph.step_facto=0.5");
+      = run_program("run plane-freezing --method sph --set sph.step_facto=0.5");
   EXPECT_EQ(unknown_option.status, 2);
   expect_text(unknown_option, "step_factor");
-  EXPECT_EQ(meltfront("verify nothing-of-this-name").status, 2);
+  EXPECT_EQ(run_program("verify nothing-of-this-name").status, 2);
 }
 
 TEST(App, RunWritesRecordFrontPictureAndFields)
@@ -87,8 +87,8 @@ TEST(App, RunWritesRecordFrontPictureAndFields)
   {
     const TemporaryDirectory directory;
     const Outcome outcome
-        = meltfront("run plane-freezing --method " + method + " --n 20 --frames 3 --out "
-                    + directory.path().string());
+        = run_program("run plane-freezing --method " + method
+                      + " --n 20 --frames 3 --out " + directory.path().string());
     ASSERT_EQ(outcome.status, 0) << outcome.output;
     const nlohmann::json record = read_json(directory.path() / "run.json");
     EXPECT_GT(record.at("quantities").at("front_rms").get<double>(), 0);
@@ -102,7 +102,7 @@ TEST(App, RunWritesRecordFrontPictureAndFields)
 TEST(App, ARunThatIsRefusedSaysWhyAndExitsWithTwo)
 {
   const TemporaryDirectory directory;
-  const Outcome outcome = meltfront(
+  const Outcome outcome = run_program(
       "run plane-freezing --method sph --n 20 --set sph.step_factor=1.1 --out "
       + directory.path().string());
   EXPECT_EQ(outcome.status, 2);
@@ -112,15 +112,15 @@ TEST(App, ARunThatIsRefusedSaysWhyAndExitsWithTwo)
 TEST(App, AnUnwritableDirectoryExitsWithFour)
 {
   EXPECT_EQ(
-      meltfront("run plane-freezing --method sph --n 20 --out /proc/meltfront").status,
+      run_program("run plane-freezing --method sph --n 20 --out /proc/meltfront").status,
       4);
 }
 
 TEST(App, CompareMeasuresEveryMethodAndItsReportCanBeMadeAgain)
 {
   const TemporaryDirectory directory;
-  const Outcome outcome = meltfront("compare plane-one-phase --n 8,16,24,32 --out "
-                                    + directory.path().string());
+  const Outcome outcome = run_program("compare plane-one-phase --n 8,16,24,32 --out "
+                                      + directory.path().string());
   EXPECT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.output;
   const nlohmann::json summary = read_json(directory.path() / "summary.json");
   EXPECT_TRUE(summary.contains("passed"));
@@ -129,7 +129,7 @@ TEST(App, CompareMeasuresEveryMethodAndItsReportCanBeMadeAgain)
        "tables/plane-one-phase.tex", "runs/plane-one-phase/sph/n=32/run.json"})
     EXPECT_TRUE(fs::exists(directory.path() / file)) << file;
   fs::remove(directory.path() / "report.html");
-  EXPECT_EQ(meltfront("report " + directory.path().string()).status, outcome.status);
+  EXPECT_EQ(run_program("report " + directory.path().string()).status, outcome.status);
   EXPECT_TRUE(fs::exists(directory.path() / "report.html"));
 }
 
@@ -189,8 +189,9 @@ TEST(App, ARunCanStandInForAnExactSolution)
   write_referenced_case(
       directory.path(),
       "sph[ step_factor = 0.4, dimension = 1 ]: solid_volume_2_error at n=64 <= 3e-3");
-  const Outcome outcome = meltfront("verify " + (directory.path() / "matrix.prm").string()
-                                    + " --out " + (directory.path() / "out").string());
+  const Outcome outcome
+      = run_program("verify " + (directory.path() / "matrix.prm").string() + " --out "
+                    + (directory.path() / "out").string());
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   expect_text(outcome, "PASS  slab: sph[ step_factor = 0.4, dimension = 1 ]");
   expect_text(outcome, "the reference");
@@ -203,8 +204,9 @@ TEST(App, NamesTheNearestOptionInALabelOfACriterion)
   const TemporaryDirectory directory;
   write_referenced_case(directory.path(),
                         "fem-enthalpy[step=5]: worst budget_defect <= 1e-12");
-  const Outcome outcome = meltfront("verify " + (directory.path() / "matrix.prm").string()
-                                    + " --out " + (directory.path() / "out").string());
+  const Outcome outcome
+      = run_program("verify " + (directory.path() / "matrix.prm").string() + " --out "
+                    + (directory.path() / "out").string());
   EXPECT_EQ(outcome.status, 2);
   expect_text(outcome, "'steps'");
   EXPECT_FALSE(fs::exists(directory.path() / "out/runs"));
