@@ -107,6 +107,9 @@ namespace meltfront::cases
     /** The direction (0, 1, 2 for x, y, z) in which the temperature is compared with its
      * mirror image about the origin. Absent: it is not. */
     std::optional<int> mirror;
+    /** Number of the mark, from 1, at which a picture of the scene is kept beside that of
+     * the end; 0: none. */
+    int picture_mark = 0;
   };
 
   /** A scene, what is known of its solution, what to measure and what to accept. */

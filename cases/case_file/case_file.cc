@@ -81,6 +81,11 @@ namespace meltfront::cases
         measurement.marks = prm.get_numbers(here, "marks");
       if(prm.given(here, "events"))
         measurement.events = at_key(prm, here, "events", parse_events);
+      measurement.picture_mark = static_cast<int>(prm.get_integer(here, "picture mark"));
+      if(measurement.picture_mark > static_cast<int>(measurement.marks.size()))
+        throw prm.error(here, "picture mark",
+                        fmt::format("({}) counts the marks, of which there are {}",
+                                    measurement.picture_mark, measurement.marks.size()));
       const std::string mirror = prm.get_text(here, "mirror");
       if(mirror != "none")
         measurement.mirror = mirror[0] - 'x';

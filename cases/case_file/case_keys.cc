@@ -253,6 +253,10 @@ namespace meltfront::cases
       prm.declare(measure,
                   text("events", "What is timed, separated by commas: first_contact of "
                                  "the ice around two sinks, half_frozen, all_frozen."));
+      prm.declare(measure,
+                  integer("picture mark", "0", 0, most_marks,
+                          "Number of the mark, from 1, at which a picture of the "
+                          "scene is kept beside that of the end; 0: none."));
       prm.declare(measure, word("mirror", "none", {"none", "x", "y", "z"},
                                 "Direction in which the temperature is compared with its "
                                 "mirror image about the origin."));

@@ -134,6 +134,24 @@ namespace meltfront::verification
                          count["refused"], count["failed"])
              + text;
     }
+    /** What was left out; criteria without a run, of which small matrices have many, are
+     * counted. */
+    std::string omissions_text(const MatrixResult &result)
+    {
+      std::string text;
+      int without_run = 0;
+      for(const std::string &omission : result.omissions)
+        if(omission.ends_with("not judged: the matrix has no such run"))
+          ++without_run;
+        else if(!result.hard_cases) // whose verdicts name every refusal and failure
+          text += fmt::format("Left out: {}\n", omission);
+      if(without_run > 0)
+        text += fmt::format(
+            "Not judged: {} criteria of these cases, whose runs the matrix "
+            "lacks (the report lists them)\n",
+            without_run);
+      return text;
+    }
   } // namespace
 
   std::string console_summary(const MatrixResult &result)
@@ -155,10 +173,7 @@ namespace meltfront::verification
       passed += criterion.passed;
       text += criterion_line(criterion);
     }
-    // The verdicts on hard cases name every refusal and failure already.
-    for(const std::string &omission :
-        result.hard_cases ? std::vector<std::string>() : result.omissions)
-      text += fmt::format("Left out: {}\n", omission);
+    text += omissions_text(result);
     if(!result.criteria.empty())
       text += fmt::format("{} of {} criteria hold\n", passed, result.criteria.size());
     text += fmt::format("{}: {}\n", result.name, result.passed ? "PASSED" : "FAILED");

@@ -70,13 +70,13 @@ namespace meltfront::verification
       mixing.add(entropy.mixing);
     }
     const std::vector<double> &marks = the_case.measurement.marks;
-    for(; solutes > 0 && next_mark < marks.size()
-          && snapshot.time >= marks[next_mark] - time_tolerance;
-        ++next_mark)
+    while(next_mark < marks.size() && snapshot.time >= marks[next_mark] - time_tolerance)
     {
-      compare(snapshot, coordinates, fmt::format("_{}", next_mark + 1));
-      mark_profiles.push_back(
-          make_end_profile(snapshot, coordinates, the_case.exact.get(), spacing));
+      ++next_mark;
+      compare(snapshot, coordinates, fmt::format("_{}", next_mark));
+      if(solutes > 0 || static_cast<int>(next_mark) == the_case.measurement.picture_mark)
+        mark_profiles.push_back(
+            make_end_profile(snapshot, coordinates, the_case.exact.get(), spacing));
     }
   }
 

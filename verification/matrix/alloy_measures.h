@@ -47,7 +47,8 @@ namespace meltfront::verification
 
     std::map<std::string, double> quantities() const;
 
-    /** The states of an alloy at the marks, in their order. */
+    /** The states of an alloy at the marks, in their order; of a pure substance that at
+     * Measurement::picture_mark. */
     const std::vector<RunProfile> &profiles() const;
 
     static const std::vector<std::string> &quantity_names();

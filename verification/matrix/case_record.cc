@@ -171,7 +171,8 @@ namespace meltfront::verification
               {"front_mode", m.front_mode},
               {"marks", json_of(m.marks)},
               {"events", json_of(m.events)},
-              {"mirror", m.mirror.value_or(-1)}};
+              {"mirror", m.mirror.value_or(-1)},
+              {"picture_mark", m.picture_mark}};
     }
 
     cases::Measurement measurement_in(const json &stored)
@@ -188,6 +189,7 @@ namespace meltfront::verification
       m.events = events_in(stored.value("events", json::array()));
       if(const int mirror = stored.value("mirror", -1); mirror >= 0)
         m.mirror = mirror;
+      m.picture_mark = stored.value("picture_mark", 0);
       return m;
     }
 

@@ -56,7 +56,8 @@ namespace meltfront::verification
     const RunSeries &series() const;
     const RunProfile &profile() const;
 
-    /** States of an alloy at the marks. */
+    /** States of an alloy at the marks; of a pure substance at the one of which a picture
+     * is kept. */
     std::vector<RunProfile> mark_profiles() const;
 
     /** What the method reported between snapshots. */

@@ -93,7 +93,7 @@ namespace meltfront::verification
     std::map<std::string, double> quantities;
     RunSeries series;
     RunProfile profile;
-    std::vector<RunProfile> mark_profiles; ///< of an alloy at Measurement::marks
+    std::vector<RunProfile> mark_profiles; ///< at Measurement::marks or some
     std::vector<FrontFrame> frames;        ///< at Measurement::marks and at the end
     std::vector<RunEvent> events;
 

@@ -49,7 +49,8 @@ namespace meltfront::verification
         caption += " Blue: solid; orange: liquid.";
       if(!record.source_positions.empty())
         caption += " Star: source.";
-      caption += restated(record, "particles");
+      if(record.measurement.picture_mark == 0)
+        caption += restated(record, "particles");
       SceneContent content{run ? run : runs.finest(), front, {}};
       if(const RunRecord *tracked = tracked_run(runs))
       {

@@ -1,23 +1,50 @@
 #include <verification/report/chapters.h>
 #include <verification/report/number_text.h>
 #include <verification/report/profile_plots.h>
+#include <verification/report/scene_picture.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace meltfront::verification
 {
   namespace
   {
-    /** Marks at which some finest run kept a profile. */
+    /** Marks of an alloy at which some finest run kept a profile. */
     int marks_with_profiles(const CaseRuns &runs)
     {
       std::size_t most = 0;
+      if(!runs.record->alloy)
+        return 0;
       for(const LabelRuns &label : runs.labels)
         if(const RunRecord *run = label.finest())
           most = std::max(most, run->mark_profiles.size());
       return static_cast<int>(most);
+    }
+
+    /** The sites at the mark of which the case wants a picture. */
+    Markup picture_at_mark(const ReportContext &context, const CaseRuns &runs)
+    {
+      const CaseRecord &record = *runs.record;
+      const RunRecord *run = run_to_picture(runs);
+      if(record.measurement.picture_mark == 0 || !run || run->mark_profiles.empty())
+        return {};
+      const double mark
+          = record.measurement.marks.at(record.measurement.picture_mark - 1);
+      RunRecord shown = *run;
+      shown.profile = *std::ranges::min_element(
+          run->mark_profiles, {},
+          [mark](const RunProfile &profile) { return std::abs(profile.time - mark); });
+      return context.plots.figure(
+          record.name + "-mark", scene_picture_script(record, {&shown, std::nan(""), {}}),
+          "The scene of " + record.name + " at a mark",
+          text(fmt::format(
+              "Sites of {} at n = {} at t = {}{}: filled where at least half is "
+              "solid, open where liquid.{}",
+              run->label, run->n, plain_number(shown.profile.time, 6),
+              unit_of(record, " s"), restated(record, "particles"))));
     }
 
     Markup row_of_figures(const ReportContext &context, const CaseRuns &runs, int mark)
@@ -48,14 +75,15 @@ namespace meltfront::verification
                          + figure(ProfileQuantity::solid_fraction, "solid fraction",
                                   "Mass fraction of solid, the share of the latent heat "
                                   "that is lost,"))
-             + figure(ProfileQuantity::concentration, "concentration",
-                      "Mass fraction of solute in the liquid");
+             + element("div", {{"class", "pair"}},
+                       figure(ProfileQuantity::concentration, "concentration",
+                              "Mass fraction of solute in the liquid"));
     }
   } // namespace
 
   Markup profiles_of_case(const ReportContext &context, const CaseRuns &runs)
   {
-    Markup content;
+    Markup content = picture_at_mark(context, runs);
     for(int mark = 0; mark < marks_with_profiles(runs); ++mark)
       content += row_of_figures(context, runs, mark);
     return content + row_of_figures(context, runs, profile_at_end);
