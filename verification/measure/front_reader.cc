@@ -141,11 +141,15 @@ namespace meltfront::verification
 
   namespace
   {
-    /** Temperature at which what stands at the origin begins to freeze. */
-    double initial_liquidus(const cases::Scene &scene)
+    /** Temperature of the front: of an alloy whose exact state is known that of its front
+     * (solute that diffuses has made it colder), else that at which what stands at the
+     * origin begins to freeze. */
+    double front_temperature(const cases::Scene &scene, const cases::ExactSolution *exact)
     {
       if(!scene.alloy)
         return scene.material.melting_temperature;
+      if(exact && exact->mushy())
+        return exact->temperature(exact->front(scene.end_time), scene.end_time);
       double concentration[cases::most_solutes] = {};
       for(std::size_t s = 0; s < scene.alloy->solutes.size(); ++s)
         concentration[s]
@@ -160,7 +164,7 @@ namespace meltfront::verification
     : symmetry(measured_symmetry(scene, exact))
     , solid_at_origin(solid_holds_origin(scene, exact))
     , alloy(scene.alloy.has_value())
-    , melting_temperature(initial_liquidus(scene))
+    , melting_temperature(front_temperature(scene, exact))
     , spacing(spacing)
     , smoothing_length(smoothing_length)
     , site_coordinates(symmetry)

@@ -20,7 +20,7 @@ namespace meltfront::verification
     /** Encloses the volume that is solid: sum of weight x solid fraction, and the hole of
      * a shell. In an alloy, whose mush no volume tells from the liquid: the isotherm. */
     double latent_heat;
-    double isotherm; ///< where T = T_m; in an alloy, the initial liquidus temperature
+    double isotherm; ///< where T = T_m; in an alloy, where crystals first stand
     /** Largest coordinate of a fully frozen site plus half the smoothing length (Error-1
      * of Monaghan, Huppert and Worster 2005, Table 1). */
     double max_ice;
