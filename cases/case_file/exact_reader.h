@@ -17,7 +17,7 @@ namespace meltfront::cases
     std::function<double(double time)>
         power; ///< of the sink (W or W/m, negative), if it is a sink's solution
     std::function<double(double time)> energy; ///< integral of power from time 0
-    std::vector<Field> concentration{}; ///< of each solute, if it is an alloy's
+    std::vector<Field> concentration{};        ///< of each solute, if it is an alloy's
   };
 
   /**

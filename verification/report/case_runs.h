@@ -86,7 +86,8 @@ namespace meltfront::verification
    */
   bool radial_front(const CaseRecord &record);
 
-  /** ` Restates FIGURE.` where the plot of that name restates a printed one, else nothing. */
+  /** ` Restates FIGURE.` where the plot of that name restates a printed one, else
+   * nothing. */
   std::string restated(const CaseRecord &record, const std::string &figure);
 
   /** The unit of the solid's volume: m, m² or m³. */

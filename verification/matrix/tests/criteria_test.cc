@@ -148,8 +148,9 @@ namespace meltfront::verification
     TEST(Criteria, AFailureThatIsKnownSpoilsNothingAndMustHappen)
     {
       const auto fails = criterion(cases::Statistic::failure, 1, 1, 40, "failure");
-      const auto runs = [](RunStatus status)
-      { return std::vector{run_at(20, 0.1), ended(40, status, "blew up at step 7")}; };
+      const auto runs = [](RunStatus status) {
+        return std::vector{run_at(20, 0.1), ended(40, status, "blew up at step 7")};
+      };
       EXPECT_TRUE(evaluated(runs(RunStatus::failed), {fails}).passed);
       EXPECT_FALSE(evaluated(runs(RunStatus::finished), {fails}).passed);
       EXPECT_FALSE(evaluated(runs(RunStatus::refused), {fails}).passed);
