@@ -6,13 +6,15 @@
 #include <particles/alloy/mixture_run.h>
 #include <particles/alloy/mixture_state.h>
 #include <particles/sph/careful_sum.h>
-#include <particles/sph/time_stepping.h>
+#include <particles/sph/explicit_scheme.h>
+#include <particles/sph/run_report.h>
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace meltfront::particles
 {
@@ -38,7 +40,6 @@ namespace meltfront::particles
         , particle_mass(dis.particle_volume * substance.density)
         , plan(plan_steps(parameters.sph, scene, flows.monotone_step(particle_mass),
                           dis.kernel.smoothing_length()))
-        , super_step(plan.stages)
         , temperature(n)
         , solid_fraction(n)
       {
@@ -50,10 +51,7 @@ namespace meltfront::particles
         for(std::size_t s = 0; flows.diffuses() && s < solutes; ++s)
           std::copy(initial.concentration[s].begin(), initial.concentration[s].end(),
                     state.begin() + (s + 1) * size);
-        flow.resize(state.size());
-        if(plan.stages > 1)
-          for(auto *array : {&start, &before, &start_flow})
-            array->resize(state.size());
+        scheme.emplace(plan, state.size(), state.size(), flows.threads());
         flows.prepare_step(scene.start_time, time_of(1));
         flows.hold_walls(0, view());
         extremes = flows.follow(view());
@@ -106,16 +104,16 @@ namespace meltfront::particles
       {
         flows.prepare_step(begin, end);
         const bool super = plan.stages > 1 && step > plan.resolved_steps;
-        double wall_heat = super ? take_super_step(end - begin)
-                                 : take_euler_steps(end - begin, plan.euler_substeps);
+        double wall_heat
+            = super ? take_super_step(end - begin) : take_euler_steps(end - begin);
         finish_step();
         if(super && breaks_bounds())
         {
           // Only convex combinations keep the maximum principle for certain: repeat the
           // step with these.
-          std::swap(state, start);
+          scheme->restore(state);
           flows.follow(view());
-          wall_heat = take_euler_steps(end - begin, plan.euler_substeps);
+          wall_heat = take_euler_steps(end - begin);
           finish_step();
           ++repeated_steps;
         }
@@ -140,68 +138,22 @@ namespace meltfront::particles
       }
 
       /** @return heat through walls. */
-      double take_euler_steps(double duration, int steps)
+      double take_euler_steps(double duration)
       {
-        const double step = duration / steps;
-        double wall_heat = 0;
-        for(int i = 0; i < steps; ++i)
-        {
-          if(i > 0)
-            flows.follow(view());
-          wall_heat += step * evaluate(double(i) / steps, flow);
-          add_flow(state, step / particle_mass, flow);
-        }
-        return wall_heat;
+        return scheme->take_euler_steps(
+            state, duration, plan.euler_substeps, 1., particle_mass,
+            [this] { flows.follow(view()); },
+            [this](double fraction, std::vector<double> &flow)
+            { return evaluate(fraction, flow); });
       }
 
-      /** One step of RKL2. @return heat through walls, by the same recursion. */
+      /** @return heat through walls. */
       double take_super_step(double duration)
       {
-        const double factor = duration / particle_mass;
-        start = state;
-        before = state;
-        const double start_rate = evaluate(0, start_flow);
-        double wall_before = 0;
-        double wall = super_step.first_rate * duration * start_rate;
-        add_flow(state, super_step.first_rate * factor, start_flow);
-        for(const SuperStage &stage : super_step.stages)
-        {
-          flows.follow(view());
-          const double rate = evaluate(stage.fraction, flow);
-          combine(stage, factor);
-          std::swap(before, state);
-          const double wall_next
-              = stage.previous * wall + stage.before * wall_before
-                + duration * (stage.rate * rate + stage.start_rate * start_rate);
-          wall_before = wall;
-          wall = wall_next;
-        }
-        return wall;
-      }
-
-      void add_flow(std::vector<double> &array, double factor,
-                    const std::vector<double> &added) const
-      {
-        const int threads = flows.threads();
-        double *y = array.data();
-        const double *f = added.data();
-#pragma omp parallel for simd schedule(static) num_threads(threads) if(threads > 1)
-        for(std::size_t i = 0; i < array.size(); ++i)
-          y[i] += factor * f[i];
-      }
-
-      /** Y_j, into the array of Y_(j-2). */
-      void combine(const SuperStage &stage, double factor)
-      {
-        const int threads = flows.threads();
-        const double *previous = state.data(), *first = start.data();
-        const double *f = flow.data(), *first_flow = start_flow.data();
-        double *next = before.data();
-#pragma omp parallel for simd schedule(static) num_threads(threads) if(threads > 1)
-        for(std::size_t i = 0; i < state.size(); ++i)
-          next[i] = stage.previous * previous[i] + stage.before * next[i]
-                    + stage.start * first[i]
-                    + factor * (stage.rate * f[i] + stage.start_rate * first_flow[i]);
+        return scheme->take_super_step(
+            state, duration, 1., particle_mass, [this] { flows.follow(view()); },
+            [this](double fraction, std::vector<double> &flow)
+            { return evaluate(fraction, flow); });
       }
 
       static constexpr double bound_tolerance = 1e-9;
@@ -279,15 +231,8 @@ namespace meltfront::particles
           temperature[a] = scene.material.melting_temperature + excess[a];
           solid_fraction[a] = 1 - liquid[a];
         }
-        cases::Snapshot result;
-        result.step = step;
-        result.time = time;
-        result.dimension = dis.dimension;
-        for(int d = 0; d < dis.dimension; ++d)
-          result.positions[d] = dis.particles.position[d];
-        result.weights = dis.weights;
-        result.temperature = temperature;
-        result.solid_fraction = solid_fraction;
+        cases::Snapshot result
+            = particle_snapshot(dis, step, time, temperature, solid_fraction);
         result.heat = heat_content();
         result.heat.initial = initial_heat.initial;
         result.heat.boundary = boundary_heat.value();
@@ -310,26 +255,12 @@ namespace meltfront::particles
 
       cases::RunDescription describe() const
       {
-        cases::RunDescription description;
-        description.dimension = dis.dimension;
-        description.spacing = dis.spacing;
-        description.smoothing_length = dis.kernel.smoothing_length();
-        description.time_step = plan.step;
-        description.unknowns = unknowns();
+        cases::RunDescription description
+            = describe_particles(dis, parameters.sph, plan.step, unknowns());
         const auto add
             = [&](const char *what, const std::string &value, const char *unit) {
                 description.parameters.push_back({what, value, unit});
               };
-        add("kernel", kernel_names()[static_cast<std::size_t>(parameters.sph.kernel)],
-            "");
-        add("smoothing length / spacing", fmt::format("{:.6g}", parameters.sph.smoothing),
-            "1");
-        add("layout",
-            dis.layout == LatticeLayout::on_edge ? "particles on the edge"
-                                                 : "cell-centred",
-            "");
-        if(dis.displaced)
-          add("jitter", fmt::format("{:.6g}", parameters.sph.jitter), "spacings");
         add("particles", fmt::format("{}", n), "1");
         for(const cases::Parameter &parameter : flows.describe())
           description.parameters.push_back(parameter);
@@ -345,11 +276,7 @@ namespace meltfront::particles
       cases::Cost cost(const cases::Stopwatch::Seconds &setup,
                        const cases::Stopwatch::Seconds &stepping) const
       {
-        cases::Cost result;
-        result.setup_wall = setup.wall;
-        result.setup_cpu = setup.cpu;
-        result.stepping_wall = stepping.wall;
-        result.stepping_cpu = stepping.cpu;
+        cases::Cost result = timed_cost(setup, stepping);
         result.steps = plan.steps;
         result.unknowns = unknowns();
         result.work = flows.work();
@@ -370,11 +297,10 @@ namespace meltfront::particles
       cases::TemperatureBounds bounds;
       double particle_mass;
       StepPlan plan;
-      SuperStep super_step;
 
-      std::size_t fields; ///< that steps change: enthalpy, then concentrations
-      std::vector<double> state, flow;               ///< field after field
-      std::vector<double> start, before, start_flow; ///< Y_0, Y_(j-2), F(Y_0) of RKL2
+      std::size_t fields;        ///< that steps change: enthalpy, then concentrations
+      std::vector<double> state; ///< field after field
+      std::optional<ExplicitScheme> scheme;
       std::array<std::span<const double>, cases::most_solutes> composition;
       std::vector<double> temperature, solid_fraction; ///< for snapshots
       Extremes extremes{};                             ///< of the temperature

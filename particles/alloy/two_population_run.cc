@@ -4,6 +4,7 @@
 #include <particles/alloy/two_population_flow.h>
 #include <particles/alloy/two_population_run.h>
 #include <particles/sph/careful_sum.h>
+#include <particles/sph/run_report.h>
 
 #include <fmt/format.h>
 
@@ -214,15 +215,9 @@ namespace meltfront::particles
                                  / (liquid + ice);
           solid_fraction[a] = sites.is_held[a] ? 1. : std::min(ice / sites.site_mass, 1.);
         }
-        cases::Snapshot result;
-        result.step = step;
-        result.time = time;
-        result.dimension = dis.dimension;
-        for(int d = 0; d < dis.dimension; ++d)
-          result.positions[d] = dis.particles.position[d];
+        cases::Snapshot result
+            = particle_snapshot(dis, step, time, temperature, solid_fraction);
         result.weights = weights;
-        result.temperature = temperature;
-        result.solid_fraction = solid_fraction;
         result.heat = sites.heat_content(dis.cross_section);
         result.heat.initial = initial_heat;
         result.heat.boundary = boundary_heat.value();
@@ -244,22 +239,10 @@ namespace meltfront::particles
 
       cases::RunDescription describe() const
       {
-        cases::RunDescription description;
-        description.dimension = dis.dimension;
-        description.spacing = dis.spacing;
-        description.smoothing_length = dis.kernel.smoothing_length();
-        description.time_step = step_length;
-        description.unknowns = unknowns();
-        description.parameters
-            = {{"kernel", kernel_names()[static_cast<std::size_t>(parameters.sph.kernel)],
-                ""},
-               {"smoothing length / spacing",
-                fmt::format("{:.6g}", parameters.sph.smoothing), "1"},
-               {"layout",
-                dis.layout == LatticeLayout::on_edge ? "particles on the edge"
-                                                     : "cell-centred",
-                ""},
-               {"sites", fmt::format("{}", n), "1"},
+        cases::RunDescription description
+            = describe_particles(dis, parameters.sph, step_length, unknowns());
+        const std::vector<cases::Parameter> own
+            = {{"sites", fmt::format("{}", n), "1"},
                {"interactions per site",
                 fmt::format("{:.4g}", double(flows.interactions()) / n), "1"},
                {"second moment divided out",
@@ -277,17 +260,15 @@ namespace meltfront::particles
                {"time scheme", "explicit Euler", ""},
                {"largest explicit step that keeps the maximum principle",
                 fmt::format("{:.6g}", monotone), "s"}};
+        description.parameters.insert(description.parameters.end(), own.begin(),
+                                      own.end());
         return description;
       }
 
       cases::Cost cost(const cases::Stopwatch::Seconds &setup,
                        const cases::Stopwatch::Seconds &stepping) const
       {
-        cases::Cost result;
-        result.setup_wall = setup.wall;
-        result.setup_cpu = setup.cpu;
-        result.stepping_wall = stepping.wall;
-        result.stepping_cpu = stepping.cpu;
+        cases::Cost result = timed_cost(setup, stepping);
         result.steps = steps;
         result.unknowns = unknowns();
         result.work = flows.work();

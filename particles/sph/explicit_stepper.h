@@ -1,6 +1,7 @@
 #ifndef meltfront_particles_sph_explicit_stepper_h
 #define meltfront_particles_sph_explicit_stepper_h
 
+#include <particles/sph/explicit_scheme.h>
 #include <particles/sph/stepper.h>
 
 namespace meltfront::particles
@@ -20,20 +21,9 @@ namespace meltfront::particles
   private:
     double make_step(long step, double begin) override;
 
-    /** @return heat through walls. */
-    double take_euler_steps(double duration, int steps);
+    double euler_steps(double duration);
 
-    /** One step of RKL2. @return heat through walls, by the same recursion. */
-    double take_super_step(double duration);
-
-    void add_flow(double factor, const std::vector<double> &added);
-
-    /** Y_j, into the array of Y_(j-2). */
-    void combine(const SuperStage &stage, double factor);
-
-    SuperStep super_step;
-    std::vector<double> flow;                      ///< heat flow into each particle
-    std::vector<double> start, before, start_flow; ///< Y_0, Y_(j-2), F(Y_0) of RKL2
+    ExplicitScheme scheme;
   };
 } // namespace meltfront::particles
 

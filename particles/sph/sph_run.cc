@@ -3,6 +3,7 @@
 #include <particles/sph/careful_sum.h>
 #include <particles/sph/heat_flow.h>
 #include <particles/sph/initial_state.h>
+#include <particles/sph/run_report.h>
 #include <particles/sph/sph_run.h>
 #include <particles/sph/stepper.h>
 #include <particles/sph/time_stepping.h>
@@ -94,15 +95,8 @@ namespace meltfront::particles
           temperature[a] = m.temperature(enthalpy[a]);
           solid_fraction[a] = m.solid_fraction(enthalpy[a]);
         }
-        cases::Snapshot result;
-        result.step = step;
-        result.time = time;
-        result.dimension = dis.dimension;
-        for(int d = 0; d < dis.dimension; ++d)
-          result.positions[d] = dis.particles.position[d];
-        result.weights = dis.weights;
-        result.temperature = temperature;
-        result.solid_fraction = solid_fraction;
+        cases::Snapshot result
+            = particle_snapshot(dis, step, time, temperature, solid_fraction);
         result.heat = heat_content();
         result.heat.initial = initial_heat.initial;
         result.heat.boundary = stepper->boundary_heat();
@@ -117,30 +111,12 @@ namespace meltfront::particles
 
       cases::RunDescription describe() const
       {
-        cases::RunDescription description;
-        description.dimension = dis.dimension;
-        description.spacing = dis.spacing;
-        description.smoothing_length = dis.kernel.smoothing_length();
-        description.time_step = plan.step;
-        description.unknowns = unknowns();
+        cases::RunDescription description
+            = describe_particles(dis, parameters, plan.step, unknowns());
         const auto add
             = [&](const char *what, const std::string &value, const char *unit) {
                 description.parameters.push_back({what, value, unit});
               };
-        add("kernel", kernel_names()[static_cast<std::size_t>(parameters.kernel)], "");
-        add("smoothing length / spacing", fmt::format("{:.6g}", parameters.smoothing),
-            "1");
-        add("layout",
-            dis.layout == LatticeLayout::on_edge ? "particles on the edge"
-                                                 : "cell-centred",
-            "");
-        if(dis.displaced)
-          add("jitter", fmt::format("{:.6g}", parameters.jitter), "spacings");
-        if(const Relaxation &done = dis.relaxation; done.sweeps > 0)
-          add("relaxation",
-              fmt::format("{} sweeps, spread of the second moment from {:.3g} to {:.3g}",
-                          done.sweeps, done.spread_before, done.spread_after),
-              "");
         add("particles", fmt::format("{}", n), "1");
         for(const cases::Parameter &parameter : heat_flow.describe())
           description.parameters.push_back(parameter);
@@ -170,11 +146,7 @@ namespace meltfront::particles
       cases::Cost cost(const cases::Stopwatch::Seconds &setup,
                        const cases::Stopwatch::Seconds &stepping) const
       {
-        cases::Cost result;
-        result.setup_wall = setup.wall;
-        result.setup_cpu = setup.cpu;
-        result.stepping_wall = stepping.wall;
-        result.stepping_cpu = stepping.cpu;
+        cases::Cost result = timed_cost(setup, stepping);
         const StepCounts counts = stepper->counts();
         result.steps = steps;
         result.unknowns = unknowns();

@@ -66,6 +66,12 @@ namespace meltfront::particles
       return duration * heat_flow.scale() / particle_mass;
     }
 
+    /** Of a particle, in the measure of the simulated strip (kg m^(d-3)). */
+    double mass() const
+    {
+      return particle_mass;
+    }
+
     /** Hold the walls, follow the state and find its extremes. @return heat from the
      * walls that particles hold. */
     double finish();

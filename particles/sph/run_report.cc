@@ -1,0 +1,61 @@
+#include <particles/sph/run_report.h>
+
+#include <fmt/format.h>
+
+namespace meltfront::particles
+{
+  cases::RunDescription describe_particles(const Discretisation &dis,
+                                           const SphParameters &parameters,
+                                           double time_step, long unknowns)
+  {
+    cases::RunDescription description;
+    description.dimension = dis.dimension;
+    description.spacing = dis.spacing;
+    description.smoothing_length = dis.kernel.smoothing_length();
+    description.time_step = time_step;
+    description.unknowns = unknowns;
+    description.parameters = {
+        {"kernel", kernel_names()[static_cast<std::size_t>(parameters.kernel)], ""},
+        {"smoothing length / spacing", fmt::format("{:.6g}", parameters.smoothing), "1"},
+        {"layout",
+         dis.layout == LatticeLayout::on_edge ? "particles on the edge" : "cell-centred",
+         ""}};
+    if(dis.displaced)
+      description.parameters.push_back(
+          {"jitter", fmt::format("{:.6g}", parameters.jitter), "spacings"});
+    if(const Relaxation &done = dis.relaxation; done.sweeps > 0)
+      description.parameters.push_back(
+          {"relaxation",
+           fmt::format("{} sweeps, spread of the second moment from {:.3g} to {:.3g}",
+                       done.sweeps, done.spread_before, done.spread_after),
+           ""});
+    return description;
+  }
+
+  cases::Cost timed_cost(const cases::Stopwatch::Seconds &setup,
+                         const cases::Stopwatch::Seconds &stepping)
+  {
+    cases::Cost cost;
+    cost.setup_wall = setup.wall;
+    cost.setup_cpu = setup.cpu;
+    cost.stepping_wall = stepping.wall;
+    cost.stepping_cpu = stepping.cpu;
+    return cost;
+  }
+
+  cases::Snapshot particle_snapshot(const Discretisation &dis, long step, double time,
+                                    std::span<const double> temperature,
+                                    std::span<const double> solid_fraction)
+  {
+    cases::Snapshot snapshot;
+    snapshot.step = step;
+    snapshot.time = time;
+    snapshot.dimension = dis.dimension;
+    for(int d = 0; d < dis.dimension; ++d)
+      snapshot.positions[d] = dis.particles.position[d];
+    snapshot.weights = dis.weights;
+    snapshot.temperature = temperature;
+    snapshot.solid_fraction = solid_fraction;
+    return snapshot;
+  }
+} // namespace meltfront::particles

@@ -1,0 +1,28 @@
+#ifndef meltfront_particles_sph_run_report_h
+#define meltfront_particles_sph_run_report_h
+
+#include <cases/method.h>
+#include <cases/stopwatch.h>
+#include <particles/sph/discretisation.h>
+
+#include <span>
+
+namespace meltfront::particles
+{
+  /** What a run on these particles is going to do, as far as kernel and arrangement go.
+   */
+  cases::RunDescription describe_particles(const Discretisation &discretisation,
+                                           const SphParameters &parameters,
+                                           double time_step, long unknowns);
+
+  /** A cost that holds the times of set-up and stepping. */
+  cases::Cost timed_cost(const cases::Stopwatch::Seconds &setup,
+                         const cases::Stopwatch::Seconds &stepping);
+
+  /** A snapshot on the particles, without budgets. */
+  cases::Snapshot particle_snapshot(const Discretisation &discretisation, long step,
+                                    double time, std::span<const double> temperature,
+                                    std::span<const double> solid_fraction);
+} // namespace meltfront::particles
+
+#endif
