@@ -159,6 +159,31 @@ namespace meltfront::cases
               : "the alloy has no eutectic temperature");
     }
 
+    EffectDecision heat_release(const Scene &scene)
+    {
+      return decide(Effect::heat_release, scene.heat_release.has_value(),
+                    fmt::format("heat is released throughout the domain: {}",
+                                scene.heat_release ? scene.heat_release->expression : ""),
+                    "no heat is released throughout the domain");
+    }
+
+    EffectDecision inclusion(const Scene &scene)
+    {
+      const double outside = scene.material.solid.conductivity;
+      const double inside = scene.inclusion ? scene.inclusion->conductivity : outside;
+      return decide(Effect::inclusion, inside != outside,
+                    fmt::format("a region conducts {:.6g} W/(m K), the rest {:.6g}",
+                                inside, outside),
+                    scene.inclusion ? "the inclusion conducts as the rest"
+                                    : "there is none");
+    }
+
+    EffectDecision wall_transfer(const Scene &scene)
+    {
+      return walls(scene, Effect::wall_transfer, BoundaryKind::heat_transfer,
+                   "an exchange of heat");
+    }
+
     constexpr Rule rules[] = {
         {Effect::phase_change, "phase_change", "Latent heat is exchanged at the front.",
          phase_change},
@@ -184,7 +209,13 @@ namespace meltfront::cases
         {Effect::solute_diffusion, "solute_diffusion", "Solute spreads in the liquid.",
          solute_diffusion},
         {Effect::eutectic, "eutectic",
-         "What is left of the liquid freezes at the eutectic temperature.", eutectic}};
+         "What is left of the liquid freezes at the eutectic temperature.", eutectic},
+        {Effect::heat_release, "heat_release", "Heat released throughout the domain.",
+         heat_release},
+        {Effect::inclusion, "inclusion",
+         "A region that conducts otherwise than the rest.", inclusion},
+        {Effect::wall_transfer, "wall_transfer",
+         "Walls that exchange heat with their surroundings.", wall_transfer}};
     static_assert(std::size(rules) == n_effects);
 
     const Rule &rule(Effect effect)
@@ -295,6 +326,12 @@ namespace meltfront::cases
       insulate(BoundaryKind::fixed_temperature);
     if(!effects.contains(Effect::wall_flux))
       insulate(BoundaryKind::flux);
+    if(!effects.contains(Effect::wall_transfer))
+      insulate(BoundaryKind::heat_transfer);
+    if(!effects.contains(Effect::heat_release))
+      result.heat_release.reset();
+    if(!effects.contains(Effect::inclusion))
+      result.inclusion.reset();
     leave_out_of_alloy(effects, result);
     return result;
   }

@@ -22,9 +22,12 @@ namespace meltfront::cases
     metastable_phase,    ///< a phase lies beyond the melting temperature
     solute,              ///< dissolved substance lowers the melting temperature
     solute_diffusion,    ///< solute spreads in the liquid
-    eutectic             ///< what is left of the liquid freezes at one temperature
+    eutectic,            ///< what is left of the liquid freezes at one temperature
+    heat_release,        ///< heat is released throughout the domain
+    inclusion,           ///< a region conducts otherwise than the rest
+    wall_transfer        ///< a wall exchanges heat with its surroundings
   };
-  inline constexpr std::size_t n_effects = 11;
+  inline constexpr std::size_t n_effects = 14;
 
   /** The word for an effect in case files and tables, `phase_change` and so on. */
   const char *to_string(Effect effect);

@@ -11,9 +11,9 @@ namespace meltfront::cases
    * What is known exactly of a scene: temperature, front and heat content at any point
    * and time.
    *
-   * All solutions of this class are symmetric: they depend on one coordinate, x in a
-   * planar scene and the distance r from the axis or the centre in a cylindrical or
-   * spherical one.
+   * Solutions with a front are symmetric: they depend on one coordinate, x in a planar
+   * scene and the distance r from the axis or the centre in a cylindrical or spherical
+   * one. Without a front only the temperature at a point is asked for.
    */
   class ExactSolution
   {
@@ -24,6 +24,12 @@ namespace meltfront::cases
     virtual std::string description() const = 0;
 
     virtual Symmetry symmetry() const = 0;
+
+    /** Whether there is a front, and with it all that depends on one coordinate. */
+    virtual bool has_front() const
+    {
+      return true;
+    }
 
     /** First time at which it may be evaluated (s); usually 0. */
     virtual double start_time() const
@@ -67,7 +73,7 @@ namespace meltfront::cases
     }
 
     /** The same temperature at a point of space. */
-    double temperature(const Position &position, double time) const
+    virtual double temperature(const Position &position, double time) const
     {
       return temperature(coordinate(symmetry(), position), time);
     }

@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <cases/method.h>
+#include <cases/scene.h>
 
 #include <fmt/format.h>
 
@@ -7,6 +8,11 @@
 
 namespace meltfront::cases
 {
+  bool Method::solves(ProblemKind problem) const
+  {
+    return problem == ProblemKind::stefan;
+  }
+
   void require_effects(const Method &method, const EffectSet &effects)
   {
     const auto supported = method.supported_effects();
@@ -19,5 +25,13 @@ namespace meltfront::cases
                                to_string(decision.effect), decision.reason);
     if(!missing.empty())
       throw Refusal(fmt::format("{} does not simulate {}", method.name(), missing));
+  }
+
+  void require_problem(const Method &method, const Scene &scene)
+  {
+    if(!method.solves(scene.problem))
+      throw Refusal(fmt::format(
+          "{} solves no {} scenes", method.name(),
+          scene.problem == ProblemKind::poisson ? "steady" : "time-dependent"));
   }
 } // namespace meltfront::cases

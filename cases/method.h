@@ -13,6 +13,7 @@
 namespace meltfront::cases
 {
   struct Scene;
+  enum class ProblemKind;
 
   /** How finely, and with which values of its options, a method is to solve a scene. */
   struct Resolution
@@ -117,6 +118,9 @@ namespace meltfront::cases
       return {};
     }
 
+    /** By default a method solves scenes that change over time. */
+    virtual bool solves(ProblemKind problem) const;
+
     virtual std::vector<Effect> supported_effects() const = 0;
 
     virtual std::vector<OptionDeclaration> option_declarations() const = 0;
@@ -124,7 +128,7 @@ namespace meltfront::cases
     /**
      * Solve a scene from its start to its end time, handing snapshots to the observer:
      * the initial state (step 0), any step that the observer wants, and the end (reached
-     * exactly).
+     * exactly). Of a steady scene there is one snapshot: step 1, at the end time.
      *
      * The scene comes from simulated_scene(); `effects` is the set it was made with. A
      * method builds only what these effects need.
@@ -138,6 +142,9 @@ namespace meltfront::cases
 
   /** @throws Refusal naming the effects that are on and that the method lacks. */
   void require_effects(const Method &method, const EffectSet &effects);
+
+  /** @throws Refusal if the method does not solve the scene's kind of problem. */
+  void require_problem(const Method &method, const Scene &scene);
 } // namespace meltfront::cases
 
 #endif

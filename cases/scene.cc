@@ -42,6 +42,17 @@ namespace meltfront::cases
     return *found;
   }
 
+  double Scene::conductivity_at(const Position &position) const
+  {
+    return inclusion && inclusion->contains(position) ? inclusion->conductivity
+                                                      : material.solid.conductivity;
+  }
+
+  bool Scene::changes_phase() const
+  {
+    return material.latent_heat > 0;
+  }
+
   std::vector<Side> Scene::sides() const
   {
     std::vector<Side> result;
@@ -155,12 +166,14 @@ namespace meltfront::cases
       lower = std::min(lower, temperature);
       upper = std::max(upper, temperature);
     };
-    visit_points(scene.domain, [&](const Position &p)
-                 { include(scene.initial.temperature(p, scene.start_time)); });
+    if(scene.problem != ProblemKind::poisson)
+      visit_points(scene.domain, [&](const Position &p)
+                   { include(scene.initial.temperature(p, scene.start_time)); });
     for(const Side side : scene.sides())
     {
       const Boundary &boundary = scene.boundary(side);
-      if(boundary.kind != BoundaryKind::fixed_temperature)
+      if(boundary.kind != BoundaryKind::fixed_temperature
+         && boundary.kind != BoundaryKind::heat_transfer)
         continue;
       visit_wall(scene.domain, side,
                  [&](const Position &wall)
@@ -188,6 +201,9 @@ namespace meltfront::cases
             + (scene.end_time - scene.start_time) * i / (samples_in_time - 1);
       for(const PointSource &source : scene.sources)
         widen(source.power(time));
+      if(scene.heat_release)
+        visit_points(scene.domain,
+                     [&](const Position &p) { widen((*scene.heat_release)(p, time)); });
       for(const Side side : scene.sides())
         if(scene.boundary(side).kind == BoundaryKind::flux)
           visit_wall(scene.domain, side,
@@ -200,11 +216,14 @@ namespace meltfront::cases
                       [](const auto &boundary)
                       {
                         return boundary
-                               && boundary->kind == BoundaryKind::fixed_temperature
+                               && (boundary->kind == BoundaryKind::fixed_temperature
+                                   || boundary->kind == BoundaryKind::heat_transfer)
                                && !boundary->value.constant;
                       });
     const double slack
         = varying && std::isfinite(upper - lower) ? 1e-3 * (upper - lower) : 0;
+    if(lower > upper) // a steady scene whose walls prescribe no temperature
+      return {};
     return {lower - slack, upper + slack};
   }
 

@@ -70,14 +70,17 @@ namespace meltfront::cases
     fixed_temperature, ///< `value` is the temperature; constant, an expression, or the
                        ///< exact solution
     flux,              ///< `value` is the heat flux into the domain, W/m^2
-    periodic
+    periodic,
+    heat_transfer ///< the flux into the domain is the coefficient times the difference
+                  ///< of `value`, the ambient temperature, from the wall's (Robin)
   };
 
   struct Boundary
   {
     BoundaryKind kind = BoundaryKind::insulated;
-    Field value;        ///< temperature or flux, empty otherwise
+    Field value;        ///< temperature, flux or ambient temperature, empty otherwise
     bool exact = false; ///< the temperature is taken from the exact solution
+    double heat_transfer_coefficient = 0; ///< of BoundaryKind::heat_transfer, W/(m^2 K)
   };
 
   /** Names of the sides of a slab or a box; a ball and an outline have the one side
@@ -107,6 +110,25 @@ namespace meltfront::cases
         energy; ///< integral of power from the scene's start (J, J/m)
   };
 
+  /** What is asked of a scene. */
+  enum class ProblemKind
+  {
+    stefan, ///< heat over time, with or without a change of phase
+    poisson ///< the steady temperature: -div(k grad T) = heat released
+  };
+
+  /** A region that conducts otherwise than the rest. */
+  struct Inclusion
+  {
+    Field level_set;         ///< negative inside; only its sign and its zeros matter
+    double conductivity = 1; ///< inside, W/(m K)
+
+    bool contains(const Position &position) const
+    {
+      return level_set(position, 0) < 0;
+    }
+  };
+
   struct InitialState
   {
     Field temperature;
@@ -134,6 +156,7 @@ namespace meltfront::cases
   {
     std::string name;
     std::string units = "SI";
+    ProblemKind problem = ProblemKind::stefan;
     Symmetry symmetry = Symmetry::none;
     Domain domain;
     Material material;          ///< of an alloy: the solvent
@@ -142,11 +165,20 @@ namespace meltfront::cases
     std::array<std::optional<Boundary>, n_sides>
         boundaries; ///< by Side; those the shape has
     std::vector<PointSource> sources;
-    double start_time = 0;                         ///< s
-    double end_time = 1;                           ///< s
+    /** Heat released throughout the domain (W/m^3). */
+    std::optional<Field> heat_release;
+    std::optional<Inclusion> inclusion;
+    double start_time = 0; ///< s; 0 in a steady scene, which ends at 1
+    double end_time = 1;   ///< s
     std::map<Effect, EffectChoice> effect_choices; ///< absent means automatic
 
     const Boundary &boundary(Side side) const;
+
+    /** Of a substance with one conductivity (W/(m K)): the inclusion's or the solid's. */
+    double conductivity_at(const Position &position) const;
+
+    /** Whether latent heat is exchanged, so that there is a front. */
+    bool changes_phase() const;
 
     /** The sides that the domain's shape has, in the order of Side. */
     std::vector<Side> sides() const;
@@ -162,8 +194,9 @@ namespace meltfront::cases
 
   /**
    * Extremes of initial and wall temperatures, sampled over the domain and time (an
-   * expression at 4097 times: a shorter pulse than that goes unseen). A sink removes the
-   * lower bound, a source the upper one, an inward (outward) flux the upper (lower) one.
+   * expression at 4097 times: a shorter pulse than that goes unseen), and ambient
+   * temperatures of walls. A sink removes the lower bound, a source the upper one, an
+   * inward (outward) flux the upper (lower) one.
    */
   TemperatureBounds temperature_bounds(const Scene &scene);
 

@@ -8,6 +8,8 @@ namespace meltfront::cases
 {
   double HeatBudget::defect() const
   {
+    if(!booked)
+      return std::numeric_limits<double>::quiet_NaN();
     const double imbalance = stored + latent - initial - boundary - sources;
     if(!std::isfinite(imbalance))
       return std::numeric_limits<double>::infinity();

@@ -17,6 +17,9 @@ namespace meltfront::cases
     double boundary = 0; ///< heat in through walls since the start
     double sources = 0;  ///< heat from sources since the start (negative for sinks)
     double initial = 0;  ///< stored + latent at the start
+    /** Whether the method balances heat; collocation, which solves equations at points,
+     * does not: its defect is NaN. */
+    bool booked = true;
 
     /**
      * |stored + latent - initial - boundary - sources| over the largest magnitude among
@@ -72,6 +75,10 @@ namespace meltfront::cases
     /** Points on the front (m), one array per dimension, of a method that tracks it;
      * empty for one that does not. */
     std::array<std::span<const double>, 3> front{};
+
+    /** Whether the method obeys the maximum principle at any spacing; those of high order
+     * and those that track a front do so in the limit only. */
+    bool obeys_maximum_principle = true;
 
     HeatBudget heat;
 

@@ -2,6 +2,7 @@
 #include <cases/case_file/case_checks.h>
 #include <cases/case_file/case_file.h>
 #include <cases/case_file/case_keys.h>
+#include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/criterion_parser.h>
 #include <cases/case_file/exact_reader.h>
 #include <cases/case_file/scene_reader.h>
@@ -201,6 +202,7 @@ namespace meltfront::cases
       check_effects(prm, c.scene);
       check_fields(prm, c.scene);
       check_alloy(prm, c.scene, sample_points(c.scene.domain));
+      check_conduction(prm, c.scene, sample_points(c.scene.domain));
       check_exact_solution(prm, c);
       c.reference = read_reference(prm, c);
       check_measurement(prm, c);

@@ -1,6 +1,7 @@
 #include <cases/case.h>
 #include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_keys.h>
+#include <cases/case_file/conduction_reader.h>
 #include <cases/effects.h>
 #include <cases/scene.h>
 
@@ -88,6 +89,7 @@ namespace meltfront::cases
       prm.declare(domain, integer("dimension", "1", 1, 3,
                                   "Dimensions of the shape: 1 for a slab, 2 or 3 else."));
       prm.declare(domain, number("length", "", "m", "Length of a slab.", above_zero));
+      prm.declare(domain, number("left end", "0", "m", "Where a slab begins."));
       prm.declare(domain, numbers("lower corner", "m", "Corner of a box."));
       prm.declare(domain, numbers("upper corner", "m", "Opposite corner of a box."));
       prm.declare(domain,
@@ -153,9 +155,16 @@ namespace meltfront::cases
             = std::string("Scene/Walls/") + to_string(static_cast<Side>(s));
         prm.declare(wall,
                     word("kind", "insulated",
-                         {"insulated", "fixed temperature", "exact", "flux", "periodic"},
+                         {"insulated", "fixed temperature", "exact", "flux", "periodic",
+                          "heat transfer"},
                          "What holds at the wall; exact: the exact solution's "
-                         "temperature."));
+                         "temperature; heat transfer: a flux that the wall's difference "
+                         "from the ambient temperature drives."));
+        prm.declare(wall,
+                    text("ambient temperature", "Of heat transfer: expression of x, "
+                                                "y, z, t (K)."));
+        prm.declare(wall, number("heat transfer coefficient", "", "W/(m^2 K)",
+                                 "Heat flux per difference of temperature.", above_zero));
         prm.declare(wall, text("temperature", "Expression of x, y, z, t (K)."));
         prm.declare(wall, text("flux", "Heat flux into the domain, expression of x, y, "
                                        "z, t (W/m^2)."));
@@ -187,7 +196,7 @@ namespace meltfront::cases
           exact,
           word("kind", "none",
                {"none", "neumann", "line sink", "point sink", "frank", "mushy layer",
-                "oracle"},
+                "oracle", "formula", "five-point lattice"},
                "The solution that is known; oracle: a spectral solution of the scene."));
       prm.declare(exact, number("wall temperature", "", "K",
                                 "Of neumann; that of the wall x_min where not given."));
@@ -292,6 +301,7 @@ namespace meltfront::cases
     declare_material(prm);
     declare_state_and_walls(prm);
     declare_alloy(prm);
+    declare_conduction(prm);
     declare_effects(prm);
     declare_exact_solution(prm);
     declare_measures(prm);

@@ -1,4 +1,5 @@
 #include <cases/case_file/alloy_reader.h>
+#include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/exact_reader.h>
 #include <cases/exact/flux_freezing.h>
 #include <cases/exact/frank.h>
@@ -303,6 +304,7 @@ namespace meltfront::cases
   KnownSolution read_exact_solution(const PrmFile &prm, const Scene &scene)
   {
     const std::string kind = prm.get_text(exact_keys, "kind");
+    forbid_frontless_keys(prm, kind);
     if(kind != "oracle")
       for(const char *key : {"start", "start time", "initial front"})
         prm.forbid(exact_keys, key, "it is a key of the oracle");
@@ -322,6 +324,12 @@ namespace meltfront::cases
         prm.forbid(exact_keys, key, "there is no exact solution");
       return {};
     }
+    if(kind == "formula" || kind == "five-point lattice")
+      return read_frontless_solution(prm, scene);
+    if(!scene.changes_phase())
+      throw prm.error(
+          exact_keys, "kind",
+          fmt::format("cannot be '{}' without latent heat: there is no front", kind));
     if(kind == "oracle")
       return oracle(prm, scene);
     return kind == "mushy layer" ? mushy_layer(prm, scene)

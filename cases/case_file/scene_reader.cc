@@ -1,5 +1,6 @@
 #include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_keys.h>
+#include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/expression.h>
 #include <cases/case_file/outline_reader.h>
 #include <cases/case_file/scene_reader.h>
@@ -60,6 +61,8 @@ namespace meltfront::cases
           prm.forbid(domain_keys, key, fmt::format("the shape is a {}", shape));
       };
       belongs("length", "slab");
+      if(shape != "slab")
+        prm.forbid(domain_keys, "left end", fmt::format("the shape is a {}", shape));
       belongs("lower corner", "box");
       belongs("upper corner", "box");
       belongs("radius", shape == "shell" ? "shell" : "ball");
@@ -111,7 +114,10 @@ namespace meltfront::cases
                         shape == "slab" ? "must be 1 for a slab"
                                         : fmt::format("must be 2 or 3 for a {}", shape));
       if(shape == "slab")
-        domain.upper[0] = prm.get_number(domain_keys, "length");
+      {
+        domain.lower[0] = prm.get_number(domain_keys, "left end");
+        domain.upper[0] = domain.lower[0] + prm.get_number(domain_keys, "length");
+      }
       else if(shape == "ball" || shape == "shell")
         read_round_shape(prm, shape, domain);
       else if(shape == "outline")
@@ -152,12 +158,35 @@ namespace meltfront::cases
         complain(domain.dimension == 2 ? "cylindrical or none" : "spherical or none");
     }
 
+    /** Of a steady scene: it conducts, that is all. */
+    Material read_conductor(const PrmFile &prm)
+    {
+      const std::string why = "the scene is steady";
+      for(const char *key : {"latent heat", "melting temperature"})
+        prm.forbid("Scene/Material", key, why);
+      for(const char *key : {"specific heat capacity", "density"})
+        prm.forbid("Scene/Material/Solid", key, why);
+      if(prm.opened("Scene/Material/Liquid"))
+        throw prm.subsection_error("Scene/Material/Liquid",
+                                   fmt::format("has no meaning here: {}", why));
+      Material material;
+      material.latent_heat = 0;
+      material.solid.conductivity = material.liquid.conductivity
+          = prm.get_number("Scene/Material/Solid", "conductivity");
+      return material;
+    }
+
     Material read_material(const PrmFile &prm)
     {
+      if(read_problem(prm) == ProblemKind::poisson)
+        return read_conductor(prm);
       Material material;
       material.latent_heat = prm.get_number("Scene/Material", "latent heat");
-      material.melting_temperature
-          = prm.get_number("Scene/Material", "melting temperature");
+      // Without latent heat and without a second phase nothing depends on it.
+      if(material.latent_heat > 0 || prm.opened("Scene/Material/Liquid")
+         || prm.given("Scene/Material", "melting temperature"))
+        material.melting_temperature
+            = prm.get_number("Scene/Material", "melting temperature");
       const auto property = [&prm](const std::string &key, double &solid, double &liquid)
       {
         solid = prm.get_number("Scene/Material/Solid", key);
@@ -201,6 +230,16 @@ namespace meltfront::cases
       };
       const Field temperature = value("temperature", "fixed temperature");
       const Field flux = value("flux", "flux");
+      const Field ambient = value("ambient temperature", "heat transfer");
+      if(kind == "heat transfer")
+      {
+        prm.require(here, "heat transfer coefficient",
+                    "a wall of kind 'heat transfer' needs it");
+        return {BoundaryKind::heat_transfer, ambient, false,
+                prm.get_number(here, "heat transfer coefficient")};
+      }
+      prm.forbid(here, "heat transfer coefficient",
+                 fmt::format("the wall's kind is '{}'", kind));
       if(kind == "fixed temperature")
         return {BoundaryKind::fixed_temperature, temperature};
       if(kind == "exact")
@@ -247,6 +286,14 @@ namespace meltfront::cases
 
     void read_initial_state(const PrmFile &prm, Scene &scene)
     {
+      if(scene.problem == ProblemKind::poisson)
+      {
+        if(prm.opened(initial_keys))
+          throw prm.subsection_error(initial_keys,
+                                     "has no meaning here: the scene is steady");
+        scene.initial.temperature = Field::uniform(0);
+        return;
+      }
       scene.initial.solid_fraction_at_melting
           = prm.get_number(initial_keys, "solid fraction at melting");
       if(prm.get_text(initial_keys, "kind") == "exact")
@@ -328,6 +375,12 @@ namespace meltfront::cases
 
     void read_times(const PrmFile &prm, Scene &scene)
     {
+      if(scene.problem == ProblemKind::poisson)
+      {
+        for(const char *key : {"start time", "end time"})
+          prm.forbid("Scene", key, "the scene is steady");
+        return;
+      }
       scene.start_time = prm.get_number("Scene", "start time");
       scene.end_time = prm.get_number("Scene", "end time");
       if(!(scene.start_time < scene.end_time))
@@ -341,6 +394,7 @@ namespace meltfront::cases
   {
     Scene scene;
     scene.units = prm.get_text("", "units");
+    scene.problem = read_problem(prm);
     scene.symmetry = read_symmetry(prm);
     read_times(prm, scene);
     scene.domain = read_domain(prm);
@@ -349,6 +403,7 @@ namespace meltfront::cases
     read_walls(prm, scene);
     read_initial_state(prm, scene);
     read_alloy(prm, scene);
+    read_conduction(prm, scene);
     for(const std::string &here : opened_sources(prm))
       scene.sources.push_back(read_source(prm, here, scene));
     for(const Effect effect : all_effects())
@@ -386,11 +441,12 @@ namespace meltfront::cases
     if(prm.get_text(initial_keys, "kind") == "exact")
     {
       require_solution(initial_keys, "kind");
-      scene.initial.exact = known.solution;
       scene.initial.temperature = temperature();
+      if(known.solution->has_front())
+        scene.initial.exact = known.solution;
       if(scene.alloy)
         scene.initial.concentration = known.concentration;
-      else
+      else if(known.solution->has_front())
         scene.initial.front = exact_level_set(known.solution);
     }
     const std::vector<std::string> subsections = opened_sources(prm);

@@ -38,6 +38,8 @@ namespace meltfront::verification
     {
       if(record.exact.empty() && record.reference)
         return {"solid_volume_end_error", "solid, end"};
+      if(!record.changes_phase)
+        return {"temperature_rmse", "temperature rmse"};
       // Few steps have no root mean square.
       const bool all = std::none_of(finished.begin(), finished.end(),
                                     [](const RunRecord *run) {

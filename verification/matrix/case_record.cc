@@ -79,6 +79,10 @@ namespace meltfront::verification
         return "heat flux inward " + boundary.value.expression;
       case cases::BoundaryKind::periodic:
         return "periodic";
+      case cases::BoundaryKind::heat_transfer:
+        return fmt::format("heat transfer with the ambient temperature {}, coefficient "
+                           "{:.6g}",
+                           boundary.value.expression, boundary.heat_transfer_coefficient);
       default:
         return "insulated";
       }
@@ -276,6 +280,15 @@ namespace meltfront::verification
       visit("text", record.text);
       visit("hash", record.hash);
     }
+
+    template <typename Record, typename Visit>
+    void visit_conduction(Record &record, const Visit &visit)
+    {
+      visit("steady", record.steady);
+      visit("changes_phase", record.changes_phase);
+      visit("heat_release", record.heat_release);
+      visit("inclusion", record.inclusion);
+    }
   } // namespace
 
   CaseRecord make_case_record(const cases::Case &c)
@@ -312,6 +325,14 @@ namespace meltfront::verification
     }
     record.start_time = scene.start_time;
     record.end_time = scene.end_time;
+    record.steady = scene.problem == cases::ProblemKind::poisson;
+    record.changes_phase = scene.changes_phase();
+    if(scene.heat_release)
+      record.heat_release = scene.heat_release->expression;
+    if(scene.inclusion)
+      record.inclusion
+          = fmt::format("conductivity {:.6g} where {} < 0", scene.inclusion->conductivity,
+                        scene.inclusion->level_set.expression);
     record.exact = c.exact ? c.exact->description() : "";
     record.front_exact_end = c.exact ? c.exact->front(scene.end_time)
                                      : std::numeric_limits<double>::quiet_NaN();
@@ -329,6 +350,8 @@ namespace meltfront::verification
   {
     json = nlohmann::json::object();
     visit_plain(record, [&](const char *name, const auto &value) { json[name] = value; });
+    visit_conduction(record,
+                     [&](const char *name, const auto &value) { json[name] = value; });
     json["lower"] = json_of(record.lower);
     json["upper"] = json_of(record.upper);
     json["radius"] = json_of(record.radius);
@@ -362,6 +385,9 @@ namespace meltfront::verification
     record = {};
     visit_plain(record,
                 [&](const char *name, auto &value) { json.at(name).get_to(value); });
+    if(json.contains("steady")) // older records lack it
+      visit_conduction(record, [&](const char *name, auto &value)
+                       { json.at(name).get_to(value); });
     record.lower = position_in(json.at("lower"));
     record.upper = position_in(json.at("upper"));
     record.radius = number_in(json.at("radius"));

@@ -39,6 +39,10 @@ namespace meltfront::verification
     std::vector<cases::Position> source_positions;
     std::vector<std::string> sources; ///< `at (0, 0): -148.45 W/m`
     double start_time = 0, end_time = 1;
+    bool steady = false;        ///< poisson: no time passes
+    bool changes_phase = true;  ///< else there is no front
+    std::string heat_release;   ///< formula; empty: none
+    std::string inclusion;      ///< where, and its conductivity; empty: none
     std::string exact;          ///< description of the exact solution; empty: none
     double front_exact_end = 0; ///< exact front at the end time (NaN: none)
     std::optional<cases::Reference> reference; ///< where there is no exact solution

@@ -1,5 +1,6 @@
 #include <verification/matrix/end_profile.h>
 #include <verification/measure/mush_error.h>
+#include <verification/measure/temperature_error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,7 +103,7 @@ namespace meltfront::verification
                                                              snapshot.solid_fraction[i]));
       if(!exact)
         continue;
-      const double expected = exact->temperature(coordinates[i], snapshot.time);
+      const double expected = exact_temperature(*exact, snapshot, coordinates[i], i);
       profile.temperature_exact.push_back(
           std::isfinite(expected) ? expected : std::numeric_limits<double>::quiet_NaN());
       if(exact->mushy())

@@ -81,11 +81,15 @@ namespace meltfront::verification
     constexpr double any_scheme_in_space = 3, any_scheme_in_time = 5.5;
     if(refinement.in_time())
       return any_scheme_in_time;
-    const auto degree = run.options.find("degree");
-    return degree == run.options.end()
-               ? any_scheme_in_space
-               : std::max(any_scheme_in_space,
-                          2 * std::strtod(degree->second.c_str(), nullptr) + 0.5);
+    const auto option = [&run](const char *key)
+    {
+      const auto found = run.options.find(key);
+      return found == run.options.end() ? 0.
+                                        : std::strtod(found->second.c_str(), nullptr);
+    };
+    // Elements superconverge; symmetric stencils of an odd basis gain an order.
+    return std::max({any_scheme_in_space, 2 * option("degree") + 0.5,
+                     option("basis_order") + 1.5, option("constraint_order") + 1.5});
   }
 
   OrderFit fit_levels(const ErrorLevels &levels, const CaseRecord &record,

@@ -26,9 +26,11 @@ namespace meltfront::verification
    * around each of Measurement::marks. Events (Measurement::events) look at every step
    * until they have happened, at nothing but the solid fractions. Each is judged: a state
    * that is not finite or breaks the maximum principle ends the run with a
-   * NumericalError. Elements that carry or cut a tracked front (Snapshot::front) obey the
-   * principle in the limit only: they may overshoot by a fiftieth of the bounds' span,
-   * and temperature_overshoot tells by how much they did.
+   * NumericalError. Elements that carry or cut a tracked front (Snapshot::front) and
+   * reproducing kernels (Snapshot::obeys_maximum_principle) obey the principle in the
+   * limit only: they may overshoot by a fiftieth of the bounds' span, and
+   * temperature_overshoot tells by how much they did. Where no phase changes there is no
+   * front and no volume that is solid: these quantities are NaN.
    */
   class RunObserver : public cases::Observer
   {
@@ -89,7 +91,8 @@ namespace meltfront::verification
      * solid_volume_end: at the end (m, m^2, m^3 in the measure of the scene);
      * solid_volume_1 to _8: at Measurement::marks, interpolated() between steps;
      * solid_volume_backsteps: farthest that it fell back, over its net change;
-     * temperature_l2, temperature_max, temperature_rmse: TemperatureError at the end;
+     * temperature_l2, temperature_max, temperature_rmse, temperature_sites_l2:
+     * TemperatureError at the end;
      * temperature_overshoot: farthest beyond the bounds of the maximum principle in any
      * snapshot, over their span; 0 within them, NaN where they are not both finite;
      * first_contact, half_frozen, all_frozen: times of Measurement::events (s);

@@ -76,6 +76,7 @@ namespace meltfront::verification
     {
       const cases::EffectSet effects = cases::effects_called_for(c.scene);
       record.effects = effects.decisions();
+      cases::require_problem(method, c.scene);
       cases::require_effects(method, effects);
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
       RunObserver observer(c, scene, method.name(), second);

@@ -22,7 +22,15 @@ namespace meltfront::verification
      * temperature scale.
      */
     double rmse;
+    /** sqrt(sum (T - T_exact)^2 / sum (T_exact - T_m)^2), each site counted once: what
+     * section 5 of the same report measures. */
+    double sites_l2;
   };
+
+  /** The exact temperature at a site; of a solution with a front at its coordinate. */
+  double exact_temperature(const cases::ExactSolution &exact,
+                           const cases::Snapshot &snapshot, double coordinate,
+                           std::size_t site);
 
   /**
    * Compare the temperature of a snapshot with the exact one at the snapshot's time.

@@ -57,6 +57,8 @@ namespace meltfront::verification
     std::string error_label(const CaseRecord &record, const std::string &error)
     {
       const std::string unit = error.starts_with("front") ? "m" : volume_unit(record);
+      if(error.starts_with("temperature"))
+        return "temperature error, RMS over the largest";
       const char *words = error == "front_rms"   ? "front error, RMS"
                           : error == "front_end" ? "front error, end"
                                                  : "solid's error, end";
@@ -111,7 +113,8 @@ namespace meltfront::verification
                     const std::string &abscissa, double scale)
     {
       const bool resolution = abscissa == "h" || abscissa == "dt";
-      const bool few_steps = abscissa == "dt" && runs.has("front_end");
+      const bool few_steps = abscissa == "dt" && runs.has("front_end")
+                             && runs.record->changes_phase;
       const std::string error = few_steps ? "front_end" : main_error(*runs.record);
       Plot plot;
       plot.x.logarithmic = plot.y.logarithmic = true;

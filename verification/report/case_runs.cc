@@ -188,6 +188,8 @@ namespace meltfront::verification
 
   std::string main_error(const CaseRecord &record)
   {
+    if(!record.changes_phase)
+      return "temperature_rmse";
     return record.exact.empty() ? "solid_volume_end_error" : "front_rms";
   }
 

@@ -1,0 +1,213 @@
+#include <cases/case_file/conduction_reader.h>
+#include <cases/case_file/expression.h>
+#include <cases/exact/formula_solution.h>
+#include <cases/exact/lattice_reference.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    const std::string release_keys = "Scene/Heat release";
+    const std::string inclusion_keys = "Scene/Inclusion";
+    const std::string exact_keys = "Exact solution";
+
+    PrmEntry text(const std::string &key, const std::string &description)
+    {
+      return {.key = key,
+              .kind = PrmKind::text,
+              .default_value = {},
+              .unit = {},
+              .description = description};
+    }
+
+    std::string variables(const Scene &scene)
+    {
+      return std::string("xyz").substr(0, scene.domain.dimension);
+    }
+
+    Field field(const PrmFile &prm, const std::string &subsection, const std::string &key,
+                const std::string &names)
+    {
+      try
+      {
+        return parse_field(prm.get_text(subsection, key), names);
+      }
+      catch(const InputError &error)
+      {
+        throw prm.error(subsection, key, error.what());
+      }
+    }
+
+    /** The lattice takes a square whose walls prescribe temperatures. */
+    LatticeProblem lattice_problem(const PrmFile &prm, const Scene &scene)
+    {
+      const auto complain = [&prm](const std::string &why)
+      {
+        throw prm.error(exact_keys, "kind",
+                        "cannot be 'five-point lattice' but for a steady square: " + why);
+      };
+      if(scene.problem != ProblemKind::poisson || scene.domain.shape != DomainShape::box
+         || scene.domain.dimension != 2)
+        complain("the scene is no steady box in 2 dimensions");
+      if(scene.inclusion || !scene.sources.empty())
+        complain("it takes neither inclusion nor point source");
+      for(const Side side : scene.sides())
+        if(scene.boundary(side).kind != BoundaryKind::fixed_temperature
+           || scene.boundary(side).exact)
+          complain(
+              fmt::format("{} prescribes no temperature of its own", to_string(side)));
+      LatticeProblem problem;
+      problem.lower = scene.domain.lower;
+      problem.upper = scene.domain.upper;
+      problem.conductivity = scene.material.solid.conductivity;
+      problem.intervals = static_cast<int>(prm.get_integer(exact_keys, "intervals"));
+      problem.heat_release = [release = scene.heat_release](const Position &p)
+      { return release ? (*release)(p, 0) : 0.; };
+      problem.wall_temperature = [&scene](const Position &p)
+      {
+        const Domain &domain = scene.domain;
+        const double tolerance = 1e-9 * domain.side();
+        for(const Side side : scene.sides())
+        {
+          const int d = static_cast<int>(side) / 2;
+          const double wall
+              = static_cast<int>(side) % 2 == 1 ? domain.upper[d] : domain.lower[d];
+          if(std::abs(p[d] - wall) < tolerance)
+            return scene.boundary(side).value(p, 0);
+        }
+        return 0.;
+      };
+      return problem;
+    }
+  } // namespace
+
+  void declare_conduction(PrmFile &prm)
+  {
+    PrmEntry problem = text("problem", "stefan: heat over time, with or without a change "
+                                       "of phase; poisson: the steady temperature.");
+    problem.kind = PrmKind::word;
+    problem.default_value = "stefan";
+    problem.choices = {"stefan", "poisson"};
+    prm.declare("Scene", problem);
+    prm.declare(release_keys,
+                text("power density",
+                     "Heat released throughout the domain, expression of x, "
+                     "y, z, t (W/m^3)."));
+    prm.declare(
+        inclusion_keys,
+        text("level set", "Where it is: expression of x, y, z, negative inside."));
+    PrmEntry conductivity = text("conductivity", "Thermal conductivity inside.");
+    conductivity.kind = PrmKind::number;
+    conductivity.unit = "W/(m K)";
+    conductivity.lower = above_zero;
+    prm.declare(inclusion_keys, conductivity);
+    prm.declare(exact_keys, text("temperature", "Of a formula: expression of x, y, z, t "
+                                                "(K)."));
+    PrmEntry intervals = text("intervals", "Of the five-point lattice, along each side.");
+    intervals.kind = PrmKind::integer;
+    intervals.default_value = "101";
+    intervals.lower = 4;
+    intervals.upper = 2000;
+    prm.declare(exact_keys, intervals);
+  }
+
+  ProblemKind read_problem(const PrmFile &prm)
+  {
+    return prm.get_text("Scene", "problem") == "poisson" ? ProblemKind::poisson
+                                                         : ProblemKind::stefan;
+  }
+
+  void read_conduction(const PrmFile &prm, Scene &scene)
+  {
+    const bool release = prm.given(release_keys, "power density");
+    const bool inclusion = prm.opened(inclusion_keys);
+    if((release || inclusion) && scene.changes_phase())
+      throw prm.subsection_error(release ? release_keys : inclusion_keys,
+                                 "has no meaning where the material has a latent heat");
+    if(release)
+      scene.heat_release
+          = field(prm, release_keys, "power density", variables(scene) + "t");
+    if(!inclusion)
+      return;
+    for(const char *key : {"level set", "conductivity"})
+      prm.require(inclusion_keys, key, "an inclusion needs it");
+    scene.inclusion = Inclusion{field(prm, inclusion_keys, "level set", variables(scene)),
+                                prm.get_number(inclusion_keys, "conductivity")};
+  }
+
+  void forbid_frontless_keys(const PrmFile &prm, const std::string &kind)
+  {
+    if(kind != "formula")
+      prm.forbid(exact_keys, "temperature", "it is a key of the formula");
+    if(kind != "five-point lattice")
+      prm.forbid(exact_keys, "intervals", "it is a key of the five-point lattice");
+  }
+
+  KnownSolution read_frontless_solution(const PrmFile &prm, const Scene &scene)
+  {
+    const std::string kind = prm.get_text(exact_keys, "kind");
+    for(const char *key : {"wall temperature", "far temperature", "lambda"})
+      prm.forbid(exact_keys, key, fmt::format("the solution is a {}", kind));
+    if(scene.changes_phase())
+      throw prm.error(
+          exact_keys, "kind",
+          fmt::format("cannot be '{}' where the material has a latent heat: it "
+                      "knows no front",
+                      kind));
+    KnownSolution known;
+    if(kind == "five-point lattice")
+    {
+      try
+      {
+        known.solution = std::make_shared<LatticeReference>(lattice_problem(prm, scene));
+      }
+      catch(const InputError &error)
+      {
+        throw prm.error(exact_keys, "kind",
+                        fmt::format("gives no solution: {}", error.what()));
+      }
+      return known;
+    }
+    prm.require(exact_keys, "temperature", "a formula needs it");
+    const Field formula = field(prm, exact_keys, "temperature", variables(scene) + "t");
+    const Symmetry symmetry
+        = scene.domain.shape == DomainShape::slab ? Symmetry::planar : Symmetry::none;
+    known.solution = std::make_shared<FormulaSolution>(
+        symmetry, formula.expression,
+        [formula](const Position &p, double time) { return formula(p, time); });
+    return known;
+  }
+
+  void check_conduction(const PrmFile &prm, const Scene &scene,
+                        const std::vector<Position> &points)
+  {
+    const auto demand = [&](Effect effect, bool fulfilled, const std::string &missing)
+    {
+      const auto choice = scene.effect_choices.find(effect);
+      if(choice != scene.effect_choices.end() && choice->second == EffectChoice::on
+         && !fulfilled)
+        throw prm.error("Effects", to_string(effect),
+                        fmt::format("is on but {}", missing));
+    };
+    demand(Effect::heat_release, scene.heat_release.has_value(),
+           "there is no subsection 'Scene/Heat release'");
+    demand(Effect::inclusion, scene.inclusion.has_value(),
+           "there is no subsection 'Scene/Inclusion'");
+    bool transfer = false;
+    for(const Side side : scene.sides())
+      transfer |= scene.boundary(side).kind == BoundaryKind::heat_transfer;
+    demand(Effect::wall_transfer, transfer,
+           "no wall in subsection 'Scene/Walls' has the kind 'heat transfer'");
+    for(const Position &p : points)
+    {
+      if(scene.heat_release && !std::isfinite((*scene.heat_release)(p, scene.start_time)))
+        throw prm.error(release_keys, "power density", "is not finite in the domain");
+      if(scene.inclusion && !std::isfinite(scene.inclusion->level_set(p, 0)))
+        throw prm.error(inclusion_keys, "level set", "is not finite in the domain");
+    }
+  }
+} // namespace meltfront::cases

@@ -1,0 +1,89 @@
+#ifndef meltfront_particles_scattered_linear_problem_h
+#define meltfront_particles_scattered_linear_problem_h
+
+#include <cases/method.h>
+#include <cases/scene.h>
+#include <particles/scattered/compressed_rows.h>
+#include <particles/scattered/linear_solver.h>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace meltfront::particles
+{
+  /** Heat per time, in the measure of the sites' weights (W m^(d-3)). */
+  struct HeatInflow
+  {
+    double through_walls = 0;
+    double released = 0; ///< by sources in the domain
+  };
+
+  /**
+   * Heat conduction on scattered unknowns,
+   *
+   *   mass * dU/dt = operator * U + source(t),
+   *
+   * with empty rows in the mass where an equation holds at each time (walls). A steady
+   * problem is 0 = operator * U + source.
+   */
+  struct LinearProblem
+  {
+    CompressedRows operator_rows;
+    CompressedRows mass;
+    /** Right-hand side at a time, one value per row; overwritten. */
+    std::function<void(double time, std::span<double>)> source;
+    /** Temperatures at the sites from the unknowns; empty: the unknowns are them. */
+    CompressedRows reconstruction;
+    bool symmetric = false; ///< operator_rows is symmetric and -operator definite
+    /** Heat that flows in at a time; empty: the method does not balance heat. */
+    std::function<HeatInflow(double time, std::span<const double> unknowns)> inflow;
+  };
+
+  /** The sites at which temperatures are reported; outlive the run. */
+  struct LinearSites
+  {
+    int dimension = 1;
+    std::array<std::span<const double>, 3> positions{};
+    std::span<const double> weights; ///< as Snapshot::weights
+  };
+
+  /** How a linear problem is stepped; chosen by linear_options(). */
+  enum class LinearScheme
+  {
+    backward_euler,
+    crank_nicolson,
+    bdf2
+  };
+
+  /** The options that all methods on linear problems share: linear solver and tolerance,
+   * time scheme, number of steps. */
+  std::vector<cases::OptionDeclaration> linear_options();
+
+  /** What a run says of itself beside what all linear runs say. */
+  struct LinearDescription
+  {
+    std::string method;
+    cases::RunDescription run; ///< time_step and unknowns are filled in
+    bool obeys_maximum_principle = false;
+    long setup_work = 0; ///< entries touched while rows were made
+    std::vector<cases::EffectCost> effects;
+    double setup_wall = 0, setup_cpu = 0; ///< s, spent on rows
+  };
+
+  /**
+   * Solve the steady problem or step the transient one from the scene's initial
+   * temperature to its end, with one factorisation.
+   *
+   * @throws NumericalError (method, step, time) if a matrix is singular, a solve does not
+   * converge, or a value is not finite.
+   */
+  cases::Cost run_linear_problem(const cases::Scene &scene, const LinearProblem &problem,
+                                 const LinearSites &sites,
+                                 const LinearDescription &description,
+                                 const cases::Resolution &resolution,
+                                 cases::Observer &observer);
+} // namespace meltfront::particles
+
+#endif
