@@ -13,7 +13,7 @@ namespace meltfront::particles
 {
   namespace
   {
-    constexpr double singular = 1e-15;
+    constexpr double singular = 1e-13;
     constexpr double overshoot_of_high_order = 0.02, overshoot_of_round_off = 1e-9;
 
     const std::vector<std::string> &scheme_names()

@@ -187,6 +187,7 @@ namespace meltfront::particles
       {
         constexpr int most_iterations = 20;
         constexpr double near = 1e-12;
+        constexpr double tie = 1e-6; // above the round-off of the gradient
         const cases::Position start = nodes.point(node);
         cases::Position p = start;
         double distance = 0;
@@ -200,8 +201,8 @@ namespace meltfront::particles
           distance = level(p) / std::sqrt(squared);
           // Of two nodes half a spacing off only the one outside is moved.
           if(iteration == 0
-             && !(distance > -0.5 * nodes.spacing * (1 - near)
-                  && distance <= 0.5 * nodes.spacing * (1 + near)))
+             && !(distance > -0.5 * nodes.spacing * (1 - tie)
+                  && distance <= 0.5 * nodes.spacing * (1 + tie)))
             return false;
           if(std::abs(distance) <= near * nodes.spacing)
             break;
