@@ -87,7 +87,7 @@ namespace meltfront::particles::rkpm
 
   double RkpmProblem::checked_symbol() const
   {
-    const double alpha = mean_dilation() / nodes.spacing;
+    const double alpha = parameters.supports.alpha;
     const double ratio = stability_ratio(parameters.moments, alpha);
     if(parameters.refuse_unstable && ratio < least_stable_ratio)
       require_stability(parameters.moments, alpha);
