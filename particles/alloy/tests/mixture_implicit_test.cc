@@ -204,8 +204,6 @@ namespace meltfront::particles::testing
           salt_error.push_back(
               root_mean_square(found.concentration[0], fine.concentration[0]));
           EXPECT_EQ(found.cost.capped_steps, 0);
-          std::printf("order %s %s steps %ld T %.3e C %.3e\n", scheme, factor,
-                      found.cost.steps, heat_error.back(), salt_error.back());
         }
         for(const auto &errors : {heat_error, salt_error})
         {
@@ -216,7 +214,8 @@ namespace meltfront::particles::testing
       }
     }
 
-    // Fronts that cross particles leave first order, as with a pure substance.
+    // Measured: 0.187 to 0.0153 K with backward Euler, 0.0362 to 0.0005 K with
+    // Crank-Nicolson.
     TEST(MixtureImplicit, ConvergesInTimeWhereAFrontMoves)
     {
       const Scene scene = nitrate_slab(13200, diffusivity);
@@ -231,13 +230,13 @@ namespace meltfront::particles::testing
           error.push_back(root_mean_square(found.temperature, fine.temperature));
           EXPECT_LT(found.heat_defect, 1e-12);
           EXPECT_LT(found.solute_defect, 1e-12);
-          std::printf("front %s %s steps %ld T %.3e\n", scheme, factor, found.cost.steps,
-                      error.back());
         }
         EXPECT_GE(fitted_order(step, error), 0.8) << scheme;
       }
     }
 
+    // Measured: 0.028 K with backward Euler, 0.016 K with Crank-Nicolson; with `harmonic`
+    // 0.097 and 0.088 K and three steps that were halved.
     TEST(MixtureImplicit, LongStepsKeepToTheMushyLayer)
     {
       const double time = 91800;
@@ -248,10 +247,7 @@ namespace meltfront::particles::testing
           options.push_back({"conductivity", conductivity});
           const auto found = run(*mixture, nitrate_slab(time), 60, options, 1);
           const MushErrors errors = compare(found, nitrate_layer(), time);
-          std::printf("long %s %s steps %ld T %.4f ice %.5f newton %ld capped %ld\n",
-                      scheme, conductivity, found.cost.steps, errors.temperature,
-                      errors.ice, found.cost.most_iterations, found.cost.capped_steps);
-          EXPECT_LT(errors.temperature, 0.3);
+          EXPECT_LT(errors.temperature, 0.13);
           EXPECT_LT(std::abs(errors.ice), 0.02);
           EXPECT_GE(found.lowest, -16.5 * (1 + 1e-9));
           EXPECT_LE(found.highest, 14.7 * (1 + 1e-9));
@@ -272,13 +268,9 @@ namespace meltfront::particles::testing
         for(const char *scheme : schemes)
         {
           const auto found = run(*mixture, scene, 60, with(scheme, "60"));
-          std::printf("eutectic %s D %g T %.4f ice %.5f newton %ld capped %ld\n", scheme,
-                      salt_diffusivity,
-                      root_mean_square(found.temperature, fine.temperature),
-                      found.solid / fine.solid - 1, found.cost.most_iterations,
-                      found.cost.capped_steps);
-          EXPECT_LT(root_mean_square(found.temperature, fine.temperature), 0.3);
-          EXPECT_NEAR(found.solid / fine.solid, 1, 0.02);
+          // Measured: 0.038 K and 0.3 % with backward Euler.
+          EXPECT_LT(root_mean_square(found.temperature, fine.temperature), 0.06);
+          EXPECT_NEAR(found.solid / fine.solid, 1, 0.005);
           EXPECT_EQ(
               *std::max_element(found.solid_fraction.begin(), found.solid_fraction.end()),
               1.);
@@ -331,8 +323,6 @@ namespace meltfront::particles::testing
         {
           const auto found = run(*mixture, scene, 40, with(scheme, "30"));
           EXPECT_LT(found.heat_defect, 1e-12) << scheme << " " << content;
-          std::printf("trace %g %s newton %ld capped %ld\n", content, scheme,
-                      found.cost.most_iterations, found.cost.capped_steps);
           temperature.push_back(found.temperature);
         }
       }
@@ -356,8 +346,6 @@ namespace meltfront::particles::testing
           steps.push_back(found.cost.steps);
           EXPECT_LT(found.heat_defect, 1e-12);
           EXPECT_LT(found.solute_defect, 1e-12);
-          std::printf("error %s %s steps %ld T %.3e capped %ld\n", scheme, wanted,
-                      found.cost.steps, error.back(), found.cost.capped_steps);
         }
         EXPECT_LT(steps[0], steps[1]);
         EXPECT_LT(steps[1], steps[2]);
@@ -418,18 +406,17 @@ namespace meltfront::particles::testing
 
     TEST(MixtureImplicit, TheSameBitsForAnyNumberOfThreads)
     {
-      Scene scene = nitrate_slab(30, diffusivity);
+      Scene scene = nitrate_slab(3, diffusivity);
       scene.symmetry = cases::Symmetry::none;
       scene.domain = {};
       scene.domain.shape = cases::DomainShape::box;
       scene.domain.dimension = 2;
       scene.domain.upper = {0.1, 0.1, 0};
       scene.boundaries[1] = scene.boundaries[2] = scene.boundaries[3] = insulated();
-      const auto one = run(*mixture, scene, 96, with("crank-nicolson", "60"), 100, 1);
+      const auto one = run(*mixture, scene, 96, with("crank-nicolson", "8"), 100, 1);
       ASSERT_GT(one.temperature.size(), 8192u); // shared among threads from here on
-      EXPECT_EQ(
-          run(*mixture, scene, 96, with("crank-nicolson", "60"), 100, 2).temperature,
-          one.temperature);
+      EXPECT_EQ(run(*mixture, scene, 96, with("crank-nicolson", "8"), 100, 2).temperature,
+                one.temperature);
     }
 
     TEST(MixtureImplicit, StopsWhereTheEquationsCannotBeSolved)
