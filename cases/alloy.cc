@@ -70,7 +70,7 @@ namespace meltfront::cases
     if(surplus(lower) >= 0)
     {
       if(excess_at(lower) <= eutectic_excess)
-        return below_liquidus(enthalpy, excess_at(lower));
+        return below_liquidus(enthalpy, -std::numeric_limits<double>::infinity());
       throw InputError(
           fmt::format("the mush is colder than the liquidus is known, {:.6g} at the mass "
                       "fraction {:.6g}: extend the liquidus or state the eutectic "

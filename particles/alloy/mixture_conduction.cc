@@ -138,26 +138,7 @@ namespace meltfront::particles
   void MixtureConduction::conduct(const ParticleOperator &rows, std::span<double> flow,
                                   int threads) const
   {
-    switch(used_form)
-    {
-    case ConductionForm::uniform:
-    case ConductionForm::transformed:
-      rows.apply(value, flow, threads);
-      break;
-    case ConductionForm::integral:
-      rows.apply_pairs(IntegralMeanPair{value.data(), above_eutectic.data(),
-                                        logarithm.data(), depression.data(),
-                                        constant.data(), own.data(), 0.5 * difference,
-                                        path},
-                       flow, threads);
-      break;
-    case ConductionForm::arithmetic:
-      rows.apply_pairs(ArithmeticMeanPair{excess.data(), value.data()}, flow, threads);
-      break;
-    case ConductionForm::harmonic:
-      rows.apply_pairs(HarmonicMeanPair{excess.data(), value.data()}, flow, threads);
-      break;
-    }
+    with_pair([&](const auto &pair) { rows.apply_pairs(pair, flow, threads); });
   }
 
   double MixtureConduction::from_wall(std::size_t row, double wall) const

@@ -28,7 +28,8 @@ namespace meltfront::particles
    * Local equilibrium of all particles and the heat that they exchange.
    *
    * follow() finds temperature and liquid fraction from enthalpy and composition, and
-   * what the exchange needs of them; conduct() applies the rows.
+   * what the exchange needs of them; with_pair() hands out the exchange, conduct()
+   * applies the rows with it.
    */
   class MixtureConduction
   {
@@ -43,8 +44,33 @@ namespace meltfront::particles
 
     void conduct(const ParticleOperator &rows, std::span<double> flow, int threads) const;
 
+    /** visit(pair), pair(a, b) the heat flow from b to a per strength of the link. */
+    template <typename Visit>
+    void with_pair(const Visit &visit) const
+    {
+      switch(used_form)
+      {
+      case ConductionForm::integral:
+        visit(IntegralMeanPair{value.data(), above_eutectic.data(), logarithm.data(),
+                               depression.data(), constant.data(), own.data(),
+                               0.5 * difference, path});
+        break;
+      case ConductionForm::arithmetic:
+        visit(ArithmeticMeanPair{excess.data(), value.data()});
+        break;
+      case ConductionForm::harmonic:
+        visit(HarmonicMeanPair{excess.data(), value.data()});
+        break;
+      default:
+        visit(DifferencePair{value.data()});
+      }
+    }
+
     /** Heat flow to a particle from a wall, per strength of the link. */
     double from_wall(std::size_t row, double wall_excess) const;
+
+    /** Of a wall's mixture, which has the composition of the particle next to it. */
+    double wall_conductivity(std::size_t row, double wall_excess) const;
 
     /** T - T_m of the particles, as of the last follow(). */
     std::span<const double> temperature_excess() const
@@ -75,8 +101,6 @@ namespace meltfront::particles
     Extremes find_equilibrium(const Equilibrium &equilibrium, int threads);
     void prepare_exchange(int threads);
     void set_depression(int threads);
-    double wall_conductivity(std::size_t row, double wall_excess) const;
-
     double composition(std::size_t solute, std::size_t row) const
     {
       return concentrations[solute].empty() ? 0. : concentrations[solute][row];

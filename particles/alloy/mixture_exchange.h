@@ -8,6 +8,17 @@ namespace meltfront::particles
   // Heat flows between two particles of a mixture, per g_ab of ConductionRows. Each is
   // antisymmetric to the last bit: what a pair exchanges cancels exactly.
 
+  /** u_b - u_a of one transformed temperature u. */
+  struct DifferencePair
+  {
+    const double *value; ///< u
+
+    double operator()(std::size_t a, std::size_t b) const
+    {
+      return value[b] - value[a];
+    }
+  };
+
   /** (k_a + k_b)/2 (T_b - T_a) */
   struct ArithmeticMeanPair
   {

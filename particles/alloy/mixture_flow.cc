@@ -79,18 +79,48 @@ namespace meltfront::particles
 
   Extremes MixtureFlow::follow(MixtureView state)
   {
-    const Extremes extremes = equilibrium_meter.measure(
-        [&]
-        { return conduction.follow(state.enthalpy, state.composition, thread_count); });
+    const Extremes extremes = follow_heat(state);
     if(diffusion)
       diffusion->follow(conduction.liquid_fraction(), conduction.depressions(),
                         state.composition);
     return extremes;
   }
 
+  Extremes MixtureFlow::follow_heat(MixtureView state)
+  {
+    return equilibrium_meter.measure(
+        [&]
+        { return conduction.follow(state.enthalpy, state.composition, thread_count); });
+  }
+
   double MixtureFlow::heat(double fraction, std::span<double> flow)
   {
     conduction.conduct(rows.rows, flow, thread_count);
+    return add_outer_heat(fraction, flow);
+  }
+
+  double MixtureFlow::evaluate(double fraction, std::span<double> flows)
+  {
+    const std::size_t size = padded_size();
+    const std::span<double> heat_flow = flows.first(size);
+    if(!diffusion)
+      return heat(fraction, heat_flow);
+    const std::size_t first = diffusion->first_to_diffuse();
+    conduction.with_pair(
+        [&](const auto &pair)
+        {
+          diffusion->flow_with_heat(pair, heat_flow, first, rows.rows,
+                                    flows.subspan((first + 1) * size, size),
+                                    thread_count);
+        });
+    for(std::size_t s = 0; s < substance.n_solutes(); ++s)
+      if(s != first)
+        solute(s, flows.subspan((s + 1) * size, size));
+    return add_outer_heat(fraction, heat_flow);
+  }
+
+  double MixtureFlow::add_outer_heat(double fraction, std::span<double> flow)
+  {
     ++evaluations;
     if(heat_sources)
       heat_sources->add(flow, 1.);

@@ -2,6 +2,7 @@
 #define meltfront_particles_alloy_mixture_flow_h
 
 #include <particles/alloy/mixture_conduction.h>
+#include <particles/alloy/mixture_derivative.h>
 #include <particles/alloy/solute_diffusion.h>
 #include <particles/sph/heat_sources.h>
 #include <particles/sph/wall_flux.h>
@@ -44,12 +45,45 @@ namespace meltfront::particles
     /** Find equilibria. @return extremes of the temperature. */
     Extremes follow(MixtureView state);
 
+    /** The same where only heat is going to flow. */
+    Extremes follow_heat(MixtureView state);
+
     /** Flow of heat into each particle, as of the last follow().
      * @return heat flow through walls (W per simulated depth). */
     double heat(double fraction, std::span<double> flow);
 
     /** Flow of a solute into each particle (kg/s), as of the last follow(). */
     void solute(std::size_t solute, std::span<double> flow);
+
+    /** Flows of the heat, and where solutes diffuse of each of these: arrays of
+     * padded_size(), one after another, the first of heat.
+     * @return heat flow through walls. */
+    double evaluate(double fraction, std::span<double> flows);
+
+    /** Prepare products with the derivative of heat() by the enthalpies, as of the last
+     * follow(), compositions kept. */
+    void linearise(double fraction, MixtureView state);
+
+    /** How heat() follows a change of the enthalpies, to first order. */
+    void apply_derivative(std::span<const double> change, std::span<double> flow_change);
+
+    /** How each particle's heat flow follows its own enthalpy. */
+    std::span<const double> derivative_diagonal() const
+    {
+      return diagonal;
+    }
+
+    /** Add a correction, each particle to the next kink of its T(H) at most. */
+    void correct(std::span<const double> correction, std::span<double> enthalpy) const
+    {
+      derivative->correct(correction, enthalpy);
+    }
+
+    /** The largest explicit step of the solutes alone (s). */
+    double largest_solute_step(double particle_mass) const
+    {
+      return particle_mass / diffusion->row_sum();
+    }
 
     /** The largest explicit step that is certain to keep the maximum principle:
      * m / (sum_b g_ab (k/c + 2 rho D)), with the largest k, the least c and the largest
@@ -92,6 +126,9 @@ namespace meltfront::particles
     std::vector<cases::EffectCost> effect_costs(std::size_t per_solute) const;
 
   private:
+    /** Add what comes from sources and walls. @return heat flow through walls. */
+    double add_outer_heat(double fraction, std::span<double> flow);
+
     cases::EffectSet effects;
     const AlloySubstance &substance;
     int thread_count;
@@ -103,6 +140,8 @@ namespace meltfront::particles
     std::optional<HeatSources> heat_sources;
     std::optional<WallTemperature> wall_temperature;
     std::optional<WallFlux> wall_flux;
+    std::optional<MixtureDerivative> derivative; ///< from the first linearise() on
+    std::vector<double> wall_diagonal, diagonal; ///< of the heat from walls, of all
     long evaluations = 0;
   };
 } // namespace meltfront::particles

@@ -2,11 +2,13 @@
 #include <cases/scene.h>
 #include <cases/snapshot.h>
 #include <cases/stopwatch.h>
+#include <particles/alloy/implicit_mixture.h>
 #include <particles/alloy/mixture_flow.h>
 #include <particles/alloy/mixture_run.h>
 #include <particles/alloy/mixture_state.h>
 #include <particles/sph/careful_sum.h>
 #include <particles/sph/explicit_scheme.h>
+#include <particles/sph/implicit_scheme.h>
 #include <particles/sph/run_report.h>
 
 #include <fmt/format.h>
@@ -23,7 +25,7 @@ namespace meltfront::particles
     constexpr const char *method_name = "sph-mixture";
 
     /** One run: the state and its advance in time. */
-    class MixtureRun
+    class MixtureRun : private ImplicitScheme::Subject
     {
     public:
       MixtureRun(const cases::Scene &scene, const cases::EffectSet &effects,
@@ -46,12 +48,18 @@ namespace meltfront::particles
         const std::size_t solutes = substance.n_solutes();
         // Without diffusion concentrations never change: they take no part in the steps.
         fields = 1 + (flows.diffuses() ? solutes : 0);
-        state.assign(fields * size, 0.);
-        std::copy(initial.enthalpy.begin(), initial.enthalpy.end(), state.begin());
+        state_of_all.assign(fields * size, 0.);
+        std::copy(initial.enthalpy.begin(), initial.enthalpy.end(), state_of_all.begin());
         for(std::size_t s = 0; flows.diffuses() && s < solutes; ++s)
           std::copy(initial.concentration[s].begin(), initial.concentration[s].end(),
-                    state.begin() + (s + 1) * size);
-        scheme.emplace(plan, state.size(), state.size(), flows.threads());
+                    state_of_all.begin() + (s + 1) * size);
+        if(is_implicit(parameters.sph.time_scheme))
+        {
+          implicit_scheme.emplace(parameters.sph, plan, scene, fields, method_name);
+          implicit_mixture.emplace(flows, substance, n, particle_mass);
+        }
+        else
+          scheme.emplace(plan, state_of_all.size(), state_of_all.size(), flows.threads());
         flows.prepare_step(scene.start_time, time_of(1));
         flows.hold_walls(0, view());
         extremes = flows.follow(view());
@@ -67,14 +75,18 @@ namespace meltfront::particles
         observer.begin(describe());
         observer.observe(snapshot(0, scene.start_time));
         cases::Stopwatch stepping;
-        for(long step = 1; step <= plan.steps; ++step)
+        double time = scene.start_time;
+        while(time < scene.end_time)
         {
-          const double end = time_of(step);
-          advance(step, time_of(step - 1), end);
-          check(step, end);
-          if(observer.wants(step, end) || step == plan.steps)
-            stepping.without([&] { observer.observe(snapshot(step, end)); });
+          time = advance(++steps, time);
+          check(steps, time);
+          if(observer.wants(steps, time) || time == scene.end_time)
+            stepping.without([&] { observer.observe(snapshot(steps, time)); });
         }
+        if(parameters.sph.step_error > 0)
+          observer.note(scene.end_time,
+                        fmt::format("{} steps were accepted and {} rejected", steps,
+                                    implicit_scheme->repeated()));
         return cost(setup, stepping.elapsed());
       }
 
@@ -88,7 +100,7 @@ namespace meltfront::particles
       std::span<const double> concentration(std::size_t solute) const
       {
         return flows.diffuses()
-                   ? std::span<const double>(state).subspan((solute + 1) * size, n)
+                   ? std::span<const double>(state_of_all).subspan((solute + 1) * size, n)
                    : std::span<const double>(initial.concentration[solute]);
       }
 
@@ -97,63 +109,82 @@ namespace meltfront::particles
         const std::size_t solutes = substance.n_solutes();
         for(std::size_t s = 0; s < solutes; ++s)
           composition[s] = concentration(s);
-        return {std::span(state).first(n), std::span(composition).first(solutes)};
+        return {std::span(state_of_all).first(n), std::span(composition).first(solutes)};
       }
 
-      void advance(long step, double begin, double end)
+      /** @return the end of the step. */
+      double advance(long step, double begin)
+      {
+        WallHeat heat;
+        double end = time_of(step);
+        if(implicit_scheme)
+          end = implicit_scheme->make_step(*this, step, begin, heat);
+        else
+          advance_explicitly(step, begin, end, heat);
+        boundary_heat.add(heat.through / dis.cross_section);
+        boundary_heat.add(heat.held);
+        return end;
+      }
+
+      void advance_explicitly(long step, double begin, double end, WallHeat &heat)
       {
         flows.prepare_step(begin, end);
         const bool super = plan.stages > 1 && step > plan.resolved_steps;
-        double wall_heat
+        heat.through
             = super ? take_super_step(end - begin) : take_euler_steps(end - begin);
-        finish_step();
+        heat.held = finish_step();
         if(super && breaks_bounds())
         {
           // Only convex combinations keep the maximum principle for certain: repeat the
           // step with these.
-          scheme->restore(state);
+          scheme->restore(state_of_all);
           flows.follow(view());
-          wall_heat = take_euler_steps(end - begin);
-          finish_step();
+          heat.through = take_euler_steps(end - begin);
+          heat.held = finish_step();
           ++repeated_steps;
         }
-        boundary_heat.add(wall_heat / dis.cross_section);
-        boundary_heat.add(held_heat);
       }
 
-      void finish_step()
+      std::vector<double> &state() override
       {
-        held_heat = flows.hold_walls(1, view());
+        return state_of_all;
+      }
+
+      bool attempt(double begin, double end, TimeScheme with, WallHeat &heat) override
+      {
+        const std::span<double> all(state_of_all);
+        if(!implicit_mixture->take_step(view(), all.subspan(size), begin, end, with,
+                                        heat))
+          return false;
+        heat.held += finish_step();
+        return !breaks_bounds();
+      }
+
+      /** @return heat from the walls that particles hold. */
+      double finish_step()
+      {
+        const double held = flows.hold_walls(1, view());
         extremes = flows.follow(view());
-      }
-
-      /** Flows of heat and solutes. @return heat flow through walls. */
-      double evaluate(double fraction, std::vector<double> &result)
-      {
-        const std::span<double> all(result);
-        const double walls = flows.heat(fraction, all.first(size));
-        for(std::size_t field = 1; field < fields; ++field)
-          flows.solute(field - 1, all.subspan(field * size, size));
-        return walls;
+        return held;
       }
 
       /** @return heat through walls. */
       double take_euler_steps(double duration)
       {
         return scheme->take_euler_steps(
-            state, duration, plan.euler_substeps, 1., particle_mass,
+            state_of_all, duration, plan.euler_substeps, 1., particle_mass,
             [this] { flows.follow(view()); },
             [this](double fraction, std::vector<double> &flow)
-            { return evaluate(fraction, flow); });
+            { return flows.evaluate(fraction, flow); });
       }
 
       /** @return heat through walls. */
       double take_super_step(double duration)
       {
         return scheme->take_super_step(
-            state, duration, 1., particle_mass, [this] { flows.follow(view()); },
+            state_of_all, duration, 1., particle_mass, [this] { flows.follow(view()); },
             [this](double fraction, std::vector<double> &flow)
-            { return evaluate(fraction, flow); });
+            { return flows.evaluate(fraction, flow); });
       }
 
       static constexpr double bound_tolerance = 1e-9;
@@ -171,7 +202,7 @@ namespace meltfront::particles
         double least = 0;
         for(std::size_t field = 1; field < fields; ++field)
           for(std::size_t a = 0; a < n; ++a)
-            least = std::min(least, state[field * size + a]);
+            least = std::min(least, state_of_all[field * size + a]);
         return least;
       }
 
@@ -213,7 +244,7 @@ namespace meltfront::particles
         {
           const double weight = dis.weights[a] * substance.density;
           latent.add(weight * latent_heat * liquid[a]);
-          stored.add(weight * (state[a] - latent_heat * liquid[a]));
+          stored.add(weight * (state_of_all[a] - latent_heat * liquid[a]));
         }
         cases::HeatBudget heat;
         heat.stored = stored.value();
@@ -264,10 +295,10 @@ namespace meltfront::particles
         add("particles", fmt::format("{}", n), "1");
         for(const cases::Parameter &parameter : flows.describe())
           description.parameters.push_back(parameter);
-        add("time scheme",
-            plan.stages > 1 ? fmt::format("RKL2, {} stages", plan.stages)
-                            : "explicit Euler",
-            "");
+        add("time scheme", describe_scheme(parameters.sph.time_scheme, plan.stages), "");
+        if(parameters.sph.step_error > 0)
+          add("wanted error of a step", fmt::format("{:.6g}", parameters.sph.step_error),
+              "1");
         add("largest explicit step that keeps the maximum principle",
             fmt::format("{:.6g}", plan.monotone), "s");
         return description;
@@ -277,10 +308,16 @@ namespace meltfront::particles
                        const cases::Stopwatch::Seconds &stepping) const
       {
         cases::Cost result = timed_cost(setup, stepping);
-        result.steps = plan.steps;
+        result.steps = steps;
         result.unknowns = unknowns();
         result.work = flows.work();
         result.capped_steps = repeated_steps;
+        if(implicit_scheme)
+        {
+          result.capped_steps = implicit_scheme->repeated();
+          result.solver_iterations = implicit_mixture->equations().linear_iterations();
+          result.most_iterations = implicit_mixture->equations().most_iterations();
+        }
         const std::size_t arrays = flows.diffuses() ? (plan.stages > 1 ? 6 : 3) : 1;
         result.effects = flows.effect_costs(arrays * size * sizeof(double));
         return result;
@@ -298,9 +335,12 @@ namespace meltfront::particles
       double particle_mass;
       StepPlan plan;
 
-      std::size_t fields;        ///< that steps change: enthalpy, then concentrations
-      std::vector<double> state; ///< field after field
+      std::size_t fields; ///< that steps change: enthalpy, then concentrations
+      std::vector<double> state_of_all; ///< field after field
       std::optional<ExplicitScheme> scheme;
+      std::optional<ImplicitScheme> implicit_scheme;
+      std::optional<ImplicitMixture> implicit_mixture;
+      long steps = 0; ///< made so far
       std::array<std::span<const double>, cases::most_solutes> composition;
       std::vector<double> temperature, solid_fraction; ///< for snapshots
       Extremes extremes{};                             ///< of the temperature
@@ -308,7 +348,6 @@ namespace meltfront::particles
       double initial_mass = 0;
       std::array<double, cases::most_solutes> initial_solute{};
       CarefulSum boundary_heat;
-      double held_heat = 0; ///< of the step's new wall temperatures
       long repeated_steps = 0;
     };
   } // namespace

@@ -96,15 +96,21 @@ namespace meltfront::particles
               "between them in equilibrium, which holds at sharp fronts as in a mush, or "
               "the arithmetic or harmonic mean of both.",
               mean_names),
-         word("time_scheme", "rkl2",
-              "Explicit Euler steps, or Runge-Kutta-Legendre super steps of second "
-              "order.",
-              {"euler", "rkl2"}),
+         word(
+             "time_scheme", "rkl2",
+             "Explicit Euler steps, Runge-Kutta-Legendre super steps of second order, or "
+             "implicit steps of first or second order.",
+             time_scheme_names()),
          {"stages", "1", 8L, "Most stages of a super step.", 3, 64},
          {"step_factor", "1", 1.0,
           "Time step over the largest that keeps the maximum principle. More than 1 is "
-          "refused.",
-          1e-6, 1e6}});
+          "for "
+          "implicit steps only.",
+          1e-6, 1e6},
+         {"step_error", "1", 0.0,
+          "Wanted relative error of each implicit step, which sets its length; 0: steps "
+          "of equal length by step_factor.",
+          0, 1}});
     return options;
   }
 
@@ -117,10 +123,13 @@ namespace meltfront::particles
     p = shared_parameters(
         resolution,
         resolve_dimension("sph-mixture", scene, options.get_integer("dimension"), 1));
-    p.time_scheme = options.get_string("time_scheme") == "euler" ? TimeScheme::euler
-                                                                 : TimeScheme::rkl2;
+    p.time_scheme = time_scheme(options.get_string("time_scheme"));
     p.stages = static_cast<int>(options.get_integer("stages"));
     p.step_factor = options.get_double("step_factor");
+    p.step_error = options.get_double("step_error");
+    if(p.step_error > 0 && !is_implicit(p.time_scheme))
+      throw cases::Refusal("sph-mixture chooses steps by a wanted error (step_error) for "
+                           "the implicit schemes backward-euler and crank-nicolson only");
     const std::string &mean = options.get_string("conductivity");
     result.mean = mean == "arithmetic" ? MeanConductivity::arithmetic
                   : mean == "harmonic" ? MeanConductivity::harmonic

@@ -36,21 +36,6 @@ namespace meltfront::particles
       return std::min(
           1., sample / (1 - substance.diagram.solid_fraction(temperature, sample)));
     }
-
-    struct DiffusionPair
-    {
-      const double *concentration;
-      const double *mobility;
-      double scale; ///< rho D
-
-      double operator()(std::size_t a, std::size_t b) const
-      {
-        // Where both are solid nothing flows: the least number keeps 0/0 away.
-        const double own = mobility[a], other = mobility[b];
-        const double mean = 2 * own * other / (own + other + 1e-300);
-        return scale * mean * (concentration[b] - concentration[a]);
-      }
-    };
   } // namespace
 
   SoluteDiffusion::SoluteDiffusion(const Discretisation &dis,
@@ -67,10 +52,11 @@ namespace meltfront::particles
         {
           const cases::Scene scene = closed(dis.scene);
           const Discretisation closed_dis(scene, parameters);
-          ConductionRows rows(closed_dis, parameters.moment_correction);
+          const ConductionRows rows(closed_dis, parameters.moment_correction);
           largest_row_sum = rows.largest_row_sum;
+          // In the edge layout walls act through particles, which take no solute.
           if(dis.layout == LatticeLayout::cell_centred)
-            own_rows = std::move(rows.rows);
+            closing = heat_rows.differing_pairs(rows.rows);
           mobility.resize(heat_rows.padded_rows());
           in_liquid.resize(substance.n_solutes() * heat_rows.padded_rows());
         });
@@ -106,11 +92,36 @@ namespace meltfront::particles
         });
   }
 
+  DiffusionPair SoluteDiffusion::pair(std::size_t solute) const
+  {
+    return {in_liquid.data() + solute * mobility.size(), mobility.data(),
+            substance.density * substance.alloy.solutes[solute].diffusivity};
+  }
+
+  void SoluteDiffusion::close_walls(std::size_t solute, std::span<double> flow) const
+  {
+    const DiffusionPair exchange = pair(solute);
+    for(const ParticleOperator::Entry &entry : closing)
+    {
+      const double added = entry.coefficient * exchange(entry.row, entry.neighbour);
+      flow[entry.row] += added;
+      flow[entry.neighbour] -= added;
+    }
+  }
+
+  std::size_t SoluteDiffusion::first_to_diffuse() const
+  {
+    const auto &solutes = substance.alloy.solutes;
+    return static_cast<std::size_t>(std::find_if(solutes.begin(), solutes.end(),
+                                                 [](const cases::Solute &solute)
+                                                 { return solute.diffusivity > 0; })
+                                    - solutes.begin());
+  }
+
   void SoluteDiffusion::flow(std::size_t solute, const ParticleOperator &heat_rows,
                              std::span<double> flow, int threads)
   {
-    const double diffusivity = substance.alloy.solutes[solute].diffusivity;
-    if(diffusivity == 0)
+    if(substance.alloy.solutes[solute].diffusivity == 0)
     {
       std::fill(flow.begin(), flow.end(), 0.);
       return;
@@ -118,20 +129,21 @@ namespace meltfront::particles
     meter.measure(
         [&]
         {
-          const ParticleOperator &rows = own_rows ? *own_rows : heat_rows;
-          const double *concentration = in_liquid.data() + solute * mobility.size();
-          rows.apply_pairs(DiffusionPair{concentration, mobility.data(),
-                                         substance.density * diffusivity},
-                           flow, threads);
-          touched += static_cast<long>(rows.interactions());
+          heat_rows.apply_pairs(pair(solute), flow, threads);
+          close_walls(solute, flow);
         });
+    touched += static_cast<long>(heat_rows.interactions() + closing.size());
   }
 
   cases::EffectCost SoluteDiffusion::cost(std::size_t further_bytes) const
   {
-    return meter.cost(cases::Effect::solute_diffusion,
-                      (own_rows ? own_rows->bytes() : 0)
-                          + sizeof(double) * (mobility.size() + in_liquid.size())
-                          + sizeof(std::uint32_t) * held.size() + further_bytes);
+    const std::size_t bytes = sizeof(closing[0]) * closing.size()
+                              + sizeof(double) * (mobility.size() + in_liquid.size())
+                              + sizeof(std::uint32_t) * held.size() + further_bytes;
+    cases::EffectCost cost = meter.cost(cases::Effect::solute_diffusion, bytes);
+    const cases::EffectCost joint = joint_meter.cost(cases::Effect::solute_diffusion, 0);
+    cost.calls += joint.calls;
+    cost.seconds += 0.5 * joint.seconds;
+    return cost;
   }
 } // namespace meltfront::particles

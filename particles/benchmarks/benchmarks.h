@@ -7,6 +7,9 @@ namespace meltfront::particles::benchmarks
   /** Sweeps of the particle operator over one and two fields, in cache and beyond it. */
   void register_operator_benchmarks();
 
+  /** Heat and a solute between particles of a mixture. */
+  void register_mixture_benchmarks();
+
   /** Building lists of neighbours. */
   void register_neighbour_benchmarks();
 

@@ -19,6 +19,7 @@ int main(int argc, char **argv)
   if(benchmark::ReportUnrecognizedArguments(count, arguments.data()))
     return 2;
   register_operator_benchmarks();
+  register_mixture_benchmarks();
   register_neighbour_benchmarks();
   register_moment_benchmarks();
   register_run_benchmarks();

@@ -73,6 +73,22 @@ namespace meltfront::particles
       apply_to_slice(slice, difference, result.data());
   }
 
+  std::vector<ParticleOperator::Entry>
+  ParticleOperator::differing_pairs(const ParticleOperator &other) const
+  {
+    std::vector<Entry> result;
+    for(std::size_t row = 0; row < n_rows; ++row)
+    {
+      const std::size_t slice = row / lanes;
+      for(std::size_t e = slice_begin[slice] + row % lanes; e < slice_begin[slice + 1];
+          e += lanes)
+        if(neighbours_of[e] > row && coefficient[e] != other.coefficient[e])
+          result.push_back({static_cast<std::uint32_t>(row), neighbours_of[e],
+                            other.coefficient[e] - coefficient[e]});
+    }
+    return result;
+  }
+
   void ParticleOperator::slice_adjacency(std::vector<std::size_t> &offsets,
                                          std::vector<std::uint32_t> &adjacent) const
   {

@@ -110,6 +110,19 @@ namespace meltfront::particles
         apply_to_slice(slice, first, second, first_sums, second_sums);
     }
 
+    /** A coefficient by its row and its neighbour. */
+    struct Entry
+    {
+      std::uint32_t row, neighbour;
+      double coefficient;
+    };
+
+    /**
+     * The coefficients of another operator on the same neighbours minus this one's, where
+     * they differ: by rows, ascending, each pair once, from its lower number.
+     */
+    std::vector<Entry> differing_pairs(const ParticleOperator &other) const;
+
     /**
      * For each slice the slices that hold neighbours of its rows, itself included:
      * ascending, flat, with offsets.

@@ -8,7 +8,7 @@ namespace meltfront::particles
 {
   namespace
   {
-    constexpr int most_iterations = 60;
+    constexpr int most_newton_iterations = 60;
     constexpr int most_linear_iterations = 500;
 
     /** Of a linear solve: residual over right-hand side. */
@@ -16,14 +16,10 @@ namespace meltfront::particles
 
     /** Of the residual over the largest sensible heat of a particle. */
     constexpr double relative_tolerance = 1e-10;
-
-    /** How far beyond a kink, over the latent heat, a particle is put. */
-    constexpr double beyond_kink = 1e-13;
   } // namespace
 
-  ImplicitSolver::ImplicitSolver(HeatFlow &heat_flow, const cases::Material &material)
+  ImplicitSolver::ImplicitSolver(ImplicitFlow &heat_flow)
     : heat_flow(heat_flow)
-    , latent_heat(material.latent_heat)
     , krylov(heat_flow.padded_size(),
              [this](std::span<const double> change, std::span<double> result)
              {
@@ -37,9 +33,8 @@ namespace meltfront::particles
   }
 
   double ImplicitSolver::evaluate(const ImplicitEquation &equation,
-                                  std::vector<double> &enthalpy)
+                                  std::span<double> enthalpy)
   {
-    heat_flow.follow(enthalpy);
     wall_flow = heat_flow.evaluate(enthalpy, equation.fraction, flow);
     double largest = 0, zero = 0;
     for(std::size_t a = 0; a < equation.base.size(); ++a)
@@ -54,41 +49,24 @@ namespace meltfront::particles
   double ImplicitSolver::tolerance(const ImplicitEquation &equation,
                                    std::span<const double> enthalpy) const
   {
-    double sensible = 1e-3 * latent_heat;
     double stiffest = 0;
     for(std::size_t a = 0; a < equation.base.size(); ++a)
-    {
-      sensible = std::max({sensible, -enthalpy[a], enthalpy[a] - latent_heat});
       stiffest = std::max(stiffest, diagonal[a]);
-    }
     const double rounding = 64 * std::numeric_limits<double>::epsilon();
-    return (relative_tolerance + rounding * stiffest) * sensible;
+    return (relative_tolerance + rounding * stiffest)
+           * heat_flow.largest_sensible_heat(enthalpy);
   }
 
-  double ImplicitSolver::stop_at_kink(double from, double to) const
+  double ImplicitSolver::add_flow(double change, std::span<const double> enthalpy)
   {
-    const double beyond = beyond_kink * latent_heat;
-    if(from < 0 && to > latent_heat)
-      return 0;
-    if(from > latent_heat && to < 0)
-      return latent_heat;
-    if(from < 0 && to > 0)
-      return 0;
-    if(from > latent_heat && to < latent_heat)
-      return latent_heat;
-    if(from >= 0 && from <= latent_heat)
-      return std::clamp(to, -beyond, latent_heat + beyond);
-    return to;
-  }
-
-  void ImplicitSolver::correct(std::vector<double> &enthalpy) const
-  {
-    for(std::size_t a = 0; a < enthalpy.size(); ++a)
-      enthalpy[a] = stop_at_kink(enthalpy[a], enthalpy[a] + correction[a]);
+    const double walls = heat_flow.evaluate(enthalpy, 0, flow);
+    for(std::size_t a = 0; a < heat_flow.size(); ++a)
+      base[a] += change * flow[a];
+    return walls;
   }
 
   ImplicitSolver::Outcome ImplicitSolver::solve(const ImplicitEquation &equation,
-                                                std::vector<double> &enthalpy)
+                                                std::span<double> enthalpy)
   {
     factor = equation.factor;
     Outcome outcome{false, 0, 0};
@@ -100,7 +78,7 @@ namespace meltfront::particles
       for(std::size_t a = 0; a < diagonal.size(); ++a)
         diagonal[a] = 1 - factor * slopes[a];
       outcome.converged = size <= tolerance(equation, enthalpy);
-      if(outcome.converged || outcome.iterations == most_iterations
+      if(outcome.converged || outcome.iterations == most_newton_iterations
          || !std::isfinite(size))
         break;
       ++outcome.iterations;
@@ -111,11 +89,12 @@ namespace meltfront::particles
       if(iterations == 0)
         break;
       krylov_iterations += iterations;
-      correct(enthalpy);
+      heat_flow.correct(correction, enthalpy);
     }
     for(std::size_t a = 0; a < equation.base.size(); ++a)
       enthalpy[a] = equation.base[a] + equation.factor * flow[a];
     outcome.through_walls = wall_flow;
+    longest = std::max<long>(longest, outcome.iterations);
     return outcome;
   }
 } // namespace meltfront::particles

@@ -11,14 +11,6 @@ namespace meltfront::particles
   namespace
   {
     /** In the order of the enumeration. */
-    const std::vector<std::string> &time_scheme_names()
-    {
-      static const std::vector<std::string> names{"euler", "rkl2", "backward-euler",
-                                                  "crank-nicolson"};
-      return names;
-    }
-
-    /** In the order of the enumeration. */
     const std::vector<std::string> &arrangement_names()
     {
       static const std::vector<std::string> names{"lattice", "jittered", "relaxed"};
@@ -33,6 +25,18 @@ namespace meltfront::particles
                                       - names.begin());
     }
   } // namespace
+
+  const std::vector<std::string> &time_scheme_names()
+  {
+    static const std::vector<std::string> names{"euler", "rkl2", "backward-euler",
+                                                "crank-nicolson"};
+    return names;
+  }
+
+  TimeScheme time_scheme(const std::string &name)
+  {
+    return choice<TimeScheme>(time_scheme_names(), name);
+  }
 
   const SphPolicy &corrected_policy()
   {
@@ -181,8 +185,7 @@ namespace meltfront::particles
                                                       : LatticeLayout::cell_centred;
     p.moment_correction = options.get_bool("moment_correction");
     p.front = front_rule(options.get_string("front"));
-    p.time_scheme
-        = choice<TimeScheme>(time_scheme_names(), options.get_string("time_scheme"));
+    p.time_scheme = time_scheme(options.get_string("time_scheme"));
     p.stages = static_cast<int>(options.get_integer("stages"));
     p.step_factor = options.get_double("step_factor");
     p.step_error = options.get_double("step_error");

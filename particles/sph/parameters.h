@@ -36,6 +36,12 @@ namespace meltfront::particles
     crank_nicolson
   };
 
+  /** The words for the schemes, in the order of the enumeration. */
+  const std::vector<std::string> &time_scheme_names();
+
+  /** The scheme that a word stands for. */
+  TimeScheme time_scheme(const std::string &name);
+
   /** Whether steps of a scheme need the solution of equations. */
   inline bool is_implicit(TimeScheme scheme)
   {

@@ -32,6 +32,19 @@ namespace meltfront::particles
     return description;
   }
 
+  std::string describe_scheme(TimeScheme scheme, int stages)
+  {
+    switch(scheme)
+    {
+    case TimeScheme::backward_euler:
+      return "backward Euler";
+    case TimeScheme::crank_nicolson:
+      return "Crank-Nicolson after two steps of backward Euler";
+    default:
+      return stages > 1 ? fmt::format("RKL2, {} stages", stages) : "explicit Euler";
+    }
+  }
+
   cases::Cost timed_cost(const cases::Stopwatch::Seconds &setup,
                          const cases::Stopwatch::Seconds &stepping)
   {

@@ -6,6 +6,7 @@
 #include <particles/sph/discretisation.h>
 
 #include <span>
+#include <string>
 
 namespace meltfront::particles
 {
@@ -14,6 +15,9 @@ namespace meltfront::particles
   cases::RunDescription describe_particles(const Discretisation &discretisation,
                                            const SphParameters &parameters,
                                            double time_step, long unknowns);
+
+  /** A scheme in words. @param stages of its super steps */
+  std::string describe_scheme(TimeScheme scheme, int stages);
 
   /** A cost that holds the times of set-up and stepping. */
   cases::Cost timed_cost(const cases::Stopwatch::Seconds &setup,

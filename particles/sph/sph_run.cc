@@ -120,27 +120,13 @@ namespace meltfront::particles
         add("particles", fmt::format("{}", n), "1");
         for(const cases::Parameter &parameter : heat_flow.describe())
           description.parameters.push_back(parameter);
-        add("time scheme", describe_scheme(), "");
+        add("time scheme", describe_scheme(parameters.time_scheme, plan.stages), "");
         if(parameters.step_error > 0)
           add("wanted error of a step", fmt::format("{:.6g}", parameters.step_error),
               "1");
         add("largest explicit step that keeps the maximum principle",
             fmt::format("{:.6g}", plan.monotone), "s");
         return description;
-      }
-
-      std::string describe_scheme() const
-      {
-        switch(parameters.time_scheme)
-        {
-        case TimeScheme::backward_euler:
-          return "backward Euler";
-        case TimeScheme::crank_nicolson:
-          return "Crank-Nicolson after two steps of backward Euler";
-        default:
-          return plan.stages > 1 ? fmt::format("RKL2, {} stages", plan.stages)
-                                 : "explicit Euler";
-        }
       }
 
       cases::Cost cost(const cases::Stopwatch::Seconds &setup,

@@ -60,12 +60,6 @@ namespace meltfront::particles
     /** Time after a step of the plan; the end exactly. */
     double time_of(long step) const;
 
-    /** From a flow over a time to the change of enthalpy. */
-    double enthalpy_factor(double duration) const
-    {
-      return duration * heat_flow.scale() / particle_mass;
-    }
-
     /** Of a particle, in the measure of the simulated strip (kg m^(d-3)). */
     double mass() const
     {
