@@ -5,6 +5,7 @@
 #include <particles/alloy/kernel_sums.h>
 #include <particles/alloy/mixture_state.h>
 #include <particles/alloy/parameters.h>
+#include <particles/alloy/phase_exchange.h>
 #include <particles/sph/effect_meter.h>
 
 #include <array>
@@ -23,17 +24,8 @@ namespace meltfront::particles
     std::vector<double> share;  ///< volume over the site's
   };
 
-  /**
-   * Sites with one liquid and one ice particle each, and the change of phase between
-   * them.
-   *
-   * Liquid below its liquidus freezes (freeze() in phase_exchange.h). Where ice is given
-   * to its own site (NewIce::site), liquid above its liquidus melts that ice: with its
-   * heat E, the ice's enthalpy per mass e and the depression times mass PS,
-   *
-   *   E + delta e = (m + delta)(c_l x + L),  x = -PS/(m + delta),
-   *   m + delta = (E - m e + c_l PS)/(L - e).
-   */
+  /** Sites with one liquid and one ice particle each, and the change of phase between
+   * them (SiteExchange). New ice goes to its own site or is spread over the kernel. */
   class Sites
   {
   public:
@@ -77,14 +69,16 @@ namespace meltfront::particles
   private:
     double dissolved(std::size_t site) const;
     void change_sites();
-    void freeze_site(std::size_t site, double depression_mass);
-    void melt_site(std::size_t site, double depression_mass);
+    void share_out(const MixtureState &initial, std::size_t site);
+    SiteContent<double> content(std::size_t site) const;
+    void set_content(std::size_t site, const SiteContent<double> &content);
     void spread_new_ice();
 
     const AlloySubstance &substance;
     TwoPopulationParameters parameters;
     std::size_t n;
     double volume;
+    SiteExchange exchange;
     EffectMeter meter;
     std::optional<KernelSums> kernel_sums;
     std::vector<double> normaliser;        ///< zeta of equation 4.14

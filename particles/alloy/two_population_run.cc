@@ -29,6 +29,12 @@ namespace meltfront::particles
                           const cases::Scene &scene, const AlloySubstance &substance,
                           const MixtureState &initial)
     {
+      if(std::isfinite(substance.eutectic_excess)
+         && (parameters.new_ice == NewIce::kernel || parameters.constant_latent_heat))
+        throw cases::Refusal(fmt::format(
+            "{} freezes at a eutectic temperature only with new_ice = site and "
+            "latent_heat = energy_function",
+            parameters.name));
       if(parameters.new_ice == NewIce::site)
         return;
       const auto refuse = [&](const std::string &why)
