@@ -4,6 +4,8 @@
 #include <particles/alloy/dual_number.h>
 #include <particles/alloy/substance.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace meltfront::particles
@@ -133,15 +135,18 @@ namespace meltfront::particles
       site.ice_heat -= carried;
     }
 
-    /** All rules, with new ice going to the ice of the site. */
+    /**
+     * All rules, with new ice going to the ice of the site.
+     * @return whether both phases are kept in equilibrium.
+     */
     template <typename Number>
-    void settle(SiteContent<Number> &site, double depression_mass) const
+    bool settle(SiteContent<Number> &site, double depression_mass) const
     {
       if(!(value_of(site.ice_mass) > 0))
         become_liquid(site);
       if(equilibrium && value_of(site.ice_mass) > 0
-         && equilibrate(site, depression_mass, false))
-        return;
+         && equilibrate(site, depression_mass, !(value_of(site.liquid_mass) > 0)))
+        return true;
       if(freezes(site, depression_mass))
       {
         const NewIce<Number> made = freeze_liquid(site, depression_mass);
@@ -150,8 +155,41 @@ namespace meltfront::particles
       }
       else if(value_of(site.ice_mass) > 0)
         melt_ice(site, depression_mass);
-      if(equilibrium && value_of(liquid_excess(site)) < eutectic_excess)
-        equilibrate(site, depression_mass, true);
+      return equilibrium && value_of(liquid_excess(site)) < eutectic_excess
+             && equilibrate(site, depression_mass, true);
+    }
+
+    /**
+     * Rate at which the liquid freezes while it stays at its liquidus and takes up heat
+     * at the rate F and PS at the rate J: with the enthalpy e per mass of what changes
+     * phase, that of ice at the liquidus or, where ice melts, of the site's ice,
+     *
+     *   E = L m - c_l PS,  dE/dt = F + e dm/dt  =>  dm/dt = (F + c_l J)/(L - e).
+     */
+    NewIce<double> freezing_rate(const SiteContent<double> &site, double depression_mass,
+                                 double heat_flow, double depression_flow) const
+    {
+      const double gain = heat_flow + c_l * depression_flow;
+      const double enthalpy = gain > 0 ? site.ice_heat / site.ice_mass
+                                       : -c_s * depression_mass / site.liquid_mass;
+      const double rate = -gain / (latent_heat - enthalpy);
+      return {rate, rate * enthalpy};
+    }
+
+    /**
+     * Enthalpies of a site at which its temperature as a function of these has a kink,
+     * ascending: where all has frozen and all eutectic solid has melted, if there is a
+     * eutectic; where the last ice has melted.
+     */
+    std::array<double, 3> kinks(double depression_mass) const
+    {
+      const double liquidus = latent_heat * site_mass - c_l * depression_mass;
+      if(!std::isfinite(eutectic_excess))
+        return {liquidus, liquidus, liquidus};
+      const double solid = c_s * eutectic_excess * site_mass;
+      const double most = std::min(depression_mass / -eutectic_excess, site_mass);
+      const double melted = solid + most * (latent_heat + (c_l - c_s) * eutectic_excess);
+      return {solid, melted, std::max(liquidus, melted)};
     }
 
     /** T - T_m of the liquid. */
@@ -166,6 +204,12 @@ namespace meltfront::particles
     Number ice_excess(const SiteContent<Number> &site) const
     {
       return site.ice_heat / (c_s * site.ice_mass);
+    }
+
+    /** At the melting point of the pure solvent (J/kg). */
+    double heat_of_melting() const
+    {
+      return latent_heat;
     }
 
     /** Whether both phases of a site in this state are kept in equilibrium. */

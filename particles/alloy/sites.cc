@@ -13,6 +13,7 @@ namespace meltfront::particles
                std::size_t padded)
     : concentration(initial.concentration)
     , is_held(dis.particles.size(), 0)
+    , is_kept(dis.particles.size(), 0)
     , site_mass(dis.particle_volume * substance.density)
     , crystal_density(substance.density / substance.expansion)
     , substance(substance)
@@ -114,7 +115,7 @@ namespace meltfront::particles
       const double depression_mass = dissolved(a);
       SiteContent<double> site = content(a);
       if(parameters.new_ice == NewIce::site)
-        exchange.settle(site, depression_mass);
+        is_kept[a] = exchange.settle(site, depression_mass);
       else if(exchange.freezes(site, depression_mass))
       {
         const SiteExchange::NewIce<double> made
@@ -208,6 +209,60 @@ namespace meltfront::particles
     const double factor = duration / site_mass;
     for(std::size_t a = 0; a < n; ++a)
       concentration[solute][a] += factor * flow[a];
+  }
+
+  void Sites::store(std::vector<double> &state) const
+  {
+    auto end = state.begin();
+    for(const auto *field : {&liquid.mass, &liquid.heat, &ice.mass, &ice.heat})
+      end = std::copy(field->begin(), field->end(), end);
+    for(const auto &field : concentration)
+    {
+      std::copy(field.begin(), field.end(), end);
+      end += static_cast<std::ptrdiff_t>(liquid.mass.size());
+    }
+  }
+
+  void Sites::load(std::span<const double> state)
+  {
+    for(auto *field : {&liquid.mass, &liquid.heat, &ice.mass, &ice.heat})
+    {
+      std::copy_n(state.begin(), field->size(), field->begin());
+      state = state.subspan(field->size());
+    }
+    for(auto &field : concentration)
+    {
+      std::copy_n(state.begin(), field.size(), field.begin());
+      state = state.subspan(liquid.mass.size());
+    }
+    change_phase();
+  }
+
+  void Sites::make_rates(std::span<double> flows) const
+  {
+    const std::size_t size = liquid.mass.size();
+    double *liquid_mass = flows.data(), *liquid_heat = liquid_mass + size;
+    double *ice_mass = liquid_heat + size, *ice_heat = ice_mass + size;
+    double *solute = ice_heat + size;
+    for(std::size_t a = 0; a < n; ++a)
+    {
+      liquid_mass[a] = ice_mass[a] = 0;
+      double depression_flow = 0;
+      for(std::size_t s = 0; s < concentration.size(); ++s)
+      {
+        depression_flow
+            += substance.alloy.solutes[s].liquidus_slope * solute[s * size + a];
+        solute[s * size + a] /= site_mass;
+      }
+      if(is_held[a] || is_kept[a] || !(ice.mass[a] > 0))
+        continue;
+      const SiteExchange::NewIce<double> made = exchange.freezing_rate(
+          content(a), dissolved(a), liquid_heat[a], depression_flow);
+      liquid_mass[a] = -made.mass;
+      liquid_heat[a] -= made.heat;
+      ice_mass[a] = made.mass;
+      ice_heat[a] += made.heat;
+    }
   }
 
   std::vector<cases::EffectCost> Sites::costs(const cases::EffectSet &effects,
