@@ -66,7 +66,10 @@ namespace meltfront::particles
 
   inline DualNumber operator/(const DualNumber &a, const DualNumber &b)
   {
-    return a * b.chain(1 / b.value, -1 / (b.value * b.value));
+    const double quotient = a.value / b.value;
+    return {quotient,
+            {(a.slope[0] - quotient * b.slope[0]) / b.value,
+             (a.slope[1] - quotient * b.slope[1]) / b.value}};
   }
 
   inline DualNumber sqrt(const DualNumber &a)
