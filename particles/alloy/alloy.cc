@@ -1,8 +1,11 @@
+#include <cases/error.h>
 #include <cases/scene.h>
 #include <particles/alloy/alloy.h>
 #include <particles/alloy/mixture_run.h>
 #include <particles/alloy/parameters.h>
 #include <particles/alloy/two_population_run.h>
+
+#include <fmt/format.h>
 
 namespace meltfront::particles
 {
@@ -80,12 +83,15 @@ namespace meltfront::particles
       std::vector<cases::Effect> supported_effects() const override
       {
         using cases::Effect;
-        return {Effect::phase_change,
-                Effect::phase_conductivity,
-                Effect::phase_heat_capacity,
-                Effect::wall_temperature,
-                Effect::solute,
-                Effect::solute_diffusion};
+        std::vector<Effect> effects{Effect::phase_change,
+                                    Effect::phase_conductivity,
+                                    Effect::phase_heat_capacity,
+                                    Effect::wall_temperature,
+                                    Effect::solute,
+                                    Effect::solute_diffusion};
+        if(!policy.as_published)
+          effects.push_back(Effect::eutectic);
+        return effects;
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -97,6 +103,10 @@ namespace meltfront::particles
                         const cases::Resolution &resolution,
                         cases::Observer &observer) const override
       {
+        if(policy.as_published && effects.contains(cases::Effect::eutectic))
+          throw cases::Refusal(
+              fmt::format("{} has no eutectic, for the paper has none: this needs {}",
+                          policy.name, policy.corrected_form));
         cases::require_effects(*this, effects);
         return run_two_population(policy, scene, effects, complete(*this, resolution),
                                   observer);

@@ -4,11 +4,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace meltfront::particles
 {
   namespace
   {
     const std::vector<std::string> mean_names{"integral", "arithmetic", "harmonic"};
+
+    /** Of two populations, in the order of TimeScheme. */
+    const std::vector<std::string> scheme_names{"euler", "rkl2", "backward-euler",
+                                                "crank-nicolson"};
 
     int resolve_dimension(const std::string &method, const cases::Scene &scene,
                           long wanted, int of_slab)
@@ -197,9 +203,19 @@ namespace meltfront::particles
          {"step_factor", "1", policy.step_factor,
           policy.as_published ? "Time step over c rho h^2/k, the smaller of both phases'."
                               : "Time step over the largest that keeps the maximum "
-                                "principle. More than 1 "
-                                "is refused.",
+                                "principle. More than 1 is for implicit steps only.",
           1e-6, 1e6}});
+    if(!policy.as_published)
+      options.insert(
+          options.end(),
+          {word("time_scheme", "euler",
+                "Explicit Euler steps; Runge-Kutta-Legendre super steps of second order; "
+                "implicit steps of any length by backward Euler or by Crank and "
+                "Nicolson.",
+                scheme_names),
+           {"stages", "1", 8L, "Most stages of a super step.", 3, 64},
+           {"steps", "1", 0L, "Equal steps of the run; 0: by step_factor.", 0,
+            1000000000}});
     return options;
   }
 
@@ -222,7 +238,22 @@ namespace meltfront::particles
     result.new_ice
         = options.get_string("new_ice") == "kernel" ? NewIce::kernel : NewIce::site;
     result.constant_latent_heat = options.get_string("latent_heat") == "constant";
-    result.step_factor = options.get_double("step_factor");
+    result.sph.step_factor = options.get_double("step_factor");
+    if(policy.as_published)
+      return result;
+    result.sph.time_scheme
+        = static_cast<TimeScheme>(std::find(scheme_names.begin(), scheme_names.end(),
+                                            options.get_string("time_scheme"))
+                                  - scheme_names.begin());
+    result.sph.stages = static_cast<int>(options.get_integer("stages"));
+    result.sph.steps = static_cast<int>(options.get_integer("steps"));
+    if(result.sph.time_scheme != TimeScheme::euler
+       && (result.exchange == PhaseExchange::published || result.new_ice == NewIce::kernel
+           || result.constant_latent_heat))
+      throw cases::Refusal(fmt::format(
+          "{} takes super steps and implicit steps only with exchange = corrected, "
+          "new_ice = site and latent_heat = energy_function",
+          policy.name));
     return result;
   }
 } // namespace meltfront::particles

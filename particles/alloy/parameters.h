@@ -71,7 +71,6 @@ namespace meltfront::particles
     PhaseExchange exchange;
     NewIce new_ice;
     bool constant_latent_heat;
-    double step_factor;
   };
 
   TwoPopulationParameters

@@ -1,17 +1,24 @@
 #include <particles/alloy/phase_exchange.h>
 
-#include <cmath>
-
 namespace meltfront::particles
 {
-  Freezing freeze(double heat, double depression, double latent_heat,
-                  double solid_capacity, double liquid_capacity)
+  SiteExchange::SiteExchange(const AlloySubstance &substance, double site_mass,
+                             bool constant_latent_heat, bool equilibrium)
+    : diagram(&substance.diagram)
+    , site_mass(site_mass)
+    , melting_temperature(substance.material.melting_temperature)
+    , latent_heat(substance.material.latent_heat)
+    , c_s(substance.material.solid.specific_heat_capacity)
+    , c_l(substance.material.liquid.specific_heat_capacity)
+    , eutectic_temperature(melting_temperature + substance.eutectic_excess)
+    , eutectic_excess(substance.eutectic_excess)
+    // 1 - r (1 - f) < f/2, r the density over the crystals'.
+    , crowded(substance.expansion > 1
+                  ? (substance.expansion - 1) / (substance.expansion - 0.5)
+                  : 0.)
+    , constant_latent_heat(constant_latent_heat)
+    , equilibrium(equilibrium
+                  && (crowded > 0 || std::isfinite(substance.eutectic_excess)))
   {
-    const double product = heat * depression;
-    const double b = latent_heat + depression * liquid_capacity - heat;
-    const double root = std::sqrt(b * b + 4 * solid_capacity * product);
-    const double drop
-        = b > 0 ? 2 * product / (b + root) : (root - b) / (2 * solid_capacity);
-    return {drop, drop / (depression + drop)};
   }
 } // namespace meltfront::particles

@@ -1,5 +1,4 @@
 #include <cases/error.h>
-#include <particles/alloy/phase_exchange.h>
 #include <particles/alloy/sites.h>
 #include <particles/sph/careful_sum.h>
 
@@ -14,13 +13,18 @@ namespace meltfront::particles
                std::size_t padded)
     : concentration(initial.concentration)
     , is_held(dis.particles.size(), 0)
+    , is_kept(dis.particles.size(), 0)
     , site_mass(dis.particle_volume * substance.density)
     , crystal_density(substance.density / substance.expansion)
     , substance(substance)
     , parameters(parameters)
     , n(dis.particles.size())
     , volume(dis.particle_volume)
+    , exchange(substance, site_mass, parameters.constant_latent_heat,
+               parameters.new_ice == NewIce::site && !parameters.constant_latent_heat)
   {
+    if(!substance.diagram.straight())
+      throw cases::Refusal(fmt::format("{} needs a straight liquidus", parameters.name));
     for(Population *p : {&liquid, &ice})
       for(auto *array : {&p->mass, &p->heat, &p->excess, &p->share})
         array->assign(padded, 0.);
@@ -36,19 +40,7 @@ namespace meltfront::particles
         throw cases::Refusal(
             fmt::format("{} needs solute everywhere, and there is none at x = {:.6g} m",
                         parameters.name, dis.particles.position[0][a]));
-      const cases::PhaseState state
-          = substance.diagram.equilibrium(initial.enthalpy[a], content(0), content(1));
-      const double part = is_held[a] ? 0. : state.liquid_fraction;
-      const double x = state.temperature - substance.material.melting_temperature;
-      const cases::Material &m = substance.material;
-      liquid.mass[a] = part * site_mass;
-      ice.mass[a] = is_held[a] ? crystal_density * volume : site_mass - liquid.mass[a];
-      ice.heat[a] = ice.mass[a] * m.solid.specific_heat_capacity * x;
-      // The rest: together they hold the enthalpy given.
-      liquid.heat[a] = is_held[a] ? 0. : site_mass * initial.enthalpy[a] - ice.heat[a];
-      if(is_held[a])
-        for(auto &solute : concentration)
-          solute[a] = 0;
+      share_out(initial, a);
     }
     if(parameters.new_ice == NewIce::kernel
        || parameters.exchange == PhaseExchange::published)
@@ -64,6 +56,34 @@ namespace meltfront::particles
       std::fill(new_ice.begin(), new_ice.end(), 0.);
     }
     update();
+  }
+
+  void Sites::share_out(const MixtureState &initial, std::size_t a)
+  {
+    const cases::PhaseState state
+        = substance.diagram.on_straight(initial.enthalpy[a], dissolved(a) / site_mass);
+    const cases::Material &m = substance.material;
+    const double part = is_held[a] ? 0. : state.liquid_fraction;
+    const double x = state.temperature - m.melting_temperature;
+    liquid.mass[a] = part * site_mass;
+    ice.mass[a] = is_held[a] ? crystal_density * volume : site_mass - liquid.mass[a];
+    ice.heat[a] = ice.mass[a] * m.solid.specific_heat_capacity * x;
+    if(is_held[a])
+    {
+      for(auto &solute : concentration)
+        solute[a] = 0;
+      return;
+    }
+    // The larger part takes the rest: together they hold the enthalpy given.
+    const double whole = site_mass * initial.enthalpy[a];
+    if(part > 0.5)
+    {
+      liquid.heat[a] = whole - ice.heat[a];
+      return;
+    }
+    liquid.heat[a]
+        = liquid.mass[a] * (m.liquid.specific_heat_capacity * x + m.latent_heat);
+    ice.heat[a] = whole - liquid.heat[a];
   }
 
   double Sites::dissolved(std::size_t a) const
@@ -88,77 +108,36 @@ namespace meltfront::particles
 
   void Sites::change_sites()
   {
-    const cases::Material &m = substance.material;
     for(std::size_t a = 0; a < n; ++a)
     {
       if(is_held[a])
         continue;
       const double depression_mass = dissolved(a);
-      // Heat of the liquid if it were at its liquidus.
-      const double at_liquidus = liquid.mass[a] * m.latent_heat
-                                 - m.liquid.specific_heat_capacity * depression_mass;
-      if(liquid.heat[a] < at_liquidus)
-        freeze_site(a, depression_mass);
-      else if(parameters.new_ice == NewIce::site && ice.mass[a] > 0)
-        melt_site(a, depression_mass);
+      SiteContent<double> site = content(a);
+      if(parameters.new_ice == NewIce::site)
+        is_kept[a] = exchange.settle(site, depression_mass);
+      else if(exchange.freezes(site, depression_mass))
+      {
+        const SiteExchange::NewIce<double> made
+            = exchange.freeze_liquid(site, depression_mass);
+        new_ice[a] = made.mass;
+        new_heat[a] = made.heat;
+      }
+      set_content(a, site);
     }
   }
 
-  void Sites::freeze_site(std::size_t a, double depression_mass)
+  SiteContent<double> Sites::content(std::size_t a) const
   {
-    const cases::Material &m = substance.material;
-    const double solid_capacity = m.solid.specific_heat_capacity;
-    const double liquid_capacity = m.liquid.specific_heat_capacity;
-    const double mass = liquid.mass[a];
-    const double lowered = depression_mass / mass;
-    const double deficit
-        = m.latent_heat - liquid_capacity * lowered - liquid.heat[a] / mass;
-    const double latent_heat
-        = parameters.constant_latent_heat
-              ? m.latent_heat
-              : m.latent_heat - (liquid_capacity - solid_capacity) * lowered;
-    const Freezing made
-        = freeze(deficit, lowered, latent_heat, solid_capacity, liquid_capacity);
-    const double grown = made.fraction * mass;
-    const double x = -(lowered + made.drop);
-    const double carried = grown * solid_capacity * x;
-    liquid.mass[a] -= grown;
-    if(parameters.constant_latent_heat)
-      liquid.heat[a] = liquid.mass[a] * (liquid_capacity * x + m.latent_heat);
-    else
-      liquid.heat[a] -= carried;
-    if(parameters.new_ice == NewIce::site)
-    {
-      ice.mass[a] += grown;
-      ice.heat[a] += carried;
-      return;
-    }
-    new_ice[a] = grown;
-    new_heat[a] = carried;
+    return {liquid.mass[a], liquid.heat[a], ice.mass[a], ice.heat[a]};
   }
 
-  void Sites::melt_site(std::size_t a, double depression_mass)
+  void Sites::set_content(std::size_t a, const SiteContent<double> &site)
   {
-    const cases::Material &m = substance.material;
-    const double own = ice.heat[a] / ice.mass[a];
-    const double after = (liquid.heat[a] - liquid.mass[a] * own
-                          + m.liquid.specific_heat_capacity * depression_mass)
-                         / (m.latent_heat - own);
-    const double melted = after - liquid.mass[a];
-    if(!(melted > 0))
-      return;
-    if(melted >= ice.mass[a])
-    {
-      liquid.mass[a] += ice.mass[a];
-      liquid.heat[a] += ice.heat[a];
-      ice.mass[a] = ice.heat[a] = 0;
-      return;
-    }
-    const double carried = melted * own;
-    liquid.mass[a] += melted;
-    liquid.heat[a] += carried;
-    ice.mass[a] -= melted;
-    ice.heat[a] -= carried;
+    liquid.mass[a] = site.liquid_mass;
+    liquid.heat[a] = site.liquid_heat;
+    ice.mass[a] = site.ice_mass;
+    ice.heat[a] = site.ice_heat;
   }
 
   void Sites::spread_new_ice()
@@ -232,14 +211,69 @@ namespace meltfront::particles
       concentration[solute][a] += factor * flow[a];
   }
 
+  void Sites::store(std::vector<double> &state) const
+  {
+    auto end = state.begin();
+    for(const auto *field : {&liquid.mass, &liquid.heat, &ice.mass, &ice.heat})
+      end = std::copy(field->begin(), field->end(), end);
+    for(const auto &field : concentration)
+    {
+      std::copy(field.begin(), field.end(), end);
+      end += static_cast<std::ptrdiff_t>(liquid.mass.size());
+    }
+  }
+
+  void Sites::load(std::span<const double> state)
+  {
+    for(auto *field : {&liquid.mass, &liquid.heat, &ice.mass, &ice.heat})
+    {
+      std::copy_n(state.begin(), field->size(), field->begin());
+      state = state.subspan(field->size());
+    }
+    for(auto &field : concentration)
+    {
+      std::copy_n(state.begin(), field.size(), field.begin());
+      state = state.subspan(liquid.mass.size());
+    }
+    change_phase();
+  }
+
+  void Sites::make_rates(std::span<double> flows) const
+  {
+    const std::size_t size = liquid.mass.size();
+    double *liquid_mass = flows.data(), *liquid_heat = liquid_mass + size;
+    double *ice_mass = liquid_heat + size, *ice_heat = ice_mass + size;
+    double *solute = ice_heat + size;
+    for(std::size_t a = 0; a < n; ++a)
+    {
+      liquid_mass[a] = ice_mass[a] = 0;
+      double depression_flow = 0;
+      for(std::size_t s = 0; s < concentration.size(); ++s)
+      {
+        depression_flow
+            += substance.alloy.solutes[s].liquidus_slope * solute[s * size + a];
+        solute[s * size + a] /= site_mass;
+      }
+      if(is_held[a] || is_kept[a] || !(ice.mass[a] > 0))
+        continue;
+      const SiteExchange::NewIce<double> made = exchange.freezing_rate(
+          content(a), dissolved(a), liquid_heat[a], depression_flow);
+      liquid_mass[a] = -made.mass;
+      liquid_heat[a] -= made.heat;
+      ice_mass[a] = made.mass;
+      ice_heat[a] += made.heat;
+    }
+  }
+
   std::vector<cases::EffectCost> Sites::costs(const cases::EffectSet &effects,
                                               std::size_t per_solute) const
   {
     using cases::Effect;
     // One pass serves these effects: none can be timed alone.
     std::vector<cases::EffectCost> result;
-    for(const Effect effect : {Effect::phase_change, Effect::phase_heat_capacity,
-                               Effect::phase_conductivity, Effect::solute})
+    for(const Effect effect :
+        {Effect::phase_change, Effect::phase_heat_capacity, Effect::phase_conductivity,
+         Effect::solute, Effect::eutectic})
       if(effects.contains(effect))
         result.push_back(meter.cost(effect, 10 * liquid.mass.size() * sizeof(double)));
     for(cases::EffectCost &cost : result)

@@ -5,6 +5,7 @@
 #include <particles/alloy/kernel_sums.h>
 #include <particles/alloy/mixture_state.h>
 #include <particles/alloy/parameters.h>
+#include <particles/alloy/phase_exchange.h>
 #include <particles/sph/effect_meter.h>
 
 #include <array>
@@ -23,17 +24,8 @@ namespace meltfront::particles
     std::vector<double> share;  ///< volume over the site's
   };
 
-  /**
-   * Sites with one liquid and one ice particle each, and the change of phase between
-   * them.
-   *
-   * Liquid below its liquidus freezes (freeze() in phase_exchange.h). Where ice is given
-   * to its own site (NewIce::site), liquid above its liquidus melts that ice: with its
-   * heat E, the ice's enthalpy per mass e and the depression times mass PS,
-   *
-   *   E + delta e = (m + delta)(c_l x + L),  x = -PS/(m + delta),
-   *   m + delta = (E - m e + c_l PS)/(L - e).
-   */
+  /** Sites with one liquid and one ice particle each, and the change of phase between
+   * them (SiteExchange). New ice goes to its own site or is spread over the kernel. */
   class Sites
   {
   public:
@@ -53,6 +45,34 @@ namespace meltfront::particles
                   double duration);
     void add_solute(std::size_t solute, std::span<const double> flow, double duration);
 
+    /** Arrays that steps change: masses and heats of both populations, concentrations. */
+    std::size_t n_fields() const
+    {
+      return 4 + concentration.size();
+    }
+
+    /** All fields one after another. */
+    void store(std::vector<double> &state) const;
+
+    /** The opposite, then change_phase(). */
+    void load(std::span<const double> state);
+
+    /**
+     * Rates of all fields from flows of heat in the places of the heats and of solutes in
+     * those of the concentrations: liquid that stays at its liquidus freezes or melts ice
+     * meanwhile (SiteExchange::freezing_rate).
+     */
+    void make_rates(std::span<double> flows) const;
+
+    SiteContent<double> content(std::size_t site) const;
+    void set_content(std::size_t site, const SiteContent<double> &content);
+    double dissolved(std::size_t site) const; ///< PS
+
+    const SiteExchange &phase_exchange() const
+    {
+      return exchange;
+    }
+
     /** Costs of the effects that call for the change of phase and for both populations.
      * @param per_solute bytes of an array of concentrations. */
     std::vector<cases::EffectCost> costs(const cases::EffectSet &effects,
@@ -70,21 +90,21 @@ namespace meltfront::particles
     std::vector<double> depression;   ///< by the site's concentrations
     std::vector<double> solid_volume; ///< of densities summed over kernels
     std::vector<unsigned char> is_held;
+    std::vector<unsigned char> is_kept; ///< both phases are kept in equilibrium
     double site_mass;
     double crystal_density;
     long work = 0; ///< interactions of the sums over kernels
 
   private:
-    double dissolved(std::size_t site) const;
     void change_sites();
-    void freeze_site(std::size_t site, double depression_mass);
-    void melt_site(std::size_t site, double depression_mass);
+    void share_out(const MixtureState &initial, std::size_t site);
     void spread_new_ice();
 
     const AlloySubstance &substance;
     TwoPopulationParameters parameters;
     std::size_t n;
     double volume;
+    SiteExchange exchange;
     EffectMeter meter;
     std::optional<KernelSums> kernel_sums;
     std::vector<double> normaliser;        ///< zeta of equation 4.14

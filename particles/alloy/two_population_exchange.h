@@ -19,6 +19,13 @@ namespace meltfront::particles
     {
     }
 
+    /** The population's volumes at other temperatures. */
+    PopulationView(const Population &population, const double *excess)
+      : share(population.share.data())
+      , excess(excess)
+    {
+    }
+
     const double *share;  ///< volume over the site's
     const double *excess; ///< T - T_m
   };
@@ -52,11 +59,35 @@ namespace meltfront::particles
              * (between * (other.excess[a] - own.excess[a]));
     }
 
-    /** From a wall in which the other phase has a share of the volume. */
+    /** Of the exchange with a wall in which the other phase has a share of the volume. */
+    double wall_conductivity(std::size_t a, double other_share) const
+    {
+      return own.share[a] * ((1 - other_share) * within + other_share * between);
+    }
+
     double from_wall(std::size_t a, double wall_excess, double other_share) const
     {
-      return own.share[a] * ((1 - other_share) * within + other_share * between)
-             * (wall_excess - own.excess[a]);
+      return wall_conductivity(a, other_share) * (wall_excess - own.excess[a]);
+    }
+  };
+
+  /** What all that a particle exchanges by CorrectedPair falls by, per its own
+   * temperature. */
+  struct CorrectedPairSlope
+  {
+    CorrectedPair pair;
+
+    double operator()(std::size_t a, std::size_t b) const
+    {
+      return b == a ? 0.
+                    : pair.own.share[a]
+                          * (pair.own.share[b] * pair.within
+                             + pair.other.share[b] * pair.between);
+    }
+
+    double at_site(std::size_t a) const
+    {
+      return pair.own.share[a] * pair.other.share[a] * pair.between;
     }
   };
 

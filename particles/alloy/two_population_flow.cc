@@ -61,38 +61,122 @@ namespace meltfront::particles
     return std::clamp(2 * mean - sites.ice.share[site], 0., 1.);
   }
 
+  double TwoPopulationFlow::other_share_of_wall(bool of_ice, std::size_t site,
+                                                double wall) const
+  {
+    const double solid = wall_solid_share(site, wall);
+    return of_ice ? 1 - solid : solid;
+  }
+
   template <typename Pair>
-  double TwoPopulationFlow::population_heat(const Pair &pair, std::span<double> flow)
+  void TwoPopulationFlow::pass(const Pair &pair, std::span<double> flow)
   {
     rows.rows.apply_pairs(pair, flow, threads);
     for(std::size_t a = 0; a < rows.rows.rows(); ++a)
       flow[a] += self_strength * pair.at_site(a);
+  }
+
+  template <typename Pair>
+  double TwoPopulationFlow::population_heat(const Pair &pair, double fraction,
+                                            std::span<double> flow)
+  {
+    pass(pair, flow);
     if(!wall_temperature)
       return 0;
     return wall_temperature->add(
-        [&](std::size_t row, double wall)
-        {
-          const double solid = wall_solid_share(row, wall);
-          return pair.from_wall(row, wall, pair.of_ice ? 1 - solid : solid);
+        [&](std::size_t row, double wall) {
+          return pair.from_wall(row, wall, other_share_of_wall(pair.of_ice, row, wall));
         },
-        0., flow);
+        fraction, flow);
   }
 
-  double TwoPopulationFlow::heat(std::span<double> to_liquid, std::span<double> to_ice)
+  CorrectedPair TwoPopulationFlow::to_liquid_pair(const double *liquid,
+                                                  const double *ice) const
   {
+    const double k_l = substance.material.liquid.conductivity;
+    const double k_s = substance.material.solid.conductivity;
+    return {{sites.liquid, liquid}, {sites.ice, ice}, false, k_l, 0.5 * (k_l + k_s)};
+  }
+
+  CorrectedPair TwoPopulationFlow::to_ice_pair(const double *liquid,
+                                               const double *ice) const
+  {
+    const double k_l = substance.material.liquid.conductivity;
+    const double k_s = substance.material.solid.conductivity;
+    return {{sites.ice, ice}, {sites.liquid, liquid}, true, k_s, 0.5 * (k_l + k_s)};
+  }
+
+  double TwoPopulationFlow::heat_at(std::span<const double> liquid_excess,
+                                    std::span<const double> ice_excess, double fraction,
+                                    std::span<double> to_liquid, std::span<double> to_ice)
+  {
+    ++evaluations;
+    const double *liquid = liquid_excess.data(), *ice = ice_excess.data();
+    return population_heat(to_liquid_pair(liquid, ice), fraction, to_liquid)
+           + population_heat(to_ice_pair(liquid, ice), fraction, to_ice);
+  }
+
+  double TwoPopulationFlow::heat(double fraction, std::span<double> to_liquid,
+                                 std::span<double> to_ice)
+  {
+    if(parameters.exchange == PhaseExchange::corrected)
+      return heat_at(sites.liquid.excess, sites.ice.excess, fraction, to_liquid, to_ice);
     ++evaluations;
     const PopulationView liquid(sites.liquid), ice(sites.ice);
     const double k_l = substance.material.liquid.conductivity;
     const double k_s = substance.material.solid.conductivity;
-    if(parameters.exchange == PhaseExchange::corrected)
-    {
-      const double mean = 0.5 * (k_l + k_s);
-      return population_heat(CorrectedPair{liquid, ice, false, k_l, mean}, to_liquid)
-             + population_heat(CorrectedPair{ice, liquid, true, k_s, mean}, to_ice);
-    }
     const double *solid = sites.solid_volume.data();
-    return population_heat(PublishedPair{liquid, ice, solid, false, k_l, k_s}, to_liquid)
-           + population_heat(PublishedPair{ice, liquid, solid, true, k_s, k_l}, to_ice);
+    return population_heat(PublishedPair{liquid, ice, solid, false, k_l, k_s}, fraction,
+                           to_liquid)
+           + population_heat(PublishedPair{ice, liquid, solid, true, k_s, k_l}, fraction,
+                             to_ice);
+  }
+
+  void TwoPopulationFlow::linearise(double fraction)
+  {
+    const double *liquid = sites.liquid.excess.data(), *ice = sites.ice.excess.data();
+    set_diagonal(to_liquid_pair(liquid, ice), fraction, wall_slope[0], diagonal[0]);
+    set_diagonal(to_ice_pair(liquid, ice), fraction, wall_slope[1], diagonal[1]);
+  }
+
+  void TwoPopulationFlow::set_diagonal(const CorrectedPair &pair, double fraction,
+                                       std::vector<double> &wall_rate,
+                                       std::vector<double> &diagonal)
+  {
+    wall_rate.assign(rows.rows.padded_rows(), 0.);
+    diagonal.resize(rows.rows.padded_rows());
+    if(wall_temperature)
+      wall_temperature->differentiate(
+          [&](std::size_t row, double wall) {
+            return -pair.wall_conductivity(row,
+                                           other_share_of_wall(pair.of_ice, row, wall));
+          },
+          fraction, wall_rate);
+    pass(CorrectedPairSlope{pair}, diagonal);
+    for(std::size_t a = 0; a < diagonal.size(); ++a)
+      diagonal[a] = wall_rate[a] - diagonal[a];
+    if(wall_temperature)
+      for(const std::uint32_t row : wall_temperature->held_rows())
+        diagonal[row] = 0;
+  }
+
+  void TwoPopulationFlow::apply_derivative(std::span<const double> liquid_change,
+                                           std::span<const double> ice_change,
+                                           std::span<double> to_liquid,
+                                           std::span<double> to_ice)
+  {
+    ++evaluations;
+    const double *liquid = liquid_change.data(), *ice = ice_change.data();
+    pass(to_liquid_pair(liquid, ice), to_liquid);
+    pass(to_ice_pair(liquid, ice), to_ice);
+    for(std::size_t a = 0; a < rows.rows.rows(); ++a)
+    {
+      to_liquid[a] += wall_slope[0][a] * liquid[a];
+      to_ice[a] += wall_slope[1][a] * ice[a];
+    }
+    if(wall_temperature)
+      for(const std::uint32_t row : wall_temperature->held_rows())
+        to_liquid[row] = to_ice[row] = 0;
   }
 
   void TwoPopulationFlow::follow()
@@ -116,7 +200,7 @@ namespace meltfront::particles
                    sites.crystal_density * m.solid.specific_heat_capacity);
     double step = volume * capacity / heat_rate;
     if(diffusion)
-      step = std::min(step, sites.site_mass / diffusion->row_sum());
+      step = std::min(step, solute_step());
     return step;
   }
 

@@ -4,8 +4,10 @@
 #include <particles/alloy/sites.h>
 #include <particles/alloy/solid_path.h>
 #include <particles/alloy/solute_diffusion.h>
+#include <particles/alloy/two_population_exchange.h>
 #include <particles/sph/wall_temperature.h>
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,8 +31,33 @@ namespace meltfront::particles
     /** Give the ice on walls the wall's temperature at a fraction of the step. */
     void hold_walls(double fraction);
 
-    /** Heat for a step that begins now. @return heat flow through walls. */
-    double heat(std::span<double> to_liquid, std::span<double> to_ice);
+    /** Heat at a fraction of the step. @return heat flow through walls. */
+    double heat(double fraction, std::span<double> to_liquid, std::span<double> to_ice);
+
+    /** The same by the corrected exchange at other temperatures T - T_m than the sites',
+     * to whose volumes it belongs: linear in the temperatures. */
+    double heat_at(std::span<const double> liquid_excess,
+                   std::span<const double> ice_excess, double fraction,
+                   std::span<double> to_liquid, std::span<double> to_ice);
+
+    /** Prepare apply_derivative() of heat_at() for the sites' volumes. */
+    void linearise(double fraction);
+
+    /** Change of heat_at() with the temperatures (W per simulated depth). */
+    void apply_derivative(std::span<const double> liquid_change,
+                          std::span<const double> ice_change, std::span<double> to_liquid,
+                          std::span<double> to_ice);
+
+    /** The diagonals of that derivative. */
+    std::span<const double> liquid_diagonal() const
+    {
+      return diagonal[0];
+    }
+
+    std::span<const double> ice_diagonal() const
+    {
+      return diagonal[1];
+    }
 
     /** Concentrations in the liquid, before solute(). */
     void follow();
@@ -46,6 +73,17 @@ namespace meltfront::particles
      *   dt <= min(rho c_l, rho_s c_s) V / (k sum_b g_ab),  dt <= m/(2 rho D sum_b g_ab).
      */
     double monotone_step() const;
+
+    /** The largest explicit step of the diffusion of solutes, which there must be. */
+    double solute_step() const
+    {
+      return sites.site_mass / diffusion->row_sum();
+    }
+
+    double melting_temperature() const
+    {
+      return substance.material.melting_temperature;
+    }
 
     bool diffuses() const
     {
@@ -68,7 +106,14 @@ namespace meltfront::particles
 
   private:
     template <typename Pair>
-    double population_heat(const Pair &pair, std::span<double> flow);
+    double population_heat(const Pair &pair, double fraction, std::span<double> flow);
+    template <typename Pair>
+    void pass(const Pair &pair, std::span<double> flow);
+    CorrectedPair to_liquid_pair(const double *liquid, const double *ice) const;
+    CorrectedPair to_ice_pair(const double *liquid, const double *ice) const;
+    void set_diagonal(const CorrectedPair &pair, double fraction,
+                      std::vector<double> &wall_rate, std::vector<double> &diagonal);
+    double other_share_of_wall(bool of_ice, std::size_t site, double wall_excess) const;
     double wall_solid_share(std::size_t site, double wall_excess) const;
 
     cases::EffectSet effects;
@@ -84,6 +129,7 @@ namespace meltfront::particles
     std::optional<SoluteDiffusion> diffusion;
     std::optional<WallTemperature> wall_temperature;
     std::vector<std::span<const double>> composition;
+    std::array<std::vector<double>, 2> wall_slope, diagonal; ///< of liquid, of ice
     long evaluations = 0;
   };
 } // namespace meltfront::particles

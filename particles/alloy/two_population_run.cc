@@ -3,6 +3,7 @@
 #include <cases/stopwatch.h>
 #include <particles/alloy/two_population_flow.h>
 #include <particles/alloy/two_population_run.h>
+#include <particles/alloy/two_population_stepper.h>
 #include <particles/sph/careful_sum.h>
 #include <particles/sph/run_report.h>
 
@@ -29,6 +30,12 @@ namespace meltfront::particles
                           const cases::Scene &scene, const AlloySubstance &substance,
                           const MixtureState &initial)
     {
+      if(std::isfinite(substance.eutectic_excess)
+         && (parameters.new_ice == NewIce::kernel || parameters.constant_latent_heat))
+        throw cases::Refusal(fmt::format(
+            "{} freezes at a eutectic temperature only with new_ice = site and "
+            "latent_heat = energy_function",
+            parameters.name));
       if(parameters.new_ice == NewIce::site)
         return;
       const auto refuse = [&](const std::string &why)
@@ -70,6 +77,15 @@ namespace meltfront::particles
       }
     }
 
+    std::string words(TimeScheme scheme, int stages)
+    {
+      if(scheme == TimeScheme::backward_euler)
+        return "backward Euler";
+      if(scheme == TimeScheme::crank_nicolson)
+        return "Crank-Nicolson after two steps of backward Euler";
+      return stages > 1 ? fmt::format("RKL2, {} stages", stages) : "explicit Euler";
+    }
+
     /** One run: the sites and their advance in time. */
     class TwoPopulationRun
     {
@@ -86,19 +102,12 @@ namespace meltfront::particles
         , sites(dis, substance, parameters, initial, (n + 7) / 8 * 8)
         , flows(dis, substance, effects, parameters, sites)
         , bounds(initial.bounds(scene, substance))
-        , monotone(flows.monotone_step())
+        , plan(make_plan())
+        , stepper(parameters, plan, bounds, flows, sites)
         , temperature(n)
         , solid_fraction(n)
       {
         require_freezing(parameters, scene, substance, initial);
-        const double duration = scene.end_time - scene.start_time;
-        steps = std::max(fewest_steps, static_cast<long>(std::ceil(
-                                           duration / longest_step() * (1 - 1e-12))));
-        step_length = duration / steps;
-        for(auto *array : {&to_liquid, &to_ice})
-          array->resize(sites.liquid.mass.size());
-        if(flows.diffuses())
-          solute_flow.resize(sites.liquid.mass.size());
         weights = dis.weights;
         for(const std::uint32_t a : dis.held)
           weights[a] = 0; // holds a boundary value only
@@ -117,63 +126,42 @@ namespace meltfront::particles
         observer.begin(describe());
         observer.observe(snapshot(0, scene.start_time));
         cases::Stopwatch stepping;
-        for(long step = 1; step <= steps; ++step)
+        for(long step = 1; step <= plan.steps; ++step)
         {
           const double end = time_of(step);
-          advance(time_of(step - 1), end);
+          boundary_heat.add(stepper.advance(step, time_of(step - 1), end)
+                            / dis.cross_section);
           check(step, end);
-          if(observer.wants(step, end) || step == steps)
+          if(observer.wants(step, end) || step == plan.steps)
             stepping.without([&] { observer.observe(snapshot(step, end)); });
         }
         return cost(setup, stepping.elapsed());
       }
 
     private:
-      double longest_step() const
+      StepPlan make_plan() const
       {
-        if(parameters.as_published)
-        {
-          const cases::Material &m = scene.material;
-          const double h = dis.kernel.smoothing_length();
-          return parameters.step_factor * h * h
-                 * std::min(substance.density * m.liquid.specific_heat_capacity
-                                / m.liquid.conductivity,
-                            sites.crystal_density * m.solid.specific_heat_capacity
-                                / m.solid.conductivity);
-        }
-        if(parameters.step_factor > 1 + 1e-12)
-          throw cases::Refusal(fmt::format(
-              "a step of {:.6g} s is {:.4g} times the largest one, {:.6g} s, that keeps "
-              "the maximum principle and is certainly stable",
-              parameters.step_factor * monotone, parameters.step_factor, monotone));
-        return parameters.step_factor * monotone;
+        if(!parameters.as_published)
+          return plan_steps(parameters.sph, scene, flows.monotone_step(),
+                            dis.kernel.smoothing_length());
+        const cases::Material &m = scene.material;
+        const double h = dis.kernel.smoothing_length();
+        const double longest
+            = parameters.sph.step_factor * h * h
+              * std::min(substance.density * m.liquid.specific_heat_capacity
+                             / m.liquid.conductivity,
+                         sites.crystal_density * m.solid.specific_heat_capacity
+                             / m.solid.conductivity);
+        const double duration = scene.end_time - scene.start_time;
+        const long steps = std::max(
+            fewest_steps, static_cast<long>(std::ceil(duration / longest * (1 - 1e-12))));
+        return {steps, duration / steps, 1, flows.monotone_step(), 1, 0};
       }
 
       /** Time after a step; the end exactly. */
       double time_of(long step) const
       {
-        return step == steps ? scene.end_time : scene.start_time + step * step_length;
-      }
-
-      /** Conduction and diffusion from one state, then the change of phase. */
-      void advance(double begin, double end)
-      {
-        flows.prepare_step(begin, end);
-        const double duration = end - begin;
-        const double walls = flows.heat(to_liquid, to_ice);
-        boundary_heat.add(duration * walls / dis.cross_section);
-        if(flows.diffuses())
-        {
-          flows.follow();
-          for(std::size_t s = 0; s < substance.n_solutes(); ++s)
-          {
-            flows.solute(s, solute_flow);
-            sites.add_solute(s, solute_flow, duration);
-          }
-        }
-        sites.add_heat(to_liquid, to_ice, duration);
-        sites.change_phase();
-        flows.hold_walls(1);
+        return step == plan.steps ? scene.end_time : scene.start_time + step * plan.step;
       }
 
       /** The maximum principle, for every particle that has mass. */
@@ -240,7 +228,7 @@ namespace meltfront::particles
       cases::RunDescription describe() const
       {
         cases::RunDescription description
-            = describe_particles(dis, parameters.sph, step_length, unknowns());
+            = describe_particles(dis, parameters.sph, plan.step, unknowns());
         const std::vector<cases::Parameter> own
             = {{"sites", fmt::format("{}", n), "1"},
                {"interactions per site",
@@ -257,9 +245,9 @@ namespace meltfront::particles
                 parameters.constant_latent_heat ? "constant"
                                                 : "as the heat capacities demand",
                 ""},
-               {"time scheme", "explicit Euler", ""},
+               {"time scheme", words(parameters.sph.time_scheme, plan.stages), ""},
                {"largest explicit step that keeps the maximum principle",
-                fmt::format("{:.6g}", monotone), "s"}};
+                fmt::format("{:.6g}", plan.monotone), "s"}};
         description.parameters.insert(description.parameters.end(), own.begin(),
                                       own.end());
         return description;
@@ -269,9 +257,11 @@ namespace meltfront::particles
                        const cases::Stopwatch::Seconds &stepping) const
       {
         cases::Cost result = timed_cost(setup, stepping);
-        result.steps = steps;
+        result.steps = plan.steps;
         result.unknowns = unknowns();
         result.work = flows.work();
+        result.capped_steps = stepper.repeated_steps();
+        result.solver_iterations = stepper.solver_iterations();
         result.effects = flows.effect_costs(n * sizeof(double));
         return result;
       }
@@ -285,10 +275,8 @@ namespace meltfront::particles
       Sites sites;
       TwoPopulationFlow flows;
       cases::TemperatureBounds bounds;
-      double monotone;
-      long steps = 0;
-      double step_length = 0;
-      std::vector<double> to_liquid, to_ice, solute_flow;
+      StepPlan plan;
+      TwoPopulationStepper stepper;
       std::vector<double> weights, temperature, solid_fraction; ///< for snapshots
       double initial_heat = 0, initial_mass = 0;
       std::array<double, cases::most_solutes> initial_solute{};

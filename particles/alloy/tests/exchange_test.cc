@@ -320,7 +320,11 @@ namespace meltfront::particles::testing
       EXPECT_THROW(run(*published, frozen, 20), cases::Refusal);
       cases::Scene eutectic = nitrate_slab(100);
       eutectic.alloy->eutectic_temperature = -10;
-      EXPECT_THROW(run(*corrected, eutectic, 20), cases::Refusal);
+      EXPECT_THROW(run(*published, eutectic, 20), cases::Refusal);
+      EXPECT_THROW(run(*corrected, eutectic, 20, {{"new_ice", "kernel"}}),
+                   cases::Refusal);
+      EXPECT_THROW(run(*corrected, eutectic, 20, {{"latent_heat", "constant"}}),
+                   cases::Refusal);
       cases::Scene negative = nitrate_slab(100);
       negative.initial.concentration = {cases::Field::uniform(-0.1)};
       for(const auto *method : {&mixture, &corrected, &published})

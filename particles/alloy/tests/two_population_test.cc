@@ -1,9 +1,13 @@
 #include <cases/error.h>
+#include <cases/exact/mushy_layer.h>
 #include <particles/alloy/phase_exchange.h>
 #include <particles/alloy/tests/alloy_scenes.h>
 #include <particles/sph/tests/scenes.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace meltfront::particles::testing
 {
@@ -24,8 +28,8 @@ namespace meltfront::particles::testing
                                   Drop{0.30, 1e4, 0.335473834385, 0.0257670808093},
                                   Drop{0.30, 1e5, 4.28492269945, 0.252515894812}})
       {
-        const Freezing found
-            = freeze(expected.heat, 42.28 * expected.concentration, 334400, 2006, 4180);
+        const Freezing<double> found
+            = freeze(expected.heat, 42.28 * expected.concentration, 334400., 2006, 4180);
         EXPECT_NEAR(found.drop / expected.drop, 1, 1e-11) << expected.heat;
         EXPECT_NEAR(found.fraction / expected.fraction, 1, 1e-11) << expected.heat;
       }
@@ -37,7 +41,7 @@ namespace meltfront::particles::testing
       for(const double heat : {1e-9, 1., 1e3, 3e5, 3.6e5, 1e6})
       {
         const double lowered = 3.;
-        const Freezing f = freeze(heat, lowered, 334400, 2006, 4180);
+        const Freezing<double> f = freeze(heat, lowered, 334400., 2006, 4180);
         EXPECT_NEAR(
             (f.fraction * (334400 + 2006 * f.drop) + (1 - f.fraction) * 4180 * f.drop)
                 / heat,
@@ -81,6 +85,81 @@ namespace meltfront::particles::testing
       const MushErrors found = compare(outcome, nitrate_layer(), time);
       EXPECT_LT(found.temperature, 0.12);
       EXPECT_LT(std::abs(found.ice), 0.03);
+    }
+
+    /** The brine on a wall below its eutectic temperature. */
+    Problem eutectic_slab()
+    {
+      cases::Scene scene = nitrate_slab(91800);
+      scene.alloy->eutectic_temperature = -17.7;
+      const auto exact = std::make_shared<cases::MushyLayer>(
+          scene.material, *scene.alloy, std::vector<double>{nitrate_concentration}, -30,
+          14.7);
+      scene.boundaries[0] = fixed(-30);
+      scene.boundaries[1] = exact_wall(exact);
+      return {scene, exact};
+    }
+
+    // A front of first crystals and one behind which no liquid is left.
+    TEST(TwoPopulation, ConvergesToTheLayerWithAEutectic)
+    {
+      const auto [scene, exact] = eutectic_slab();
+      std::vector<double> spacing, errors;
+      for(const int n : {30, 45, 60, 120})
+      {
+        const auto found = run(*make_sph_two_population(), scene, n);
+        double sum = 0, solid = 0;
+        for(std::size_t i = 0; i < found.x.size(); ++i)
+        {
+          const double deviation
+              = found.temperature[i]
+                - exact->temperature(cases::Position{found.x[i], 0, 0}, scene.end_time);
+          sum += deviation * deviation;
+        }
+        constexpr int samples = 20000;
+        for(int i = 0; i < samples; ++i)
+          solid += exact->solid_fraction(0.5 * (i + 0.5) / samples, scene.end_time) * 0.5
+                   / samples;
+        errors.push_back(std::sqrt(sum / found.x.size()));
+        spacing.push_back(found.description.spacing);
+        EXPECT_NEAR(found.solid / solid, 1, 1. / n) << n;
+        EXPECT_LT(found.heat_defect, 1e-12);
+        EXPECT_LT(found.mass_defect, 1e-12);
+        EXPECT_LT(found.solute_defect, 1e-12);
+        EXPECT_GE(found.lowest, -30);
+        EXPECT_LE(found.highest, 14.7 + 1e-9);
+        EXPECT_EQ(found.solid_fraction[0], 1) << n;
+      }
+      EXPECT_LT(errors.back(), 0.045);
+      EXPECT_GT(fitted_order(spacing, errors), 1.2);
+    }
+
+    // What froze at the eutectic temperature gives its solute back.
+    TEST(TwoPopulation, FreezesThroughTheEutecticAndMeltsBack)
+    {
+      cases::Scene scene = eutectic_slab().scene;
+      scene.end_time = 2e6;
+      scene.boundaries[0]->value = {
+          "", [](const cases::Position &, double t) { return t < 20000 ? -30. : 14.7; },
+          false};
+      scene.boundaries[1] = insulated();
+      for(const double diffusivity : {0., 6.2e-10})
+      {
+        scene.alloy->solutes[0].diffusivity = diffusivity;
+        const auto found = run(*make_sph_two_population(), scene, 20);
+        EXPECT_GT(*std::max_element(found.solids.begin(), found.solids.end()), 0.04);
+        EXPECT_EQ(found.solid, 0);
+        EXPECT_LT(found.heat_defect, 1e-12);
+        EXPECT_LT(found.mass_defect, 1e-12);
+        EXPECT_LT(found.solute_defect, 1e-12);
+        EXPECT_GT(found.lowest, -30);
+        EXPECT_LE(found.highest, 14.7 + 1e-9);
+        for(const double c : found.concentration[0])
+          EXPECT_NEAR(c, nitrate_concentration, diffusivity > 0 ? 0.1 : 1e-14);
+        cases::Scene frozen = scene;
+        frozen.end_time = 20000;
+        EXPECT_EQ(run(*make_sph_two_population(), frozen, 20).solid_fraction[0], 1);
+      }
     }
 
     // What the corrections are for: with the published exchange finer particles do not
