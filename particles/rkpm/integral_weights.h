@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include <string>
+#include <vector>
 
 namespace meltfront::particles
 {
@@ -64,7 +65,8 @@ namespace meltfront::particles
   public:
     /**
      * @param order K, 2 to 4
-     * @throws cases::InputError for the hat, which has no Laplacian.
+     * @throws cases::InputError for another order, and for the hat, which has no
+     * Laplacian.
      */
     IntegralWeights(KernelShape shape, int dimension, WeightPolicy policy, int order);
 

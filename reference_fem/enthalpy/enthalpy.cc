@@ -27,7 +27,8 @@ namespace meltfront::reference_fem
         return {
             Effect::phase_change, Effect::phase_conductivity, Effect::phase_heat_capacity,
             Effect::heat_sources, Effect::wall_temperature,   Effect::wall_flux,
-            Effect::solute,       Effect::solute_diffusion,   Effect::eutectic};
+            Effect::solute,       Effect::solute_diffusion,   Effect::eutectic,
+            Effect::heat_release, Effect::inclusion};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

@@ -60,9 +60,14 @@ namespace meltfront::reference_fem
       std::vector<unsigned int>
       sites(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
       void integrate_cells(Discretization &result) const;
+
+      /** Conductivity of a cell over that outside of the inclusion. */
+      double relative_conductivity(
+          const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
       void integrate_walls(Discretization &result) const;
       void place_sites(Discretization &result) const;
 
+      const cases::Scene &scene;
       ShapedTriangulation<dim> shape;
       dealii::FE_Q<dim> element{1};
       dealii::DoFHandler<dim> dof_handler;
@@ -74,7 +79,8 @@ namespace meltfront::reference_fem
 
     template <int dim>
     DealMesh<dim>::DealMesh(const cases::Scene &scene, int n)
-      : shape(scene, n)
+      : scene(scene)
+      , shape(scene, n)
       , dof_handler(shape.triangulation)
       , mapping(shape.curved ? 4 : 1)
     {
@@ -159,6 +165,21 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
+    double DealMesh<dim>::relative_conductivity(
+        const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const
+    {
+      if(!scene.inclusion)
+        return 1;
+      const dealii::QIterated<dim> samples(dealii::QMidpoint<1>(), 8);
+      double resistance = 0;
+      for(unsigned int q = 0; q < samples.size(); ++q)
+        resistance += samples.weight(q)
+                      / scene.conductivity_at(position(
+                          mapping.transform_unit_to_real_cell(cell, samples.point(q))));
+      return 1 / (resistance * scene.material.solid.conductivity);
+    }
+
+    template <int dim>
     void DealMesh<dim>::integrate_cells(Discretization &result) const
     {
       const dealii::Quadrature<dim> quadrature
@@ -177,6 +198,7 @@ namespace meltfront::reference_fem
         values.reinit(cell);
         const auto corners = sites(cell);
         result.cells.insert(result.cells.end(), corners.begin(), corners.end());
+        const double conductivity = relative_conductivity(cell);
         std::vector<double> measures(quadrature.size());
         for(const unsigned int q : values.quadrature_point_indices())
           measures[q] = values.JxW(q) * weight(values.quadrature_point(q));
@@ -185,7 +207,7 @@ namespace meltfront::reference_fem
           double entry = 0;
           for(const unsigned int q : values.quadrature_point_indices())
             entry += values.shape_grad(a, q) * values.shape_grad(b, q) * measures[q];
-          return entry;
+          return conductivity * entry;
         };
         for(const unsigned int a : values.dof_indices())
         {

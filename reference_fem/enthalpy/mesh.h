@@ -83,7 +83,8 @@ namespace meltfront::reference_fem
    * cube's faces (3D) as near to that size as they come.
    * On Cartesian meshes mass and stiffness are integrated at the vertices, which makes K
    * an M-matrix for any aspect ratio; elsewhere the masses are row sums, so that the
-   * volumes add up to the mesh's volume.
+   * volumes add up to the mesh's volume. A cell that the surface of an inclusion cuts
+   * conducts with the harmonic mean over it.
    *
    * @param dimension one of mesh_dimensions()
    * @throws cases::Refusal if the scene cannot be meshed so (outlines: mesh_outline())

@@ -49,6 +49,8 @@ namespace meltfront::reference_fem
     free.assign(n, 1);
     if(effects.contains(Effect::heat_sources))
       sources.emplace(scene, *geometry, mesh);
+    if(effects.contains(Effect::heat_release))
+      release.emplace(scene, mesh);
     if(effects.contains(Effect::wall_flux))
       flux.emplace(scene, mesh);
     if(effects.contains(Effect::wall_temperature))
@@ -116,6 +118,7 @@ namespace meltfront::reference_fem
       rhs[i] = mesh.volume[i] * step.combine(enthalpy[i], enthalpy_before[i]);
     if(sources)
       sources->add_load(step, rhs);
+    step_released_heat = release ? release->add_load(step, rhs) : 0;
     step_flux_heat = flux ? flux->add_load(step, rhs) : 0;
     predict(step.next);
     if(alloy)
@@ -152,6 +155,9 @@ namespace meltfront::reference_fem
     const double boundary_now
         = step.combine(boundary_heat.now, boundary_heat.before) + entered;
     boundary_heat = {boundary_now, boundary_heat.now};
+    released_heat
+        = {step.combine(released_heat.now, released_heat.before) + step_released_heat,
+           released_heat.now};
     time_before = time;
     time = step.next;
     ++step_number;
@@ -221,7 +227,7 @@ namespace meltfront::reference_fem
 
   double EnthalpyRun::source_heat() const
   {
-    return sources ? sources->energy(time) : 0;
+    return (sources ? sources->energy(time) : 0) + released_heat.now;
   }
 
   void EnthalpyRun::check_balance(StepStatistics &statistics)

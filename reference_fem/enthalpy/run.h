@@ -3,6 +3,7 @@
 
 #include <cases/stopwatch.h>
 #include <reference_fem/enthalpy/alloy_solver.h>
+#include <reference_fem/enthalpy/heat_release.h>
 #include <reference_fem/enthalpy/heat_sources.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/options.h>
@@ -70,6 +71,7 @@ namespace meltfront::reference_fem
     AlloySolver *alloy = nullptr; ///< the solver, where there is solute
     std::string linear_solver_in_words;
     std::optional<HeatSources> sources;
+    std::optional<HeatRelease> release;
     std::optional<WallTemperature> walls;
     std::optional<WallFlux> flux;
     cases::TemperatureBounds bounds;
@@ -78,8 +80,9 @@ namespace meltfront::reference_fem
     CompensatedVector u, u_accepted, u_before;     ///< by node, W/m
     std::vector<double> enthalpy, enthalpy_before; ///< by node, J/m^3
     std::vector<double> rhs, heat;                 ///< by node, J
-    History boundary_heat;
-    double step_flux_heat = 0; ///< what the flux walls bring in the step under way
+    History boundary_heat, released_heat;
+    double step_flux_heat = 0;     ///< what the flux walls bring in the step under way
+    double step_released_heat = 0; ///< what is released throughout the domain in it
     double initial_heat = 0;
     double defect = 0; ///< heat at hand less heat received (J)
     double time, time_before;

@@ -142,6 +142,13 @@ namespace meltfront::reference_fem
       case cases::Effect::heat_sources:
         result.push_back(sources->cost());
         break;
+      case cases::Effect::heat_release:
+        result.push_back(release->cost());
+        break;
+      case cases::Effect::inclusion:
+        // Its conductances are those of the matrix: no memory and no time of their own.
+        result.push_back({decision.effect, 1, 0, 0});
+        break;
       case cases::Effect::wall_temperature:
         result.push_back(walls->cost());
         break;

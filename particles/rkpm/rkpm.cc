@@ -1,0 +1,95 @@
+#include <cases/scene.h>
+#include <cases/stopwatch.h>
+#include <particles/rkpm/rkpm.h>
+#include <particles/rkpm/rkpm_problem.h>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    using rkpm::RkpmPolicy;
+
+    class RkpmMethod : public cases::Method
+    {
+    public:
+      explicit RkpmMethod(const RkpmPolicy &policy)
+        : policy(policy)
+      {
+      }
+
+      std::string name() const override
+      {
+        return policy.name;
+      }
+
+      std::string summary() const override
+      {
+        return policy.summary;
+      }
+
+      bool solves(cases::ProblemKind) const override
+      {
+        return true;
+      }
+
+      std::vector<cases::Effect> supported_effects() const override
+      {
+        using cases::Effect;
+        return {Effect::heat_release, Effect::wall_temperature, Effect::wall_flux,
+                Effect::wall_transfer, Effect::inclusion};
+      }
+
+      std::vector<cases::OptionDeclaration> option_declarations() const override
+      {
+        return rkpm::rkpm_options(policy);
+      }
+
+      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
+                        const cases::Resolution &resolution,
+                        cases::Observer &observer) const override
+      {
+        cases::require_effects(*this, effects);
+        // A run without options of its own uses the declared defaults.
+        cases::Resolution complete = resolution;
+        if(complete.options.declarations().empty())
+          complete.options = cases::Options(option_declarations());
+        const cases::Stopwatch watch;
+        const rkpm::RkpmParameters parameters
+            = rkpm::read_parameters(policy, complete.options, scene.domain.dimension);
+        const NodeSet nodes
+            = arrange_nodes(scene, complete.n - 1, parameters.arrangement,
+                            parameters.jitter, complete.seed, policy.name);
+        const rkpm::RkpmProblem problem(scene, nodes, parameters, policy.name,
+                                        complete.threads);
+        LinearDescription description;
+        description.method = policy.name;
+        description.run.dimension = scene.domain.dimension;
+        description.run.spacing = nodes.spacing;
+        description.run.smoothing_length = problem.mean_dilation();
+        description.run.parameters = problem.describe();
+        description.setup_work = problem.work();
+        const cases::Stopwatch::Seconds setup = watch.elapsed();
+        description.setup_wall = setup.wall;
+        description.setup_cpu = setup.cpu;
+        LinearSites sites{scene.domain.dimension, {}, nodes.weights};
+        for(int d = 0; d < scene.domain.dimension; ++d)
+          sites.positions[d] = nodes.positions.position[d];
+        cases::Cost cost = run_linear_problem(scene, problem.linear(), sites, description,
+                                              complete, observer);
+        cost.effects = problem.effect_costs(effects);
+        return cost;
+      }
+
+    private:
+      const RkpmPolicy &policy;
+    };
+  } // namespace
+
+  std::vector<std::unique_ptr<cases::Method>> make_rkpm_methods()
+  {
+    std::vector<std::unique_ptr<cases::Method>> methods;
+    for(const RkpmPolicy &policy : rkpm::rkpm_policies())
+      methods.push_back(std::make_unique<RkpmMethod>(policy));
+    return methods;
+  }
+} // namespace meltfront::particles

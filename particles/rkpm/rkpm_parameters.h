@@ -1,0 +1,50 @@
+#ifndef meltfront_particles_rkpm_rkpm_parameters_h
+#define meltfront_particles_rkpm_rkpm_parameters_h
+
+#include <cases/method.h>
+#include <particles/rkpm/moment_engine.h>
+#include <particles/rkpm/supports.h>
+#include <particles/scattered/node_set.h>
+
+#include <vector>
+
+namespace meltfront::particles::rkpm
+{
+  /** A named method: one form of the approximation. */
+  struct RkpmPolicy
+  {
+    const char *name;
+    const char *summary;
+    Variant variant;
+  };
+
+  /** The five of them. */
+  const std::vector<RkpmPolicy> &rkpm_policies();
+
+  /** What the unknowns are. */
+  enum class Unknowns
+  {
+    nodal,        ///< temperatures at the nodes
+    reconstructed ///< coefficients u_I of T(x) = sum_I N_I(x) u_I
+  };
+
+  /** A run's options, read. */
+  struct RkpmParameters
+  {
+    MomentSettings moments;
+    SupportSettings supports;
+    Unknowns unknowns = Unknowns::nodal;
+    bool refuse_unstable = true; ///< else the spurious mode is reported only
+    bool flux_row_as_printed = false;
+    NodeArrangement arrangement = NodeArrangement::lattice;
+    double jitter = 0; ///< over the spacing
+  };
+
+  std::vector<cases::OptionDeclaration> rkpm_options(const RkpmPolicy &policy);
+
+  /** The options of a run in some dimension. */
+  RkpmParameters read_parameters(const RkpmPolicy &policy, const cases::Options &options,
+                                 int dimension);
+} // namespace meltfront::particles::rkpm
+
+#endif

@@ -1,0 +1,36 @@
+#ifndef meltfront_reference_fem_enthalpy_heat_release_h
+#define meltfront_reference_fem_enthalpy_heat_release_h
+
+#include <cases/method.h>
+#include <cases/scene.h>
+#include <reference_fem/enthalpy/mesh.h>
+#include <reference_fem/enthalpy/time_scheme.h>
+
+#include <vector>
+
+namespace meltfront::reference_fem
+{
+  /** The effect heat_release: heat released throughout the domain (W/m^3), taken at the
+   * nodes at the end of a step, each with its volume. */
+  class HeatRelease
+  {
+  public:
+    HeatRelease(const cases::Scene &scene, const Discretization &discretization);
+
+    /** Add the heat of a step to the load vector; returns the sum of what is added (J).
+     */
+    double add_load(const StepFormula &step, std::vector<double> &load);
+
+    const cases::EffectCost &cost() const
+    {
+      return effect_cost;
+    }
+
+  private:
+    const cases::Field &density;
+    const Discretization &mesh;
+    cases::EffectCost effect_cost{cases::Effect::heat_release};
+  };
+} // namespace meltfront::reference_fem
+
+#endif
