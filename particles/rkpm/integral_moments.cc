@@ -71,8 +71,7 @@ namespace meltfront::particles
       evaluate_shape(shape, rule.points, psi);
       for(int i = 0; i < n_points; ++i)
       {
-        double term
-            = rule.weights[i] * psi[i] * integer_power(rule.points[i], first);
+        double term = rule.weights[i] * psi[i] * integer_power(rule.points[i], first);
         for(int p = 0; p <= degree; ++p, term *= rule.points[i])
           sums[static_cast<std::size_t>(p)] += term;
       }
@@ -199,8 +198,8 @@ namespace meltfront::particles
     const double y0 = -std::abs(std::max(box.lower[1], -2.));
     const double y1 = std::min(box.upper[1], 2.);
     constexpr double pi = std::numbers::pi;
-    const double corner[4] = {std::atan2(y0, x1), std::atan2(y1, x1),
-                              std::atan2(y1, x0), std::atan2(y0, x0) + 2 * pi};
+    const double corner[4] = {std::atan2(y0, x1), std::atan2(y1, x1), std::atan2(y1, x0),
+                              std::atan2(y0, x0) + 2 * pi};
     const double angle[4] = {0, pi / 2, pi, 3 * pi / 2};
     const double distance[4] = {x1, y1, -x0, -y0};
     for(std::size_t wall = 0; wall < 4; ++wall)

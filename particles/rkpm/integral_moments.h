@@ -56,17 +56,17 @@ namespace meltfront::particles
     /** Adds what a range of angles contributes in which one wall, or none, ends rays. */
     void add_sector(double from, double to, double wall_angle, double wall_distance,
                     std::span<double> moments) const;
-    /** Integrals of psi(r) r^power over 0 <= r <= end, power = first .. first + degree. */
+    /** Integrals of psi(r) r^power over 0 <= r <= end, power = first .. first + degree.
+     */
     std::array<double, 5> radial_integrals(int first, double end) const;
 
     KernelShape shape;
     int dim;
     int degree;
     std::vector<Exponents> powers;
-    std::vector<double> knots; ///< ascending from 0 to 1
-    std::vector<std::array<double, 5>>
-        at_knots;              ///< radial integrals up to each knot
-    std::vector<double> whole; ///< moments of the whole support
+    std::vector<double> knots;                   ///< ascending from 0 to 1
+    std::vector<std::array<double, 5>> at_knots; ///< radial integrals up to each knot
+    std::vector<double> whole;                   ///< moments of the whole support
   };
 } // namespace meltfront::particles
 

@@ -62,7 +62,8 @@ namespace meltfront::particles
             on_side.push_back(static_cast<std::uint32_t>(i));
         const std::size_t along = 1 - side / 2;
         if(dim > 1)
-          std::ranges::sort(on_side, {}, [&](std::uint32_t i)
+          std::ranges::sort(on_side, {},
+                            [&](std::uint32_t i)
                             { return nodes.positions.position[along][i]; });
         for(std::size_t k = 0; k < on_side.size(); ++k)
         {
@@ -191,8 +192,7 @@ namespace meltfront::particles
         for(std::size_t side = 0; side < static_cast<std::size_t>(2 * dim); ++side)
           if((sides >> side & 1) != 0)
             for(std::size_t i = 0; i < row.columns.size(); ++i)
-              if(const std::uint32_t number
-                 = quadrature.number[row.columns[i]][side];
+              if(const std::uint32_t number = quadrature.number[row.columns[i]][side];
                  number != no_wall_particle)
                 add_wall_particle(number, stencil.positions[i], dilation, row);
       }
@@ -201,8 +201,7 @@ namespace meltfront::particles
                              double dilation, Row &row)
       {
         const WallParticle &particle = quadrature.particles[number];
-        const double length
-            = dim > 1 ? particle.length / dilation : particle.length;
+        const double length = dim > 1 ? particle.length / dilation : particle.length;
         const double radius = std::hypot(z[0], z[1]);
         double value = 0;
         evaluate_shape(parameters.kernel, {&radius, 1}, std::span<double>(&value, 1));
@@ -265,9 +264,9 @@ namespace meltfront::particles
         for(std::size_t i = 0; i < pending.size(); ++i)
         {
           const bool made = maker.make(pending[i], list[i], dilation, rows[pending[i]]);
-          done[i] = made
-                    && (!parameters.enlarge
-                        || rows[pending[i]].residual <= constraint_bound);
+          done[i]
+              = made
+                && (!parameters.enlarge || rows[pending[i]].residual <= constraint_bound);
         }
       }
       std::size_t kept = 0;

@@ -23,7 +23,8 @@ namespace meltfront::particles
   struct IntegralWalls
   {
     std::array<double, 2> lower{}, upper{}; ///< corners of the domain (m)
-    std::vector<char> fixed; ///< of each particle: its temperature is given, it has no row
+    std::vector<char>
+        fixed; ///< of each particle: its temperature is given, it has no row
     /** Of each particle: bit s for a wall of Side s whose flux stands in its row. */
     std::vector<std::uint8_t> flux_sides;
   };
@@ -37,7 +38,8 @@ namespace meltfront::particles
   };
 
   /**
-   * Rows of the integral method, each divided by the integral of its kernel: at particle m
+   * Rows of the integral method, each divided by the integral of its kernel: at particle
+   * m
    *
    *   sum_n laplacian_mn u_n + sum_w flux_mw (du/dn)_w = sum_n load_mn (lap u)_n,
    *
@@ -50,7 +52,7 @@ namespace meltfront::particles
     CompressedRows flux;      ///< 1/m
     std::vector<WallParticle> wall_particles;
 
-    long enlarged = 0;         ///< rows with a dilation beyond that asked for
+    long enlarged = 0;           ///< rows with a dilation beyond that asked for
     double largest_dilation = 0; ///< m
     double largest_residual = 0; ///< of a constraint, see IntegralWeights::compute
     long unmet = 0;              ///< rows whose residual is above the bound

@@ -74,7 +74,8 @@ namespace meltfront::particles
       {
         power[d][0] = 1;
         for(std::size_t p = 1; p < 5; ++p)
-          power[d][p] = power[d][p - 1] * stencil.positions[static_cast<std::size_t>(i)][d];
+          power[d][p]
+              = power[d][p - 1] * stencil.positions[static_cast<std::size_t>(i)][d];
       }
       for(Eigen::Index a = 0; a < count; ++a)
       {

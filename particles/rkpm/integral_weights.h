@@ -103,10 +103,10 @@ namespace meltfront::particles
 
     std::vector<double> radii;
     std::vector<KernelProfile> profiles;
-    Eigen::MatrixXd values;          ///< z^a by monomial and particle
-    Eigen::MatrixXd laplacians;      ///< lap z^a
-    Eigen::VectorXd psi, lap_psi;    ///< of the particles
-    Eigen::VectorXd volume, root;    ///< and the root of the volume
+    Eigen::MatrixXd values;       ///< z^a by monomial and particle
+    Eigen::MatrixXd laplacians;   ///< lap z^a
+    Eigen::VectorXd psi, lap_psi; ///< of the particles
+    Eigen::VectorXd volume, root; ///< and the root of the volume
     Eigen::VectorXd weights0, weights2;
     Eigen::MatrixXd matrix, scaled;
     Eigen::VectorXd rhs, reference;

@@ -38,11 +38,11 @@ namespace meltfront::particles
 
     bool has_flux_walls(const cases::Scene &scene)
     {
-      return std::ranges::any_of(
-          scene.sides(), [&](cases::Side side)
-          {
-            return scene.boundary(side).kind != cases::BoundaryKind::fixed_temperature;
-          });
+      return std::ranges::any_of(scene.sides(),
+                                 [&](cases::Side side) {
+                                   return scene.boundary(side).kind
+                                          != cases::BoundaryKind::fixed_temperature;
+                                 });
     }
 
     IntegralParameters read_parameters(const cases::Scene &scene,
@@ -74,7 +74,8 @@ namespace meltfront::particles
 
       std::string summary() const override
       {
-        return "Conduction integrated twice by parts against a kernel, sums over particles "
+        return "Conduction integrated twice by parts against a kernel, sums over "
+               "particles "
                "in place of the integrals, with weights that make each sum exact for "
                "polynomials.";
       }
@@ -110,11 +111,13 @@ namespace meltfront::particles
           {"constraint_order", "1", 3L,
            "Degree of the polynomials for which rows are exact.", 3, 4},
           {"dilation", "1", 0.,
-           "Radius of the kernel over the spacing; 0: 2.5 on a line; in the plane 2.6, with "
+           "Radius of the kernel over the spacing; 0: 2.5 on a line; in the plane 2.6, "
+           "with "
            "walls of given flux 3.5, and 3.5 and 4.5 for constraint order 4.",
            0, 20},
           {"support", "", std::string("enlarged"),
-           "Enlarge the dilation where constraints cannot be met, or meet them as well as "
+           "Enlarge the dilation where constraints cannot be met, or meet them as well "
+           "as "
            "the dilation allows.",
            0, 0, std::vector<std::string>{"enlarged", "fixed"}},
           {"moments", "", std::string("exact"),

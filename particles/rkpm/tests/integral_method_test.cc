@@ -96,17 +96,17 @@ namespace meltfront::particles
     TEST(MoabIntegral, HasQuadraticsExactlyBetweenWallsOfAllKinds)
     {
       constexpr double conductivity = 3;
-      cases::Scene scene = steady(2, quadratic, [](const cases::Position &, double)
-                                  { return -6 * conductivity; });
+      cases::Scene scene
+          = steady(2, quadratic,
+                   [](const cases::Position &, double) { return -6 * conductivity; });
       scene.material.solid.conductivity = conductivity;
       // dT/dx = 1 + 2 x - y, dT/dy = -2 - x + 4 y
-      scene.boundaries[1] = cases::Boundary{
-          cases::BoundaryKind::flux, {"", [](const cases::Position &p, double)
-                                      { return conductivity * (3 - p[1]); }}};
+      scene.boundaries[1] = cases::Boundary{cases::BoundaryKind::flux,
+                                            {"", [](const cases::Position &p, double)
+                                             { return conductivity * (3 - p[1]); }}};
       scene.boundaries[2]
           = cases::Boundary{cases::BoundaryKind::heat_transfer,
-                            {"",
-                             [](const cases::Position &p, double t)
+                            {"", [](const cases::Position &p, double t)
                              { return quadratic(p, t) + conductivity * (2 + p[0]) / 5; }},
                             false,
                             5};
@@ -177,9 +177,9 @@ namespace meltfront::particles
     {
       const Formula wave
           = [](const cases::Position &p, double) { return std::sin(pi * p[0]); };
-      const cases::Scene scene
-          = steady(1, wave, [](const cases::Position &p, double)
-                   { return pi * pi * std::sin(pi * p[0]); });
+      const cases::Scene scene = steady(1, wave,
+                                        [](const cases::Position &p, double)
+                                        { return pi * pi * std::sin(pi * p[0]); });
       EXPECT_THROW(run(scene, wave, 60, {{"kernel", "epanechnikov"}}),
                    cases::NumericalError);
     }

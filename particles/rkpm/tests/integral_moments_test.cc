@@ -48,12 +48,12 @@ namespace meltfront::particles
             std::array<double, 3> found{};
             moments.evaluate({{lower, 0}, {upper, 0}}, found);
             for(int a = 0; a <= 2; ++a)
-              EXPECT_NEAR(found[static_cast<std::size_t>(a)],
-                          adaptive([&](double z)
-                                   { return shape_value(shape, std::abs(z))
-                                            * std::pow(z, a); },
-                                   std::max(lower, -1.), std::min(upper, 1.)),
-                          1e-13)
+              EXPECT_NEAR(
+                  found[static_cast<std::size_t>(a)],
+                  adaptive([&](double z)
+                           { return shape_value(shape, std::abs(z)) * std::pow(z, a); },
+                           std::max(lower, -1.), std::min(upper, 1.)),
+                  1e-13)
                   << name << ' ' << a << ' ' << lower << ' ' << upper;
           }
       }
@@ -67,9 +67,7 @@ namespace meltfront::particles
       {
         const double x = std::sin(angle), half = std::cos(angle);
         const auto along = [&](double y)
-        {
-          return shape_value(shape, std::hypot(x, y)) * std::pow(y, powers[1]);
-        };
+        { return shape_value(shape, std::hypot(x, y)) * std::pow(y, powers[1]); };
         const double low = std::max(box.lower[1], -half);
         const double high = std::min(box.upper[1], half);
         return low < high ? std::pow(x, powers[0]) * half
@@ -89,8 +87,8 @@ namespace meltfront::particles
                                  {{0, -1.5}, {1.2, 1.1}},
                                  {{-2, 0}, {0, 0.8}},
                                  {{-0.02, -0.9}, {0.95, 0.01}}};
-      for(const KernelShape shape : {KernelShape::wendland_c4, KernelShape::epanechnikov,
-                                     KernelShape::triweight})
+      for(const KernelShape shape :
+          {KernelShape::wendland_c4, KernelShape::epanechnikov, KernelShape::triweight})
       {
         const KernelMoments moments(shape, 2, 2);
         std::vector<double> found(moments.exponents().size());

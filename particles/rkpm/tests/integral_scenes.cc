@@ -63,8 +63,8 @@ namespace meltfront::particles::integral_scenes
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> displacement(-jitter * nodes.spacing,
                                                         jitter * nodes.spacing);
-    const auto coordinate = [&](int i)
-    { return i + 1 < n ? lower + i * nodes.spacing : upper; };
+    const auto coordinate
+        = [&](int i) { return i + 1 < n ? lower + i * nodes.spacing : upper; };
     for(int j = 0; j < (dimension > 1 ? n : 1); ++j)
       for(int i = 0; i < n; ++i)
       {
@@ -115,8 +115,7 @@ namespace meltfront::particles::integral_scenes
   double poisson_error(const Particles &particles, const IntegralParameters &parameters,
                        const Solution &solution)
   {
-    const IntegralRows rows
-        = integral_rows(particles.nodes, particles.walls, parameters);
+    const IntegralRows rows = integral_rows(particles.nodes, particles.walls, parameters);
     const auto exact = sampled(particles, solution.value);
     const auto laplacian = sampled(particles, solution.laplacian);
     const auto flux = wall_derivatives(particles, rows, solution);
@@ -167,8 +166,9 @@ namespace meltfront::particles::integral_scenes
 
   Solution monomial(int a, int b)
   {
-    const auto power
-        = [](double x, int e) { return e < 0 ? 0. : e == 0 ? 1. : std::pow(x, e); };
+    const auto power = [](double x, int e) {
+      return e < 0 ? 0. : e == 0 ? 1. : std::pow(x, e);
+    };
     return {[=](double x, double y) { return power(x, a) * power(y, b); },
             [=](double x, double y)
             {
