@@ -168,8 +168,11 @@ namespace meltfront::cases
         highest = std::max(highest, temperature);
       };
       for(const Position &p : interior_points(scene.domain))
-        include(exact.has_front() ? scene.initial.temperature(p, scene.start_time)
-                                  : exact.temperature(p, scene.start_time));
+        if(exact.has_front())
+          include(scene.initial.temperature(p, scene.start_time));
+        else
+          for(int i = 0; i <= times_sampled; ++i)
+            include(exact.temperature(p, sampled_time(scene, i)));
       for(const Side side : scene.sides())
         if(scene.boundary(side).kind == BoundaryKind::fixed_temperature)
           for(const Position &p : wall_points(scene.domain, side))

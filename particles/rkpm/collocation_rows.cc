@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace meltfront::particles::rkpm
@@ -32,36 +31,18 @@ namespace meltfront::particles::rkpm
       return factors;
     }
 
-    void add_row(const ReproducingWeights &weights, std::size_t point,
-                 std::span<const double> factors, std::span<double> row)
+    void check(std::span<const double> row, std::size_t point)
     {
-      for(std::size_t j = 0; j < factors.size(); ++j)
-      {
-        if(factors[j] == 0)
-          continue;
-        const auto derivative = weights(static_cast<int>(j), point);
-        for(std::size_t i = 0; i < row.size(); ++i)
-          row[i] += factors[j] * derivative[i];
-      }
-    }
-
-    /** Divide a row by its largest entry. @return what the right side is multiplied by */
-    double normalise(std::span<double> row, std::size_t point)
-    {
-      double largest = 0;
-      bool finite = true;
+      bool finite = true, effective = false;
       for(const double entry : row)
       {
-        largest = std::max(largest, std::abs(entry));
         finite = finite && std::isfinite(entry);
+        effective = effective || entry != 0;
       }
-      if(!finite || largest == 0)
+      if(!finite || !effective)
         throw cases::NumericalError(
             "reproducing kernel collocation", 0, 0, fmt::format("row {}", point),
             finite ? "has no entry other than zero" : "is not finite");
-      for(double &entry : row)
-        entry /= largest;
-      return 1 / largest;
     }
   } // namespace
 
@@ -90,16 +71,26 @@ namespace meltfront::particles::rkpm
         0};
   }
 
-  void CompressedRows::apply(std::span<const double> values,
-                             std::span<double> result) const
+  void collect_row(const ReproducingWeights &weights, std::size_t point,
+                   const RowCoefficients &coefficients,
+                   std::vector<std::uint32_t> &columns, std::vector<double> &values)
   {
-    for(std::size_t row = 0; row < rows(); ++row)
+    const MonomialBasis derivatives(weights.dimension, 2);
+    const std::vector<double> factors = factors_of(coefficients, derivatives);
+    const std::span<const std::uint32_t> neighbours = weights.supports[point];
+    columns.insert(columns.end(), neighbours.begin(), neighbours.end());
+    values.resize(columns.size(), 0.);
+    const std::span<double> row(values.data() + values.size() - neighbours.size(),
+                                neighbours.size());
+    for(std::size_t j = 0; j < factors.size(); ++j)
     {
-      double sum = 0;
-      for(std::size_t e = offsets[row]; e < offsets[row + 1]; ++e)
-        sum += coefficients[e] * values[columns[e]];
-      result[row] = sum;
+      if(factors[j] == 0)
+        continue;
+      const std::span<const double> derivative = weights(static_cast<int>(j), point);
+      for(std::size_t i = 0; i < row.size(); ++i)
+        row[i] += factors[j] * derivative[i];
     }
+    check(row, point);
   }
 
   CompressedRows collocation_rows(const ReproducingWeights &weights,
@@ -115,16 +106,14 @@ namespace meltfront::particles::rkpm
       throw cases::InputError(
           "rows of an operator need the weights of derivatives up to order 2");
     CompressedRows rows;
-    rows.offsets = supports.offsets;
-    rows.columns = supports.neighbours;
-    rows.coefficients.assign(supports.neighbours.size(), 0);
-    rows.scale.resize(supports.rows());
+    std::vector<std::uint32_t> columns, scratch;
+    std::vector<double> values;
     for(std::size_t point = 0; point < supports.rows(); ++point)
     {
-      const std::span<double> row(rows.coefficients.data() + rows.offsets[point],
-                                  rows.offsets[point + 1] - rows.offsets[point]);
-      add_row(weights, point, factors_of(coefficients[point], derivatives), row);
-      rows.scale[point] = normalise(row, point);
+      columns.clear();
+      values.clear();
+      collect_row(weights, point, coefficients[point], columns, values);
+      rows.add_row(columns, values, scratch);
     }
     return rows;
   }

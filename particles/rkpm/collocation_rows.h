@@ -2,6 +2,7 @@
 #define meltfront_particles_rkpm_collocation_rows_h
 
 #include <particles/rkpm/reproducing_weights.h>
+#include <particles/scattered/compressed_rows.h>
 
 #include <array>
 #include <cstdint>
@@ -33,28 +34,20 @@ namespace meltfront::particles::rkpm
   RowCoefficients robin_row(double conductivity, double transfer,
                             const std::array<double, 3> &normal);
 
-  /** A sparse matrix in compressed rows, each divided by its largest entry. */
-  struct CompressedRows
-  {
-    std::vector<std::size_t> offsets;   ///< of each row's first entry; rows + 1 of them
-    std::vector<std::uint32_t> columns; ///< ascending in each row
-    std::vector<double> coefficients;   ///< the largest of a row has magnitude 1
-    std::vector<double> scale;          ///< by which a row's right side is multiplied
-
-    std::size_t rows() const
-    {
-      return scale.size();
-    }
-
-    /** result = matrix * values, of the scaled rows. */
-    void apply(std::span<const double> values, std::span<double> result) const;
-  };
+  /**
+   * Append the entries of a row at a point: numbers of its neighbours, and what each
+   * contributes.
+   * @throws cases::NumericalError if the row has no effect or is not finite.
+   */
+  void collect_row(const ReproducingWeights &weights, std::size_t point,
+                   const RowCoefficients &coefficients,
+                   std::vector<std::uint32_t> &columns, std::vector<double> &values);
 
   /**
    * One row for each point of the weights.
    * @throws cases::InputError if there is not one set of coefficients for each point, or
    *         if second derivatives are wanted whose weights were not computed.
-   * @throws cases::NumericalError if a row is empty of effect or not finite.
+   * @throws cases::NumericalError as collect_row() does.
    */
   CompressedRows collocation_rows(const ReproducingWeights &weights,
                                   std::span<const RowCoefficients> coefficients);

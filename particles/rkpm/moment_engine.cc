@@ -115,12 +115,14 @@ namespace meltfront::particles::rkpm
           weight[i] *= power(dilation / dilations[neighbours[i]], how.dimension);
     }
     std::size_t positive = 0;
+    double total = 0;
     for(std::size_t i = 0; i < count; ++i)
     {
       root[i] = std::sqrt(weight[i]);
       positive += weight[i] > 0;
+      total += q[i];
     }
-    return positive;
+    return std::isfinite(total) ? positive : 0;
   }
 
   void MomentEngine::fill_basis(const std::array<double, 3> &point, double dilation)

@@ -57,7 +57,7 @@ namespace meltfront::particles::rkpm
      *        kernel is differentiated, and scales the basis
      * @param dilations radius of each particle (m), for `multiple_fixed` only
      * @return false where the neighbours do not determine the polynomial (fewer than
-     *         basis functions, or a deficient rank): no weights then
+     *         basis functions, a deficient rank, a place that is not finite): no weights
      */
     bool evaluate(const std::array<double, 3> &point, const ParticleStorage &particles,
                   std::span<const std::uint32_t> neighbours, double dilation,

@@ -50,8 +50,9 @@ namespace meltfront::particles::rkpm
         for(std::vector<std::size_t> deficient = evaluate(); !deficient.empty();
             deficient = evaluate())
         {
+          const std::vector<int> before = result.enlargements;
           for(const std::size_t point : deficient)
-            widen_or_lower(point);
+            widen_or_lower(point, before[point]);
           find();
         }
         record();
@@ -105,12 +106,13 @@ namespace meltfront::particles::rkpm
         return deficient;
       }
 
-      void widen_or_lower(std::size_t point)
+      /** @param enlarged how often the support had been enlarged before this round */
+      void widen_or_lower(std::size_t point, int enlarged)
       {
-        if(can_widen(point))
+        if(can_widen(enlarged))
         {
-          const int next = result.enlargements[point] + 1;
-          result.enlargements[point] = next;
+          const int next = enlarged + 1;
+          result.enlargements[point] = std::max(result.enlargements[point], next);
           if(scatters()) // whom a point sees is decided by its neighbours' dilations
             for(const std::uint32_t neighbour : gathered[point])
               result.enlargements[neighbour]
@@ -127,16 +129,15 @@ namespace meltfront::particles::rkpm
         }
       }
 
-      bool can_widen(std::size_t point) const
+      bool can_widen(int enlarged) const
       {
-        if(result.enlargements[point] >= most_enlargements)
+        if(enlarged >= most_enlargements)
           return false;
         if(support_settings.rule == SupportRule::fixed_dilation)
           return true;
         const int number = support_settings.neighbours > 0 ? support_settings.neighbours
                                                            : 2 * basis_size;
-        const std::size_t wanted
-            = number + (result.enlargements[point] + 1) * ((basis_size + 1) / 2);
+        const std::size_t wanted = number + (enlarged + 1) * ((basis_size + 1) / 2);
         return wanted < particles.size();
       }
 

@@ -1,8 +1,10 @@
 #include <cases/error.h>
 #include <particles/rkpm/rkpm_parameters.h>
+#include <particles/rkpm/stability_symbol.h>
 #include <particles/scattered/linear_problem.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace meltfront::particles::rkpm
 {
@@ -15,6 +17,35 @@ namespace meltfront::particles::rkpm
       std::erase_if(names,
                     [](const std::string &name) { return name.ends_with("_line"); });
       return names;
+    }
+
+    /** Dilation over spacing that n nearest neighbours have inside a cubic lattice, the
+     * node itself counted: the distance of the next one. */
+    double lattice_alpha(int dimension, int neighbours)
+    {
+      constexpr int reach = 8;
+      std::vector<int> squared;
+      const auto range = [dimension](int d) { return d < dimension ? reach : 0; };
+      for(int i = -range(0); i <= range(0); ++i)
+        for(int j = -range(1); j <= range(1); ++j)
+          for(int k = -range(2); k <= range(2); ++k)
+            squared.push_back(i * i + j * j + k * k);
+      std::ranges::sort(squared);
+      const std::size_t next
+          = std::min(static_cast<std::size_t>(neighbours), squared.size() - 1);
+      return std::sqrt(double(squared[next]));
+    }
+
+    /** Twice as many as basis functions, or the most below that without a spurious mode;
+     * twice as many again where all have one. */
+    int default_neighbours(const MomentSettings &moments)
+    {
+      const int functions = MonomialBasis(moments.dimension, moments.order).size();
+      for(int n = 2 * functions; n > functions; --n)
+        if(stability_ratio(moments, lattice_alpha(moments.dimension, n))
+           >= least_stable_ratio)
+          return n;
+      return 2 * functions;
     }
 
     /** A support wide enough for a boundary, that a spurious mode does not yet enter. */
@@ -61,7 +92,7 @@ namespace meltfront::particles::rkpm
          std::vector<std::string>{"nearest", "dilation"}},
         {"neighbours", "1", 0L,
          "Neighbours of a nearest support, the node itself counted; 0: twice the number "
-         "of basis functions.",
+         "of basis functions, or fewer where that has a spurious mode.",
          0, 1000},
         {"dilation", "1", 0.,
          "Radius of a fixed support over the spacing; 0: basis_order + 0.5.", 0, 20},
@@ -111,9 +142,18 @@ namespace meltfront::particles::rkpm
                         ? SupportRule::nearest_neighbours
                         : SupportRule::fixed_dilation;
     supports.neighbours = static_cast<int>(options.get_integer("neighbours"));
-    supports.alpha = options.get_double("dilation");
-    if(supports.alpha == 0)
-      supports.alpha = default_alpha(moments.order);
+    if(supports.rule == SupportRule::nearest_neighbours)
+    {
+      if(supports.neighbours == 0)
+        supports.neighbours = default_neighbours(moments);
+      supports.alpha = lattice_alpha(dimension, supports.neighbours);
+    }
+    else
+    {
+      supports.alpha = options.get_double("dilation");
+      if(supports.alpha == 0)
+        supports.alpha = default_alpha(moments.order);
+    }
     result.unknowns = options.get_string("unknowns") == "nodal" ? Unknowns::nodal
                                                                 : Unknowns::reconstructed;
     result.refuse_unstable = options.get_string("stability") == "refuse";

@@ -32,7 +32,7 @@ namespace meltfront::particles::rkpm
   struct RkpmParameters
   {
     MomentSettings moments;
-    SupportSettings supports;
+    SupportSettings supports; ///< alpha is that inside of a lattice
     Unknowns unknowns = Unknowns::nodal;
     bool refuse_unstable = true; ///< else the spurious mode is reported only
     bool flux_row_as_printed = false;

@@ -87,7 +87,7 @@ namespace meltfront::particles::rkpm
 
   double RkpmProblem::checked_symbol() const
   {
-    const double alpha = mean_dilation() / nodes.spacing;
+    const double alpha = parameters.supports.alpha;
     const double ratio = stability_ratio(parameters.moments, alpha);
     if(parameters.refuse_unstable && ratio < least_stable_ratio)
       require_stability(parameters.moments, alpha);
@@ -132,31 +132,11 @@ namespace meltfront::particles::rkpm
   void RkpmProblem::collect(const Part &part, std::size_t node,
                             const RowCoefficients &coefficients)
   {
-    const int dimension = nodes.positions.dimension;
-    const MonomialBasis derivatives(dimension, 2);
-    const auto row = static_cast<std::size_t>(part.row_of[node]);
-    const std::span<const std::uint32_t> neighbours = part.weights.supports[row];
     const std::size_t first = row_columns.size();
-    for(const std::uint32_t neighbour : neighbours)
-      row_columns.push_back(part.nodes[neighbour]);
-    row_values.resize(row_columns.size(), 0.);
-    const auto add = [&](int derivative, double factor)
-    {
-      if(factor == 0)
-        return;
-      const std::span<const double> weights = part.weights(derivative, row);
-      for(std::size_t k = 0; k < weights.size(); ++k)
-        row_values[first + k] += factor * weights[k];
-    };
-    add(0, coefficients.value);
-    for(int d = 0; d < dimension; ++d)
-    {
-      MultiIndex once{}, twice{};
-      once[d] = 1;
-      twice[d] = 2;
-      add(derivatives.find(once), coefficients.gradient[d]);
-      add(derivatives.find(twice), coefficients.laplacian);
-    }
+    collect_row(part.weights, static_cast<std::size_t>(part.row_of[node]), coefficients,
+                row_columns, row_values);
+    for(std::size_t entry = first; entry < row_columns.size(); ++entry)
+      row_columns[entry] = part.nodes[row_columns[entry]];
   }
 
   void RkpmProblem::finish_row(CompressedRows &rows)

@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_rkpm_rkpm_problem_h
 #define meltfront_particles_rkpm_rkpm_problem_h
 
-#include <particles/rkpm/reproducing_weights.h>
+#include <particles/rkpm/collocation_rows.h>
 #include <particles/rkpm/rkpm_parameters.h>
 #include <particles/scattered/linear_problem.h>
 #include <particles/scattered/node_set.h>
@@ -60,15 +60,6 @@ namespace meltfront::particles::rkpm
       std::vector<std::uint32_t> nodes;
       std::vector<std::int32_t> row_of; ///< of each node of all; -1: not in this part
       ReproducingWeights weights;
-    };
-
-    /** A differential operator at a node: value u + gradient . grad u + laplacian lap u.
-     */
-    struct RowCoefficients
-    {
-      double value = 0;
-      std::array<double, 3> gradient{};
-      double laplacian = 0;
     };
 
     Part make_part(Region excluded) const;

@@ -52,7 +52,8 @@ namespace meltfront::particles::rkpm
         }
       }
 
-      /** -S(theta) / sum (2 - 2 cos theta_i). */
+      /** -S(theta) / sum (2 - 2 cos theta_i). The weights sum to zero, and
+       * 1 - cos = 2 sin^2 of the half angle loses no digits for long waves. */
       double ratio(const Angles &theta) const
       {
         double sum = 0, reference = 0;
@@ -61,11 +62,15 @@ namespace meltfront::particles::rkpm
           double phase = 0;
           for(int d = 0; d < dimension; ++d)
             phase += theta[d] * points.position[d][i];
-          sum += laplacian[i] * std::cos(phase);
+          const double sine = std::sin(phase / 2);
+          sum += 2 * laplacian[i] * sine * sine;
         }
         for(int d = 0; d < dimension; ++d)
-          reference += 2 - 2 * std::cos(theta[d]);
-        return -sum / reference;
+        {
+          const double sine = std::sin(theta[d] / 2);
+          reference += 4 * sine * sine;
+        }
+        return sum / reference;
       }
 
       int dimension;
@@ -140,7 +145,8 @@ namespace meltfront::particles::rkpm
                               : std::numeric_limits<double>::quiet_NaN();
   }
 
-  double largest_stable_alpha(const MomentSettings &settings, double first, double step)
+  double largest_stable_alpha(const MomentSettings &settings, double first, double step,
+                              double least)
   {
     if(!(step > 0 && first > 0))
       throw cases::InputError("the search for a stable alpha starts at and steps by "
@@ -153,7 +159,7 @@ namespace meltfront::particles::rkpm
       const double ratio = stability_ratio(settings, alpha);
       if(std::isnan(ratio))
         continue;
-      if(ratio < least_stable_ratio)
+      if(ratio < least)
         break;
       stable = alpha;
     }

@@ -30,12 +30,13 @@ namespace meltfront::particles::rkpm
   double stability_ratio(const MomentSettings &settings, double alpha);
 
   /**
-   * The largest alpha, in steps from `first`, up to which r >= 0.05 without an
+   * The largest alpha, in steps from `first`, up to which r >= `least` without an
    * exception; values at which the neighbours do not determine the polynomial are passed
    * over. Zero if the first that does is unstable. The search ends at alpha = 8 (5 in
    * 3D).
    */
-  double largest_stable_alpha(const MomentSettings &settings, double first, double step);
+  double largest_stable_alpha(const MomentSettings &settings, double first, double step,
+                              double least = least_stable_ratio);
 
   /** What the test says of one alpha. */
   struct StabilityVerdict

@@ -20,9 +20,9 @@ namespace meltfront::reference_fem
   cases::TemperatureBounds AlloySolver::bounds(cases::TemperatureBounds of_scene) const
   {
     if(diffusion)
-      for(const double fall : depression)
+      for(const Composition &node : composition)
         of_scene.lower = std::min(of_scene.lower, scene.material.melting_temperature
-                                                      + graph.liquidus(fall));
+                                                      + graph.liquidus(node));
     return of_scene;
   }
 

@@ -61,20 +61,17 @@ namespace meltfront::reference_fem
     , free(free)
     , graph(scene.material, *scene.alloy)
     , density(scene.material.solid.density)
-    , depression(mesh.volume.size())
+    , composition(mesh.volume.size())
   {
     const std::size_t n = mesh.volume.size();
-    if(!cases::PhaseDiagram(scene.material, *scene.alloy).straight())
-      throw cases::Refusal("fem-enthalpy simulates alloys with straight liquidus lines "
-                           "only");
     if(!(scene.material.latent_heat > 0))
       throw cases::Refusal("fem-enthalpy simulates solutes only together with the latent "
                            "heat of their solvent");
     {
       const cases::ScopedTimer timer(solute_cost.seconds);
       place_solutes();
-      mix_depression();
-      solute_cost.bytes = bytes_of(depression);
+      mix();
+      solute_cost.bytes = bytes_of(composition);
       for(const Substance &substance : substances)
         solute_cost.bytes
             += bytes_of(substance.now) + bytes_of(substance.before)
@@ -82,7 +79,7 @@ namespace meltfront::reference_fem
                + static_cast<long>(mesh.node_of_site.size() * sizeof(double));
     }
     if(effects.contains(Effect::phase_conductivity))
-      conduction.emplace(mesh.conduction, scene.material, *scene.alloy, depression);
+      conduction.emplace(mesh.conduction, scene.material, *scene.alloy, composition);
     if(std::any_of(substances.begin(), substances.end(),
                    [](const Substance &s) { return s.diffuses(); }))
     {
@@ -100,7 +97,7 @@ namespace meltfront::reference_fem
     }
     linear_solver = make_linear_solver(conduction_matrix());
     newton = std::make_unique<MushNewton>(
-        StepProblem{conduction_matrix(), mesh.volume, free}, graph, depression,
+        StepProblem{conduction_matrix(), mesh.volume, free}, graph, composition,
         *linear_solver);
   }
 
@@ -113,8 +110,8 @@ namespace meltfront::reference_fem
       if(!cases::initially_present(scene, s))
         continue;
       const cases::Solute &solute = alloy.solutes[s];
-      substances.push_back(
-          {s, solute.liquidus_slope, solute.diffusivity, {}, {}, {}, 0, {}});
+      const double weight = graph.straight() ? solute.liquidus_slope : 1;
+      substances.push_back({s, weight, solute.diffusivity, {}, {}, {}, 0, {}});
       Substance &substance = substances.back();
       for(const cases::Position &position : mesh.positions)
       {
@@ -138,14 +135,19 @@ namespace meltfront::reference_fem
            * sum_over(mesh.volume, [&](std::size_t i) { return substance.now[i]; });
   }
 
-  void AlloySolver::mix_depression()
+  void AlloySolver::mix()
   {
-    std::fill(depression.begin(), depression.end(), 0.);
-    for(const Substance &substance : substances)
-      for(std::size_t i = 0; i < depression.size(); ++i)
-        depression[i] += substance.slope * std::max(substance.in_use()[i], 0.);
-    for(double &fall : depression)
-      fall = fall < least_depression ? 0 : fall;
+    for(std::size_t i = 0; i < composition.size(); ++i)
+    {
+      double solute = 0;
+      for(const Substance &substance : substances)
+        solute += substance.weight * std::max(substance.in_use()[i], 0.);
+      if(solute == composition[i].solute)
+        continue;
+      composition[i] = graph.composition(solute);
+      if(composition[i].depression < least_depression)
+        composition[i] = {0, 0};
+    }
   }
 
   std::vector<double> AlloySolver::initial_enthalpy() const
@@ -156,8 +158,8 @@ namespace meltfront::reference_fem
       const double excess = scene.initial.temperature(mesh.positions[i], scene.start_time)
                             - scene.material.melting_temperature;
       const double solid = graph.lower_enthalpy(excess);
-      result[i] = graph.enthalpy(excess, depression[i]);
-      if(graph.region(excess, depression[i]) == MushRegion::held)
+      result[i] = graph.enthalpy(excess, composition[i]);
+      if(graph.region(excess, composition[i]) == MushRegion::held)
         result[i] += scene.initial.solid_fraction_at_melting * (solid - result[i]);
     }
     return result;
@@ -176,15 +178,15 @@ namespace meltfront::reference_fem
 
   double AlloySolver::enthalpy_at(std::size_t node, double excess, double last) const
   {
-    const double upper = graph.enthalpy(excess, depression[node]);
-    if(graph.region(excess, depression[node]) != MushRegion::held)
+    const double upper = graph.enthalpy(excess, composition[node]);
+    if(graph.region(excess, composition[node]) != MushRegion::held)
       return upper;
     return std::clamp(last, graph.lower_enthalpy(excess), upper);
   }
 
   cases::PhaseState AlloySolver::state(std::size_t node, double enthalpy) const
   {
-    cases::PhaseState result = graph.state(enthalpy, depression[node]);
+    cases::PhaseState result = graph.state(enthalpy, composition[node]);
     result.temperature += scene.material.melting_temperature;
     return result;
   }
@@ -196,7 +198,7 @@ namespace meltfront::reference_fem
     {
       const double enthalpy = free[i] ? heat[i] / mesh.volume[i]
                                       : enthalpy_at(i, u[i], (*last_enthalpy)[i]);
-      const double f = graph.state(enthalpy, depression[i]).liquid_fraction;
+      const double f = graph.state(enthalpy, composition[i]).liquid_fraction;
       liquid[i] = f > least_liquid ? f : 0;
     }
   }
@@ -214,17 +216,17 @@ namespace meltfront::reference_fem
     return change;
   }
 
-  void AlloySolver::gather(Eigen::VectorXd &depressions) const
+  void AlloySolver::gather(Eigen::VectorXd &amounts) const
   {
     Eigen::Index k = 0;
     for(const Substance &substance : substances)
       if(substance.diffuses())
         for(const double value : substance.next)
-          depressions[k++] = substance.slope * value;
+          amounts[k++] = substance.weight * value;
   }
 
   /** Solute spreads in the liquid that there is; returns the largest change that it makes
-   * to a solute's depression, over the largest depression. */
+   * to a solute, over the largest amount of solute. */
   double AlloySolver::diffuse(double c)
   {
     gather(used);
@@ -240,14 +242,16 @@ namespace meltfront::reference_fem
             = substance.now[i]
               + step.weight_before * (substance.before[i] - substance.now[i]);
         supply[i] = density * mesh.volume[i] * start;
-        const double whole = graph.eutectic_liquid_fraction(depression[i]);
+        const double whole = graph.eutectic_liquid_fraction(composition[i]);
         fixed[i] = liquid[i] < whole ? substance.next[i] * (1 - liquid[i] / whole) : 0;
       }
       diffusion->step(c, substance.diffusivity, supply, fixed, substance.next);
     }
     gather(found);
-    mix_depression();
-    const double largest = *std::max_element(depression.begin(), depression.end());
+    mix();
+    double largest = 0;
+    for(const Composition &node : composition)
+      largest = std::max(largest, node.solute);
     return largest > 0 ? (found - used).lpNorm<Eigen::Infinity>() / largest : 0;
   }
 
@@ -260,10 +264,20 @@ namespace meltfront::reference_fem
       if(substance.diffuses())
         for(double &value : substance.next)
         {
-          value += substance.slope > 0 ? (used[k] - found[k]) / substance.slope : 0;
+          value += substance.weight > 0 ? (used[k] - found[k]) / substance.weight : 0;
           ++k;
         }
-    mix_depression();
+    mix();
+  }
+
+  void AlloySolver::check_known(const CompensatedVector &u) const
+  {
+    for(std::size_t i = 0; i < u.size(); ++i)
+      if(!graph.known(u[i], composition[i]))
+        throw cases::InputError(fmt::format("the mush is {:.6g}, colder than the "
+                                            "liquidus is known: extend the liquidus or "
+                                            "state the eutectic temperature",
+                                            scene.material.melting_temperature + u[i]));
   }
 
   StepOutcome AlloySolver::solve(double c, const std::vector<double> &rhs,
@@ -273,7 +287,7 @@ namespace meltfront::reference_fem
     StepOutcome result;
     if(diffusion)
     {
-      mix_depression();
+      mix();
       mixing->restart();
     }
     if(conduction)
@@ -300,6 +314,8 @@ namespace meltfront::reference_fem
       result.converged = change <= coupling_tolerance;
       result.coupling_defect = change;
     }
+    if(result.converged)
+      check_known(u);
     return result;
   }
 

@@ -34,8 +34,8 @@ namespace meltfront::reference_fem
                 const Discretization &mesh, const std::vector<char> &free,
                 const LinearSolverMaker &make_linear_solver);
 
-    /** Largest change by a pass (of conductivities over themselves, of the liquidus'
-     * depression over its largest) at which a step is coupled. */
+    /** Largest change by a pass (of conductivities over themselves, of solute
+     * over the largest) at which a step is coupled. */
     static constexpr double coupling_tolerance = 1e-10;
 
     /** Enthalpy per volume (J/m^3) of the nodes at the start: point values. */
@@ -44,6 +44,7 @@ namespace meltfront::reference_fem
     /** To be called before a step is solved. @param enthalpy of the last step (J/m^3) */
     void begin(const StepFormula &step, const std::vector<double> &enthalpy);
 
+    /** @throws cases::InputError for mush colder than the liquidus is known */
     StepOutcome solve(double c, const std::vector<double> &rhs, int iteration_limit,
                       CompensatedVector &u, std::vector<double> &heat) override;
 
@@ -65,7 +66,7 @@ namespace meltfront::reference_fem
 
     double kirchhoff_at_enthalpy(std::size_t node, double enthalpy) const override
     {
-      return graph.excess_at_enthalpy(enthalpy, depression[node]);
+      return graph.excess_at_enthalpy(enthalpy, composition[node]);
     }
 
     /** Enthalpy (J/m^3) of a node at a prescribed t; on a jump, the nearest to the last.
@@ -108,7 +109,7 @@ namespace meltfront::reference_fem
     struct Substance
     {
       std::size_t index; ///< in the alloy
-      double slope;      ///< of the liquidus (K)
+      double weight;     ///< of C in what a Liquidus measures
       double diffusivity;
       std::vector<double> now;          ///< C by node
       std::vector<double> before, next; ///< the same, empty if it does not diffuse
@@ -126,11 +127,12 @@ namespace meltfront::reference_fem
     };
 
     void place_solutes();
-    void mix_depression();
+    void mix();
     double renew_conduction(const CompensatedVector &u, bool first);
     double diffuse(double c);
-    void gather(Eigen::VectorXd &depressions) const;
+    void gather(Eigen::VectorXd &amounts) const;
     void accelerate();
+    void check_known(const CompensatedVector &u) const;
     void melt(const CompensatedVector &u, const std::vector<double> &heat);
     double mass_of(const Substance &substance) const;
 
@@ -140,13 +142,14 @@ namespace meltfront::reference_fem
     MushGraph graph;
     double density;
     std::vector<Substance> substances;
-    std::vector<double> depression;           ///< by node, of the composition in use (K)
+    std::vector<Composition> composition;     ///< by node, in use
     std::optional<MushConduction> conduction; ///< where the phases conduct differently
     std::optional<SoluteDiffusion> diffusion;
     std::vector<double> liquid;        ///< mass fraction by node, where solute diffuses
     std::vector<double> supply, fixed; ///< work space of diffusion
     std::optional<AndersonMixing> mixing;
-    Eigen::VectorXd used, found; ///< by a pass: slope times C of the solutes that diffuse
+    Eigen::VectorXd used,
+        found; ///< by a pass: weight times C of the solutes that diffuse
     std::unique_ptr<LinearSolver> linear_solver;
     std::unique_ptr<MushNewton> newton;
     StepFormula step;

@@ -9,7 +9,8 @@ namespace meltfront::reference_fem
 {
   MushConductivity::MushConductivity(const cases::Material &material,
                                      const cases::Alloy &alloy)
-    : solid(material.solid.conductivity)
+    : line(alloy)
+    , solid(material.solid.conductivity)
     , liquid(material.liquid.conductivity)
     , expansion(
           alloy.crystal_density > 0 ? material.liquid.density / alloy.crystal_density : 1)
@@ -17,39 +18,53 @@ namespace meltfront::reference_fem
   {
   }
 
-  double MushConductivity::mean(double a, double b, double depression) const
+  /** t below which crystals lighter than the liquid fill all the space. */
+  double MushConductivity::full_excess(const Composition &node) const
+  {
+    return expansion > 1 ? -line.depression(node.solute / (1 - 1 / expansion))
+                         : -std::numeric_limits<double>::infinity();
+  }
+
+  /** Integral of the liquid fraction over a span of temperatures of mush. */
+  double MushConductivity::molten(double low, double span, const Composition &node) const
+  {
+    return line.straight() ? -node.depression * std::log1p(span / low)
+                           : node.solute * span * line.mean_dilution(-low - span, -low);
+  }
+
+  double MushConductivity::mean(double a, double b, const Composition &node) const
   {
     const auto [low, high] = std::minmax(a, b);
-    const double liquidus = std::max(-depression, eutectic);
+    const double liquidus = std::max(-node.depression, eutectic);
     if(low >= liquidus)
       return liquid;
-    // Where the rest freezes, or crystals lighter than the liquid fill the space, the
-    // solid's share no longer grows.
-    const double full = expansion > 1 ? -depression / (1 - 1 / expansion)
-                                      : -std::numeric_limits<double>::infinity();
-    const double floor
-        = depression > 0 ? std::min(std::max(eutectic, full), liquidus) : liquidus;
+    // Where the rest freezes, or crystals fill the space, the solid's share no longer
+    // grows.
+    const double floor = node.depression > 0
+                             ? std::min(std::max(eutectic, full_excess(node)), liquidus)
+                             : liquidus;
     const double most = std::min(expansion, 1.);
     if(low == high)
     {
-      const double share = low < floor ? most : expansion * (1 + depression / low);
+      const double share
+          = low < floor ? most : expansion * (1 - node.solute / line.solute_at(-low));
       return liquid + share * (solid - liquid);
     }
     double share = most * std::max(std::min(high, floor) - low, 0.);
     const double mush_low = std::max(low, floor);
     const double mush = std::min(high, liquidus) - mush_low;
     if(mush > 0)
-      share += expansion * (mush + depression * std::log1p(mush / mush_low));
+      share += expansion * (mush - molten(mush_low, mush, node));
     return liquid + share / (high - low) * (solid - liquid);
   }
 
   MushConduction::MushConduction(const ConductionMatrix &unit,
                                  const cases::Material &material,
                                  const cases::Alloy &alloy,
-                                 const std::vector<double> &depression)
+                                 const std::vector<Composition> &composition)
     : unit(unit)
     , conductivity(material, alloy)
-    , depression(depression)
+    , composition(composition)
     , mixed(unit)
     , renewed(unit.conductance.size())
   {
@@ -63,10 +78,10 @@ namespace meltfront::reference_fem
       {
         const std::size_t j = unit.column[k];
         // In the same order from both sides: both rows hold the same bits.
-        const double here = depression[std::min(i, j)],
-                     there = depression[std::max(i, j)];
+        const Composition &here = composition[std::min(i, j)],
+                          &there = composition[std::max(i, j)];
         double mean = conductivity.mean(excess[i], excess[j], here);
-        if(there != here)
+        if(there.solute != here.solute)
           mean = (mean + conductivity.mean(excess[i], excess[j], there)) / 2;
         renewed[k] = mean * unit.conductance[k];
         change = std::max(change, std::abs(renewed[k] - mixed.conductance[k])

@@ -4,16 +4,19 @@
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/compensated_vector.h>
 #include <reference_fem/enthalpy/conduction_matrix.h>
+#include <reference_fem/enthalpy/liquidus.h>
 
 #include <vector>
 
 namespace meltfront::reference_fem
 {
   /**
-   * Conductivity of an alloy with straight liquidus in local equilibrium, as a function
-   * of t = T - T_m (K) and of the depression P (see MushGraph),
+   * Conductivity of an alloy in local equilibrium, as a function of t = T - T_m (K) and
+   * of the composition (see MushGraph),
    *
-   *   k = k_l + (k_s - k_l) min(1, r (1 + P/t))   (mush; r = rho / rho_crystal).
+   *   k = k_l + (k_s - k_l) min(1, r (1 - X/y(-t)))   (mush; r = rho / rho_crystal),
+   *
+   * r (1 + P/t) where the liquidus is straight.
    */
   class MushConductivity
   {
@@ -22,9 +25,13 @@ namespace meltfront::reference_fem
 
     /** Mean of k over the temperatures between two t, k itself where they are the same
      * (W/(m K)). */
-    double mean(double a, double b, double depression) const;
+    double mean(double a, double b, const Composition &node) const;
 
   private:
+    double full_excess(const Composition &node) const;
+    double molten(double low, double span, const Composition &node) const;
+
+    Liquidus line;
     double solid, liquid;
     double expansion; ///< rho / rho_crystal
     double eutectic;  ///< T_E - T_m (K)
@@ -41,7 +48,8 @@ namespace meltfront::reference_fem
   {
   public:
     MushConduction(const ConductionMatrix &unit, const cases::Material &material,
-                   const cases::Alloy &alloy, const std::vector<double> &depression);
+                   const cases::Alloy &alloy,
+                   const std::vector<Composition> &composition);
 
     const ConductionMatrix &matrix() const
     {
@@ -58,7 +66,7 @@ namespace meltfront::reference_fem
   private:
     const ConductionMatrix &unit;
     MushConductivity conductivity;
-    const std::vector<double> &depression; ///< by node (K)
+    const std::vector<Composition> &composition; ///< by node
     ConductionMatrix mixed;
     std::vector<double> renewed; ///< conductances
   };

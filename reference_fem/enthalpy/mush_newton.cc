@@ -18,11 +18,11 @@ namespace meltfront::reference_fem
   } // namespace
 
   MushNewton::MushNewton(const StepProblem &problem, const MushGraph &graph,
-                         const std::vector<double> &depression,
+                         const std::vector<Composition> &composition,
                          LinearSolver &linear_solver)
     : problem(problem)
     , graph(graph)
-    , depression(depression)
+    , composition(composition)
     , linear_solver(linear_solver)
     , active(problem.free)
     , heat_capacity(problem.free.size())
@@ -52,13 +52,13 @@ namespace meltfront::reference_fem
       if(!problem.free[i])
         continue;
       const double recovered
-          = graph.excess_at_enthalpy(heat[i] / problem.volume[i], depression[i]);
+          = graph.excess_at_enthalpy(heat[i] / problem.volume[i], composition[i]);
       const double off = std::abs(u[i] - recovered);
       if(off > distance || std::isnan(off))
         distance = off;
       settled = settled
-                && graph.region(u[i], depression[i])
-                       == graph.region(recovered, depression[i]);
+                && graph.region(u[i], composition[i])
+                       == graph.region(recovered, composition[i]);
     }
     largest = std::max({largest, scale, round_off_share * graph.latent_temperature()});
     return {largest > 0 ? distance / largest : distance, largest, settled};
@@ -72,8 +72,8 @@ namespace meltfront::reference_fem
     const double before = u[i];
     u.set(i,
           graph.resolve(rhs[i] + c * problem.conduction.inflow(i, u) + stiffness * before,
-                        problem.volume[i], stiffness, depression[i]));
-    return graph.region(u[i], depression[i]) != graph.region(before, depression[i]);
+                        problem.volume[i], stiffness, composition[i]));
+    return graph.region(u[i], composition[i]) != graph.region(before, composition[i]);
   }
 
   /** A symmetric sweep; true if a node moved to another region. */
@@ -102,13 +102,13 @@ namespace meltfront::reference_fem
     {
       if(!problem.free[i])
         continue;
-      active[i] = graph.region(u[i], depression[i]) != MushRegion::held;
+      active[i] = graph.region(u[i], composition[i]) != MushRegion::held;
       residual[i] = 0;
       if(!active[i])
         continue;
       const double volume = problem.volume[i];
-      heat_capacity[i] = volume * graph.slope(u[i], depression[i]);
-      residual[i] = heat[i] - volume * graph.enthalpy(u[i], depression[i]);
+      heat_capacity[i] = volume * graph.slope(u[i], composition[i]);
+      residual[i] = heat[i] - volume * graph.enthalpy(u[i], composition[i]);
       heat_per_kelvin += square(heat_capacity[i]);
       ++nodes;
     }
@@ -121,7 +121,7 @@ namespace meltfront::reference_fem
   {
     for(std::size_t i = 0; i < u.size(); ++i)
     {
-      const double step = graph.jump(depression[i]);
+      const double step = graph.jump(composition[i]);
       if(active[i] && (u[i] - step) * (u[i] + direction[i] - step) < 0)
         direction[i] = step - u[i];
     }
@@ -132,7 +132,7 @@ namespace meltfront::reference_fem
   double MushNewton::moved(std::size_t i, double length, const CompensatedVector &u) const
   {
     constexpr double round_off = 4e-16;
-    const double step = graph.jump(depression[i]), there = u[i] + length * direction[i];
+    const double step = graph.jump(composition[i]), there = u[i] + length * direction[i];
     return std::abs(there - step) < round_off * std::abs(step) ? step : there;
   }
 
@@ -149,9 +149,9 @@ namespace meltfront::reference_fem
       // On a jump, the end that the direction comes from.
       const double there = moved(i, length, u);
       const bool from_below
-          = d > 0 && graph.region(there, depression[i]) == MushRegion::held;
+          = d > 0 && graph.region(there, composition[i]) == MushRegion::held;
       const double enthalpy = from_below ? graph.lower_enthalpy(there)
-                                         : graph.enthalpy(there, depression[i]);
+                                         : graph.enthalpy(there, composition[i]);
       derivative += d * (problem.volume[i] * enthalpy - heat[i]);
     }
     return derivative;
@@ -209,7 +209,7 @@ namespace meltfront::reference_fem
       if(!active[i])
         continue;
       const double there = moved(i, length, u);
-      if(there == graph.jump(depression[i]))
+      if(there == graph.jump(composition[i]))
         u.set(i, there);
       else
         u.add(i, length * direction[i]);

@@ -27,7 +27,7 @@ namespace meltfront::reference_fem
   {
   public:
     MushNewton(const StepProblem &problem, const MushGraph &graph,
-               const std::vector<double> &depression, LinearSolver &linear_solver);
+               const std::vector<Composition> &composition, LinearSolver &linear_solver);
 
     /** As NonlinearSolver::solve, u being t (K). */
     StepOutcome solve(double c, const std::vector<double> &rhs, int iteration_limit,
@@ -70,7 +70,7 @@ namespace meltfront::reference_fem
 
     StepProblem problem;
     const MushGraph &graph;
-    const std::vector<double> &depression; ///< by node (K)
+    const std::vector<Composition> &composition; ///< by node
     LinearSolver &linear_solver;
     std::vector<char> active;
     std::vector<double> heat_capacity, residual, direction;

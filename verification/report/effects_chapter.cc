@@ -1,3 +1,4 @@
+#include <verification/matrix/label.h>
 #include <verification/report/chapters.h>
 #include <verification/report/table.h>
 
@@ -69,13 +70,15 @@ namespace meltfront::verification
       return name;
     }
 
-    /** True for a method as it is; for variants only where there is nothing else. */
-    bool plain_label(const CaseRuns &runs, const LabelRuns &label)
+    /** One label for each method: that without options, else the method's first. */
+    bool stands_for_method(const CaseRuns &runs, const LabelRuns &label)
     {
-      const auto is_plain = [](const LabelRuns &candidate)
-      { return candidate.label.find('[') == std::string::npos; };
-      return is_plain(label)
-             || std::none_of(runs.labels.begin(), runs.labels.end(), is_plain);
+      const std::string method = method_of(label.label);
+      const LabelRuns *chosen = nullptr;
+      for(const LabelRuns &candidate : runs.labels)
+        if(method_of(candidate.label) == method && (!chosen || candidate.label == method))
+          chosen = &candidate;
+      return chosen == &label;
     }
 
     Markup effect_cell(const CaseRuns &runs, const cases::EffectDecision *decision)
@@ -87,7 +90,7 @@ namespace meltfront::verification
                        text("off"));
       Markup content = badge("good", "on");
       for(const LabelRuns &label : runs.labels)
-        if(const RunRecord *run = label.finest(); run && plain_label(runs, label))
+        if(const RunRecord *run = label.finest(); run && stands_for_method(runs, label))
           if(const cases::EffectCost *cost = cost_of(*run, decision->effect))
             content += element("div", {{"class", "share"}},
                                text(percent(share_of_time(*run, *cost)) + " ")
@@ -142,7 +145,8 @@ namespace meltfront::verification
                   + element("th", std::string("because"));
     std::vector<const RunRecord *> finest;
     for(const LabelRuns &label : runs.labels)
-      if(const RunRecord *run = label.finest(); run && !run->cost.effects.empty())
+      if(const RunRecord *run = label.finest();
+         run && !run->cost.effects.empty() && stands_for_method(runs, label))
       {
         finest.push_back(run);
         head += element("th", {{"class", "number"}}, context.styles.key(label.label));

@@ -54,9 +54,14 @@ namespace meltfront::verification
       const std::size_t bracket = label.find('[');
       if(bracket == std::string::npos)
         return text(label);
-      return element("span", text(label.substr(0, bracket))
-                                 + element("span", {{"class", "options"}},
-                                           text(label.substr(bracket))));
+      std::string options = label.substr(bracket);
+      // A zero-width space lets a line break there.
+      for(std::size_t comma = options.find(','); comma != std::string::npos;
+          comma = options.find(',', comma + 1))
+        options.insert(comma + 1, "\u200b");
+      return element("span",
+                     text(label.substr(0, bracket))
+                         + element("span", {{"class", "options"}}, text(options)));
     }
   } // namespace
 
@@ -141,7 +146,15 @@ namespace meltfront::verification
     Markup keys;
     for(const std::string &label : labels)
       keys += key(label) + Markup(" ");
-    return labels.empty() ? Markup() : element("p", {{"class", "legend"}}, keys);
+    if(labels.empty())
+      return {};
+    const Markup all = element("p", {{"class", "legend"}}, keys);
+    constexpr std::size_t most_unfolded = 24;
+    return labels.size() <= most_unfolded
+               ? all
+               : element("details", element("summary", fmt::format("Keys of {} labels",
+                                                                   labels.size()))
+                                        + all);
   }
 
   int point_type(Marker marker, bool open)

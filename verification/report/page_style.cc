@@ -101,6 +101,7 @@ td b{color:var(--ink);font-weight:720}
 .links{font-size:.83rem;color:var(--muted);margin:.1rem 0 1rem}
 .key{display:inline-flex;align-items:center;gap:.45rem;white-space:nowrap}
 .key svg{flex:none;overflow:visible}
+.key .options{white-space:normal}
 .legend{display:flex;flex-wrap:wrap;gap:.3rem 1.4rem;font-size:.87rem;max-width:none}
 figure{margin:.9rem 0}
 figcaption{color:var(--muted);font-size:.84rem;line-height:1.45;max-width:70ch;margin-top:.2rem}

@@ -122,8 +122,8 @@ TEST(RkpmMethods, QuadraticsAreExactInAllForms)
     for(const auto &method : particles::make_rkpm_methods())
       for(const char *unknowns : {"nodal", "reconstructed"})
       {
-        // In the corners of a cube too few of the neighbours' own supports reach the node:
-        // its order is lowered, as the run says.
+        // In the corners of a cube too few of the neighbours' own supports reach the
+        // node: its order is lowered, as the run says.
         if(dimension == 3 && method->name() == "rkpm-multiple-fixed")
           continue;
         const Recorder recorder = run(

@@ -10,12 +10,6 @@ namespace meltfront::reference_fem::tests
 {
   namespace
   {
-    Field along_x(std::function<double(double)> value)
-    {
-      return {"along x", [value](const Position &p, double) { return value(p[0]); },
-              false};
-    }
-
     /** Between a cold wall and one that the exact solution knows. */
     Scene against(std::shared_ptr<const MushyLayer> &exact, double cold, double d,
                   double eutectic)
@@ -260,9 +254,6 @@ namespace meltfront::reference_fem::tests
 
     TEST(AlloyEffects, WhatIsNotSimulatedIsRefused)
     {
-      Scene curved = melt(0.5, start_temperature, 91800);
-      curved.alloy->solutes[0].liquidus_curve = [](double c) { return slope * c * c; };
-      EXPECT_THROW(run(curved, 10), Refusal);
       Scene cold = melt(0.5, start_temperature, 91800);
       cold.material.latent_heat = 0;
       EXPECT_THROW(run(cold, 10), Refusal);

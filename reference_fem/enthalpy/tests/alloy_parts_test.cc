@@ -37,6 +37,12 @@ namespace meltfront::reference_fem
       return alloy;
     }
 
+    /** A node of an alloy with straight liquidus. */
+    Composition lowered_by(double depression)
+    {
+      return {depression, depression};
+    }
+
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
     TEST(MushGraph, AgreesWithThePhaseDiagram)
@@ -49,10 +55,10 @@ namespace meltfront::reference_fem
         for(const double concentration : {0., 1e-6, 0.14, 0.5})
           for(const double excess : {-40., -19.3, -17., -6.3, -0.7, 0.4, 20.})
           {
-            const double depression = 42.28 * concentration;
-            const double h = graph.enthalpy(excess, depression) / 1097;
+            const Composition node = lowered_by(42.28 * concentration);
+            const double h = graph.enthalpy(excess, node) / 1097;
             EXPECT_NEAR(h, diagram.enthalpy(273.15 + excess, concentration), 1e-7);
-            EXPECT_NEAR(graph.excess_at_enthalpy(1097 * h, depression), excess,
+            EXPECT_NEAR(graph.excess_at_enthalpy(1097 * h, node), excess,
                         1e-12 * std::abs(excess));
           }
       }
@@ -61,32 +67,34 @@ namespace meltfront::reference_fem
     TEST(MushGraph, JumpsWhereTheRestFreezes)
     {
       const MushGraph graph(solvent(), salt(-18));
-      const double depression = 42.28 * 0.14, left = depression / 18;
-      EXPECT_EQ(graph.region(-18, depression), MushRegion::held);
-      const double jump = graph.enthalpy(-18, depression) - graph.lower_enthalpy(-18);
+      const double left = 42.28 * 0.14 / 18;
+      const Composition node = lowered_by(42.28 * 0.14), rich = lowered_by(30);
+      EXPECT_EQ(graph.region(-18, node), MushRegion::held);
+      const double jump = graph.enthalpy(-18, node) - graph.lower_enthalpy(-18);
       EXPECT_NEAR(jump, 1097 * left * (334400 - 18 * (4180. - 2006)), 1e-6);
-      EXPECT_NEAR(graph.eutectic_liquid_fraction(depression), left, 1e-15);
+      EXPECT_NEAR(graph.eutectic_liquid_fraction(node), left, 1e-15);
       const double half = graph.lower_enthalpy(-18) + jump / 2;
-      EXPECT_EQ(graph.excess_at_enthalpy(half, depression), -18);
-      EXPECT_NEAR(graph.state(half, depression).liquid_fraction, left / 2, 1e-13);
+      EXPECT_EQ(graph.excess_at_enthalpy(half, node), -18);
+      EXPECT_NEAR(graph.state(half, node).liquid_fraction, left / 2, 1e-13);
       // Without solute all freezes at the melting point; with too much, all at once.
-      EXPECT_NEAR(graph.enthalpy(0, 0) - graph.lower_enthalpy(0), 1097. * 334400, 1e-6);
-      EXPECT_EQ(graph.region(-18, 30), MushRegion::held);
-      EXPECT_EQ(graph.region(-17.9, 30), MushRegion::liquid);
-      EXPECT_EQ(graph.eutectic_liquid_fraction(30), 1);
+      EXPECT_NEAR(graph.enthalpy(0, lowered_by(0)) - graph.lower_enthalpy(0),
+                  1097. * 334400, 1e-6);
+      EXPECT_EQ(graph.region(-18, rich), MushRegion::held);
+      EXPECT_EQ(graph.region(-17.9, rich), MushRegion::liquid);
+      EXPECT_EQ(graph.eutectic_liquid_fraction(rich), 1);
     }
 
     TEST(MushGraph, SlopeIsTheDerivative)
     {
       const MushGraph graph(solvent(), salt(-18));
-      for(const double depression : {0., 0.1, 5.9})
+      for(const Composition &node : {lowered_by(0), lowered_by(0.1), lowered_by(5.9)})
         for(const double excess : {-30., -16., -6.5, -1.3, 0.2, 9.})
         {
           const double d = 1e-4;
-          const double quotient = (graph.enthalpy(excess + d, depression)
-                                   - graph.enthalpy(excess - d, depression))
-                                  / (2 * d);
-          EXPECT_NEAR(graph.slope(excess, depression), quotient, 1e-7 * quotient);
+          const double quotient
+              = (graph.enthalpy(excess + d, node) - graph.enthalpy(excess - d, node))
+                / (2 * d);
+          EXPECT_NEAR(graph.slope(excess, node), quotient, 1e-7 * quotient);
         }
     }
 
@@ -97,20 +105,21 @@ namespace meltfront::reference_fem
       for(const double stiffness : {1e2, 1e6, 1e9})
         for(const double depression : {0., 1e-9, 0.1, 5.9, 30.})
         {
+          const Composition node = lowered_by(depression);
           for(const double excess : {-30., -17., -8., -0.3, -1e-6, 1e-6, 9.})
           {
             const double heat
-                = volume * graph.enthalpy(excess, depression) + stiffness * excess;
-            EXPECT_NEAR(graph.resolve(heat, volume, stiffness, depression), excess, 1e-9);
+                = volume * graph.enthalpy(excess, node) + stiffness * excess;
+            EXPECT_NEAR(graph.resolve(heat, volume, stiffness, node), excess, 1e-9);
           }
-          const double step = graph.jump(depression);
+          const double step = graph.jump(node);
           const double lower = graph.lower_enthalpy(step);
           for(const double share : {0., 0.4, 1.})
             EXPECT_NEAR(
                 graph.resolve(
-                    volume * (lower + share * (graph.enthalpy(step, depression) - lower))
+                    volume * (lower + share * (graph.enthalpy(step, node) - lower))
                         + stiffness * step,
-                    volume, stiffness, depression),
+                    volume, stiffness, node),
                 step, 1e-12);
         }
     }
@@ -149,21 +158,21 @@ namespace meltfront::reference_fem
                           at, ends[i - 1], ends[i], 12, 1e-12);
                 if(low < high)
                 {
-                  EXPECT_NEAR(conductivity.mean(low, high, depression),
+                  EXPECT_NEAR(conductivity.mean(low, high, lowered_by(depression)),
                               integral / (high - low), 1e-9);
-                  EXPECT_EQ(conductivity.mean(low, high, depression),
-                            conductivity.mean(high, low, depression));
+                  EXPECT_EQ(conductivity.mean(low, high, lowered_by(depression)),
+                            conductivity.mean(high, low, lowered_by(depression)));
                 }
               }
           }
-          EXPECT_NEAR(conductivity.mean(-9, -9, 5.9), diagram.conductivity(1 - 5.9 / 9),
-                      1e-14);
-          EXPECT_NEAR(conductivity.mean(-9, -9 + 1e-9, 5.9),
+          EXPECT_NEAR(conductivity.mean(-9, -9, lowered_by(5.9)),
+                      diagram.conductivity(1 - 5.9 / 9), 1e-14);
+          EXPECT_NEAR(conductivity.mean(-9, -9 + 1e-9, lowered_by(5.9)),
                       diagram.conductivity(1 - 5.9 / 9), 1e-7);
         }
       // Without solute: Kirchhoff's transform of the pure substance.
       const MushConductivity pure(material, salt(-18, 0));
-      EXPECT_NEAR(pure.mean(-3, 1, 0), (3 * 2.408 + 1 * 0.498) / 4, 1e-14);
+      EXPECT_NEAR(pure.mean(-3, 1, lowered_by(0)), (3 * 2.408 + 1 * 0.498) / 4, 1e-14);
     }
 
     /** Concentration of one cosine in a slab of length 1: an eigenvector of the discrete

@@ -35,6 +35,11 @@ namespace meltfront::reference_fem::tests
     return scene;
   }
 
+  inline Field along_x(std::function<double(double)> value)
+  {
+    return {"along x", [value](const Position &p, double) { return value(p[0]); }, false};
+  }
+
   inline void expect_closed(const RunRecord &record)
   {
     EXPECT_LE(record.worst_budget_defect(), 1e-12);
