@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <particles/alloy/alloy.h>
+#include <particles/rkpm/moab_integral.h>
 #include <particles/rkpm/rkpm.h>
 #include <particles/sph/sph.h>
 #include <reference_fem/cut/cut.h>
@@ -23,6 +24,7 @@ namespace meltfront::verification
       list.push_back(particles::make_sph_two_population_2005());
       for(auto &method : particles::make_rkpm_methods())
         list.push_back(std::move(method));
+      list.push_back(particles::make_moab_integral());
       list.push_back(reference_fem::make_fem_enthalpy());
       list.push_back(reference_fem::make_fem_fitted());
       list.push_back(reference_fem::make_fem_cut());

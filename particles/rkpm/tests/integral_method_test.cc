@@ -1,0 +1,187 @@
+#include <cases/error.h>
+#include <cases/scene.h>
+#include <particles/rkpm/moab_integral.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    constexpr double pi = std::numbers::pi;
+    using Formula = std::function<double(const cases::Position &, double)>;
+    using OptionTexts = std::vector<std::pair<std::string, std::string>>;
+
+    /** Root mean square error of the last snapshot over the largest exact value. */
+    struct ErrorMeter : cases::Observer
+    {
+      explicit ErrorMeter(Formula exact)
+        : exact(std::move(exact))
+      {
+      }
+
+      void begin(const cases::RunDescription &run) override
+      {
+        description = run;
+      }
+
+      bool wants(long, double) override
+      {
+        return false;
+      }
+
+      void observe(const cases::Snapshot &snapshot) override
+      {
+        double square = 0, largest = 0;
+        for(std::size_t i = 0; i < snapshot.temperature.size(); ++i)
+        {
+          cases::Position p{};
+          for(int d = 0; d < snapshot.dimension; ++d)
+            p[d] = snapshot.positions[d][i];
+          const double expected = exact(p, snapshot.time);
+          square += (snapshot.temperature[i] - expected)
+                    * (snapshot.temperature[i] - expected);
+          largest = std::max(largest, std::abs(expected));
+        }
+        error = std::sqrt(square / double(snapshot.temperature.size())) / largest;
+        EXPECT_FALSE(snapshot.heat.booked);
+      }
+
+      Formula exact;
+      double error = 0;
+      cases::RunDescription description;
+    };
+
+    cases::Scene steady(int dimension, const Formula &exact, const Formula &release)
+    {
+      cases::Scene scene;
+      scene.problem = cases::ProblemKind::poisson;
+      scene.domain.shape
+          = dimension == 1 ? cases::DomainShape::slab : cases::DomainShape::box;
+      scene.domain.dimension = dimension;
+      for(int d = 0; d < dimension; ++d)
+        scene.domain.upper[d] = 1;
+      scene.material.latent_heat = 0;
+      for(int s = 0; s < 2 * dimension; ++s)
+        scene.boundaries[s]
+            = cases::Boundary{cases::BoundaryKind::fixed_temperature, {"", exact}};
+      scene.initial.temperature = {"", exact};
+      scene.heat_release = cases::Field{"", release};
+      return scene;
+    }
+
+    ErrorMeter run(const cases::Scene &scene, const Formula &exact, int n,
+                   const OptionTexts &options = {})
+    {
+      const auto method = make_moab_integral();
+      cases::Resolution resolution;
+      resolution.n = n;
+      resolution.options = cases::Options(method->option_declarations());
+      for(const auto &[key, value] : options)
+        resolution.options.set(key, value);
+      ErrorMeter meter(exact);
+      const cases::EffectSet effects = cases::effects_called_for(scene);
+      method->solve(cases::simulated_scene(scene, effects), effects, resolution, meter);
+      return meter;
+    }
+
+    double quadratic(const cases::Position &p, double)
+    {
+      return 1 + p[0] - 2 * p[1] + p[0] * p[0] - p[0] * p[1] + 2 * p[1] * p[1];
+    }
+
+    TEST(MoabIntegral, HasQuadraticsExactlyBetweenWallsOfAllKinds)
+    {
+      constexpr double conductivity = 3;
+      cases::Scene scene
+          = steady(2, quadratic,
+                   [](const cases::Position &, double) { return -6 * conductivity; });
+      scene.material.solid.conductivity = conductivity;
+      // dT/dx = 1 + 2 x - y, dT/dy = -2 - x + 4 y
+      scene.boundaries[1] = cases::Boundary{cases::BoundaryKind::flux,
+                                            {"", [](const cases::Position &p, double)
+                                             { return conductivity * (3 - p[1]); }}};
+      scene.boundaries[2]
+          = cases::Boundary{cases::BoundaryKind::heat_transfer,
+                            {"", [](const cases::Position &p, double t)
+                             { return quadratic(p, t) + conductivity * (2 + p[0]) / 5; }},
+                            false,
+                            5};
+      for(const char *order : {"3", "4"})
+        for(const char *arrangement : {"lattice", "jittered"})
+          EXPECT_LT(run(scene, quadratic, 15,
+                        {{"constraint_order", order}, {"arrangement", arrangement}})
+                        .error,
+                    1e-11)
+              << order << ' ' << arrangement;
+    }
+
+    TEST(MoabIntegral, HeatThatDecaysConvergesAsTheOrderSays)
+    {
+      const Formula decay = [](const cases::Position &p, double t)
+      { return std::sin(pi * p[0]) * std::exp(-pi * pi * t); };
+      cases::Scene scene
+          = steady(1, decay, [](const cases::Position &, double) { return 0.; });
+      scene.problem = cases::ProblemKind::stefan;
+      scene.heat_release.reset();
+      scene.end_time = 0.1;
+      for(const char *arrangement : {"lattice", "jittered"})
+      {
+        std::vector<double> errors;
+        for(const int n : {11, 21, 41, 81})
+          errors.push_back(
+              run(scene, decay, n, {{"arrangement", arrangement}, {"steps", "1000"}})
+                  .error);
+        EXPECT_GT(std::log2(errors.front() / errors.back()) / 3, 1.8) << arrangement;
+        EXPECT_LT(errors.back(), 3e-4) << arrangement;
+      }
+      const double fourth
+          = run(scene, decay, 41, {{"constraint_order", "4"}, {"steps", "4000"}}).error;
+      EXPECT_LT(fourth, 1e-5);
+    }
+
+    TEST(MoabIntegral, SaysWhereConstraintsContradictEachOther)
+    {
+      const Formula parabola
+          = [](const cases::Position &p, double) { return p[0] * p[0]; };
+      const cases::Scene scene
+          = steady(1, parabola, [](const cases::Position &, double) { return -2.; });
+      const ErrorMeter met = run(scene, parabola, 31);
+      const ErrorMeter unmet = run(scene, parabola, 31,
+                                   {{"weights", "single"},
+                                    {"support", "fixed"},
+                                    {"kernel", "cubic_spline"},
+                                    {"dilation", "2.5"}});
+      EXPECT_LT(met.error, 1e-11);
+      EXPECT_GT(unmet.error, 1e-2);
+      EXPECT_EQ(met.description.parameters[8].value, "0");
+      EXPECT_EQ(unmet.description.parameters[8].value, "2");
+    }
+
+    TEST(MoabIntegral, RefusesWhatItCannotTreat)
+    {
+      const Formula zero = [](const cases::Position &, double) { return 0.; };
+      EXPECT_THROW(run(steady(3, zero, zero), zero, 11), cases::Refusal);
+      cases::Scene scene = steady(2, zero, zero);
+      scene.inclusion = cases::Inclusion{
+          {"", [](const cases::Position &p, double) { return p[0] - 0.5; }}, 10};
+      EXPECT_THROW(run(scene, zero, 11), cases::Refusal);
+      EXPECT_THROW(run(steady(1, zero, zero), zero, 11, {{"kernel", "hat"}}),
+                   cases::InputError);
+    }
+
+    TEST(MoabIntegral, AFlatKernelsZeroModeEndsTheRun)
+    {
+      const Formula wave
+          = [](const cases::Position &p, double) { return std::sin(pi * p[0]); };
+      const cases::Scene scene = steady(1, wave,
+                                        [](const cases::Position &p, double)
+                                        { return pi * pi * std::sin(pi * p[0]); });
+      EXPECT_THROW(run(scene, wave, 60, {{"kernel", "epanechnikov"}}),
+                   cases::NumericalError);
+    }
+  } // namespace
+} // namespace meltfront::particles
