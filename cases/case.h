@@ -27,7 +27,7 @@ namespace meltfront::cases
   struct Criterion
   {
     std::string text;     ///< as written in the case file
-    std::string method;   ///< or a label, `fem-fitted[degree=2]`
+    std::string method;   ///< or a label, `fem-fitted[degree=2]`; `[degree=*]`: any
     std::string quantity; ///< a column of the convergence table, e.g. `front_rms`
     Statistic statistic = Statistic::value;
     int n = 0;      ///< for Statistic::value and failure

@@ -271,8 +271,9 @@ namespace meltfront::cases
       throw NumericalError(method, step, time, "temperature", "is not finite");
     double span = bounds.upper - bounds.lower;
     if(!std::isfinite(span))
-      span = std::max(std::isfinite(bounds.upper) ? std::abs(bounds.upper) : 0,
-                      std::isfinite(bounds.lower) ? std::abs(bounds.lower) : 0);
+      span = std::max({std::isfinite(bounds.upper) ? std::abs(bounds.upper) : 0,
+                       std::isfinite(bounds.lower) ? std::abs(bounds.lower) : 0,
+                       highest - lowest});
     const double slack = tolerance * std::max(span, 1e-300);
     if(lowest < bounds.lower - slack)
       throw NumericalError(

@@ -172,6 +172,23 @@ namespace meltfront::cases
                                      quotable(criterion.text)));
     }
 
+    /** Runs of several labels have a worst value, but no order and no mean. */
+    void check_any_value(const Criterion &criterion)
+    {
+      if(criterion.statistic == Statistic::worst)
+        return;
+      const std::size_t open
+          = std::min(criterion.method.find('['), criterion.method.size());
+      for(const std::string &option : split_list(criterion.method.substr(open), ','))
+        if(const std::size_t equals = option.find('=');
+           equals != std::string::npos
+           && trimmed(option.substr(equals + 1)).starts_with('*'))
+          throw InputError(
+              fmt::format("'{}' cannot be judged: only 'worst QUANTITY' is that "
+                          "of any value (*) of an option",
+                          quotable(criterion.text)));
+    }
+
     void check_length(const std::string &text)
     {
       constexpr std::size_t longest = 1000;
@@ -226,6 +243,7 @@ namespace meltfront::cases
       criterion.statistic = Statistic::order;
     else if(cursor.take("worst"))
       criterion.statistic = Statistic::worst;
+    check_any_value(criterion);
     criterion.quantity = cursor.word("a quantity");
     if(criterion.statistic == Statistic::value)
       criterion.n = read_n(cursor);

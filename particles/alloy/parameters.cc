@@ -48,7 +48,7 @@ namespace meltfront::particles
            "Dimension in which a slab is simulated; 0: the lowest (the paper's: 2).", 0,
            3},
           word("kernel", "cubic_spline", "Shape of the smoothing kernel.",
-               kernel_names()),
+               smoothing_kernel_names()),
           {"smoothing", "1", smoothing, "Smoothing length over particle spacing.", 0.5,
            4},
           word("layout", layout,

@@ -1,35 +1,29 @@
 #ifndef meltfront_particles_core_kernels_h
 #define meltfront_particles_core_kernels_h
 
+#include <particles/core/kernel_shapes.h>
+
 #include <string>
 #include <vector>
 
 namespace meltfront::particles
 {
-  /** Shapes of smoothing kernels. */
-  enum class KernelShape
-  {
-    cubic_spline,   ///< M4 spline, support 2 h (Monaghan and Lattanzio 1985)
-    quintic_spline, ///< M6 spline, support 3 h (Schoenberg 1946)
-    wendland_c2,    ///< support 2 h (Wendland 1995; norms: Dehnen and Aly 2012, table 1)
-    wendland_c4,
-    wendland_c6
-  };
-
-  /** The words for the shapes, in the order of the enumeration. */
-  const std::vector<std::string> &kernel_names();
-
-  /** The shape that a word names. @throws cases::InputError for an unknown word. */
-  KernelShape kernel_shape(const std::string &name);
+  /** The shapes that a smoothing kernel can take: those whose smoothing length has a
+   * settled relation to the support. */
+  const std::vector<std::string> &smoothing_kernel_names();
 
   /**
-   * A smoothing kernel W(r, h) in 1, 2 or 3 dimensions, with unit integral.
+   * A smoothing kernel W(r, h) in 1, 2 or 3 dimensions, with unit integral. The support
+   * is 2 h, that of the quintic spline 3 h. On a line Wendland's functions are those of
+   * lowest degree there (Dehnen and Aly 2012, table 1): efg_quartic, wendland_c4_line and
+   * wendland_c6_line.
    *
    * Evaluated when operators are built, not when they are applied.
    */
   class SmoothingKernel
   {
   public:
+    /** @throws cases::Refusal for a shape that is not among smoothing_kernel_names(). */
     SmoothingKernel(KernelShape shape, int dimension, double smoothing_length);
 
     /** W(r), 1/m^d. */
@@ -48,11 +42,8 @@ namespace meltfront::particles
     int dimension() const;
 
   private:
-    KernelShape shape;
-    int dim;
-    double h;     ///< smoothing length
-    double norm;  ///< W = norm * w(q)
-    double scale; ///< q = r / scale: h for splines, the support for Wendland's
+    double h; ///< smoothing length
+    Kernel kernel;
   };
 
   /**

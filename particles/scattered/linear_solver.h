@@ -29,6 +29,9 @@ namespace meltfront::particles
     LinearMethod method = LinearMethod::automatic;
     double tolerance = 1e-12; ///< of the residual over the right-hand side
     int most_iterations = 2000;
+    double ilut_fill = 5; ///< entries of the incomplete factors over the matrix's
+    double drop_tolerance
+        = 1e-3;             ///< entries of the factors below it, relative, are left out
     bool symmetric = false; ///< positive definite, too
     int dimension = 2;      ///< of space: what `automatic` goes by
   };

@@ -1,3 +1,4 @@
+#include <cases/stopwatch.h>
 #include <particles/sph/conduction_rows.h>
 
 #include <algorithm>
@@ -26,6 +27,8 @@ namespace meltfront::particles
         , ghost_neighbours(dis.particles, dis.ghosts, reach_of_kernel())
       {
         find_walls_in_reach();
+        if(dis.scene.inclusion)
+          find_conductivities();
         if(moment_correction)
           correct_second_moment();
       }
@@ -62,6 +65,27 @@ namespace meltfront::particles
       double reach_of_kernel() const
       {
         return dis.kernel.support() * (1 - 1e-9);
+      }
+
+      void find_conductivities()
+      {
+        const cases::ScopedTimer timer(result.inclusion_cost.seconds);
+        const cases::Scene &scene = dis.scene;
+        conductivity.resize(dis.particles.size());
+        for(std::size_t i = 0; i < conductivity.size(); ++i)
+          conductivity[i] = scene.conductivity_at(dis.particles.point(i))
+                            / scene.material.solid.conductivity;
+        ++result.inclusion_cost.calls;
+        result.inclusion_cost.bytes
+            = static_cast<long>(conductivity.size() * sizeof(double));
+      }
+
+      /** Mean conductivity between two particles, over that outside of the inclusion. */
+      double between(std::size_t a, std::size_t b) const
+      {
+        return conductivity.empty() ? 1.
+                                    : 2 * conductivity[a] * conductivity[b]
+                                          / (conductivity[a] + conductivity[b]);
       }
 
       void find_walls_in_reach()
@@ -155,12 +179,13 @@ namespace meltfront::particles
 
       double pair_coefficient(std::size_t a, std::size_t b) const
       {
-        double g = strength(a, b, squared_distance(a, b, 0));
+        const double mean = between(a, b);
+        double g = mean * strength(a, b, squared_distance(a, b, 0));
         visit_images(common_walls(a, b),
                      [&](WallSet mirrors)
                      {
                        const double image
-                           = strength(a, b, squared_distance(a, b, mirrors));
+                           = mean * strength(a, b, squared_distance(a, b, mirrors));
                        g += antisymmetric(mirrors) ? -image : image;
                      });
         return g;
@@ -190,7 +215,7 @@ namespace meltfront::particles
                            if(boundary->kind == BoundaryKind::fixed_temperature
                               && antisymmetric(mirrors))
                            {
-                             to_temperature[w] += 2 * image;
+                             to_temperature[w] += 2 * between(a, b) * image;
                              break; // an image belongs to one wall
                            }
                          }
@@ -247,7 +272,7 @@ namespace meltfront::particles
           double squared = 0;
           for(int d = 0; d < dis.dimension; ++d)
             squared += (own[d] - place[d]) * (own[d] - place[d]);
-          double g = strength(a, a, squared);
+          double g = between(a, a) * strength(a, a, squared);
           if(g == 0)
             continue;
           const double distance = std::hypot(place[0], place[1], place[2]);
@@ -362,6 +387,7 @@ namespace meltfront::particles
       NeighbourList ghost_neighbours;
       std::vector<WallSet> reach; ///< the walls within a support of each particle
       std::vector<double> inverse_moment;
+      std::vector<double> conductivity; ///< over that outside of an inclusion; or empty
     };
   } // namespace
 

@@ -1,6 +1,7 @@
 #ifndef meltfront_particles_sph_conduction_rows_h
 #define meltfront_particles_sph_conduction_rows_h
 
+#include <cases/method.h>
 #include <particles/core/particle_operator.h>
 #include <particles/sph/discretisation.h>
 
@@ -41,6 +42,11 @@ namespace meltfront::particles
    * holds u_B it has 2 u_B - u_b, so that g' leaves g_ab and the row gains
    * 2 g' (u_B - u_a). Row and wall coefficients stay >= 0, so an explicit step obeys the
    * maximum principle whenever step * (sum of the row) <= heat capacity.
+   *
+   * Where an inclusion conducts otherwise than the rest, g_ab is multiplied with the
+   * harmonic mean 2 k_a k_b/(k_a + k_b) over the rest's k: that of two slabs in contact
+   * half way between the particles (Cleary and Monaghan 1999). Images conduct as their
+   * particles.
    */
   struct ConductionRows
   {
@@ -53,6 +59,8 @@ namespace meltfront::particles
     std::vector<WallLink> temperature_links;
     std::vector<WallPoint> flux_points;
     std::vector<WallLink> flux_links;
+    /** Of an inclusion: its coefficients are part of the rows, and cost set-up only. */
+    cases::EffectCost inclusion_cost{cases::Effect::inclusion};
   };
 } // namespace meltfront::particles
 

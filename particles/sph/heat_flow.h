@@ -3,6 +3,7 @@
 
 #include <particles/sph/conduction_rows.h>
 #include <particles/sph/front_exchange.h>
+#include <particles/sph/heat_release.h>
 #include <particles/sph/heat_sources.h>
 #include <particles/sph/phase_map.h>
 #include <particles/sph/wall_flux.h>
@@ -132,6 +133,7 @@ namespace meltfront::particles
     Extremes extremes{};           ///< of the conduction variable
     std::optional<FrontExchange> front_exchange;
     std::optional<HeatSources> heat_sources;
+    std::optional<HeatRelease> heat_release;
     std::optional<WallTemperature> wall_temperature;
     std::optional<WallFlux> wall_flux;
     Derivative derivative;

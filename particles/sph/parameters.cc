@@ -74,7 +74,7 @@ namespace meltfront::particles
         {"dimension", "1", 0L,
          "Dimension in which a slab is simulated; 0: the lowest (the paper's: 2).", 0, 3},
         {"kernel", "", std::string("cubic_spline"), "Shape of the smoothing kernel.", 0,
-         0, kernel_names()},
+         0, smoothing_kernel_names()},
         {"smoothing", "1", policy.smoothing,
          "Smoothing length over particle spacing; 0: as the paper, 1.2 in planar scenes "
          "and 1.3 in others.",

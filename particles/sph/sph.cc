@@ -34,7 +34,8 @@ namespace meltfront::particles
         using cases::Effect;
         return {Effect::phase_change,        Effect::phase_conductivity,
                 Effect::phase_heat_capacity, Effect::heat_sources,
-                Effect::wall_temperature,    Effect::wall_flux};
+                Effect::wall_temperature,    Effect::wall_flux,
+                Effect::heat_release,        Effect::inclusion};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

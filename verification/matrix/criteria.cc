@@ -24,12 +24,11 @@ namespace meltfront::verification
                  const cases::Criterion &criterion)
     {
       Runs runs;
-      const std::string label = canonical_label(criterion.method);
       const bool at_one_n = criterion.statistic == cases::Statistic::value
                             || criterion.statistic == cases::Statistic::failure;
       const bool derived = is_derived_quantity(criterion.quantity);
       for(const RunRecord &run : result.runs)
-        if(run.case_name == record.name && canonical_label(run.label) == label
+        if(run.case_name == record.name && label_matches(criterion.method, run.label)
            && !(derived && is_reference(record, run))
            && (at_one_n ? run.n == criterion.n
                         : run.n >= criterion.n_from && run.n <= criterion.n_to))

@@ -45,6 +45,17 @@ namespace meltfront::verification
       if(open == 1 && options_of(label).empty())
         fail();
     }
+
+    void check_key(const cases::Options &options, const std::string &key)
+    {
+      std::vector<std::string> keys;
+      for(const cases::OptionDeclaration &declaration : options.declarations())
+        keys.push_back(declaration.key);
+      if(std::ranges::find(keys, key) == keys.end())
+        throw cases::InputError(
+            fmt::format("there is no option '{}'; the nearest is '{}'", key,
+                        cases::nearest_name(key, keys)));
+    }
   } // namespace
 
   std::string method_of(const std::string &label)
@@ -81,6 +92,22 @@ namespace meltfront::verification
     return fmt::format("{}[{}]", method_of(label), text);
   }
 
+  bool label_matches(const std::string &pattern, const std::string &label)
+  {
+    if(method_of(pattern) != method_of(label))
+      return false;
+    auto wanted = options_of(pattern), given = options_of(label);
+    std::ranges::sort(wanted);
+    std::ranges::sort(given);
+    return std::ranges::equal(wanted, given,
+                              [](const auto &one, const auto &other)
+                              {
+                                return one.first == other.first
+                                       && (one.second == any_value
+                                           || one.second == other.second);
+                              });
+  }
+
   void check_label(const std::string &label, const MethodLookup &methods)
   {
     check_brackets(label);
@@ -88,7 +115,9 @@ namespace meltfront::verification
     for(const auto &[key, value] : options_of(label))
     {
       int threads = 0;
-      if(key != "threads")
+      if(value == any_value)
+        check_key(options, key);
+      else if(key != "threads")
         options.set(key, value);
       else if(std::from_chars(value.data(), value.data() + value.size(), threads).ec
                   != std::errc()

@@ -23,8 +23,15 @@ namespace meltfront::verification
    */
   std::string canonical_label(const std::string &label);
 
+  /** The value of an option in a label that stands for any value. */
+  inline constexpr const char *any_value = "*";
+
+  /** Whether a label is one that a pattern means: the same method and options, each with
+   * the same value or with any_value in the pattern. */
+  bool label_matches(const std::string &pattern, const std::string &label);
+
   /**
-   * Hold a label that a user wrote against what there is.
+   * Hold a label or a pattern that a user wrote against what there is.
    * @throws InputError for an unknown method, option or value, and brackets that do not
    * hold KEY=VALUE with commas.
    */

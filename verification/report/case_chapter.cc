@@ -33,19 +33,22 @@ namespace meltfront::verification
       const RunRecord *run = run_to_picture(runs);
       const double front = front_at_end(runs);
       const bool exact = !record.exact.empty() && std::isfinite(record.front_exact_end);
-      std::string caption
-          = fmt::format("The scene at t = {}{}.", plain_number(record.end_time, 6),
-                        unit_of(record, " s"));
+      std::string caption = record.steady ? "The scene."
+                                          : fmt::format("The scene at t = {}{}.",
+                                                        plain_number(record.end_time, 6),
+                                                        unit_of(record, " s"));
       if(std::isfinite(front))
         caption += fmt::format(" The line is the {} front, at {}{}.",
                                exact ? "exact" : "computed", plain_number(front, 4),
                                unit_of(record, " m"));
-      if(run)
+      if(run && !record.changes_phase)
+        caption += fmt::format(" Sites of {} at n = {}.", run->label, run->n);
+      else if(run)
         caption
             += fmt::format(" Sites of {} at n = {}: filled where at least half is solid, "
                            "open where liquid.",
                            run->label, run->n);
-      else
+      else if(record.changes_phase)
         caption += " Blue: solid; orange: liquid.";
       if(!record.source_positions.empty())
         caption += " Star: source.";
@@ -100,7 +103,7 @@ namespace meltfront::verification
                                  "error below the floor of ")
                                 + number_markup(floor, 2)
                                 + text(unit_of(record, " m") + " means anything."));
-      else
+      else if(record.changes_phase)
         content += element("p", "It is exact in this domain: the table has no floor.");
       return content;
     }
@@ -134,9 +137,12 @@ namespace meltfront::verification
                      "Orders are fitted by least squares over at least four levels, with "
                      "their standard error: in h, or in dt where only the time step was "
                      "refined. Levels whose error is at round-off (10⁻¹³ of the domain's "
-                     "side, 10⁻¹³ where relative) are left out of the fit. Errors of the "
-                     "front are root mean squares over the run; bold is the least of a "
-                     "column."))
+                     "side, 10⁻¹³ where relative) are left out of the fit. "
+                     + std::string(record.changes_phase
+                                       ? "Errors of the front are root mean squares over "
+                                         "the run; bold"
+                                       : "Bold")
+                     + " is the least of a column."))
              + (several ? table_markup(orders, key) : Markup()) + table_markup(table, key)
              + linked_csv(context, record.name, convergence_csv(runs))
              + (rates.empty() ? Markup()
@@ -216,6 +222,26 @@ namespace meltfront::verification
           runs.record->name + "-budget", budget_against_time(runs, context.styles),
           text("Defect of the heat budget, relative to its largest term; "
                "drawn at 10⁻¹⁷ where it is less."));
+    }
+
+    Markup front_and_heat(const ReportContext &context, const CaseRuns &runs)
+    {
+      return element("h3", "Front") + front_plots(context, runs)
+             + element("h3", "Temperature, solid and heat budget")
+             + profiles_of_case(context, runs)
+             + pair(budget(context, runs), front_of_all_resolutions(context, runs));
+    }
+
+    /** Of a scene without a front; a profile only where one coordinate tells all. */
+    Markup temperature_alone(const ReportContext &context, const CaseRuns &runs)
+    {
+      const CaseRecord &record = *runs.record;
+      Markup content;
+      if(record.dimension == 1)
+        content += profiles_of_case(context, runs);
+      if(!record.steady)
+        content += budget(context, runs);
+      return content.empty() ? content : element("h3", "Temperature") + content;
     }
 
     Markup parameters(const CaseRuns &runs)
@@ -315,10 +341,8 @@ namespace meltfront::verification
     content += folded("Schemes and their parameters", parameters(runs))
                + yardstick(context, runs) + element("h3", "Convergence")
                + convergence(context, runs) + error_plots(context, runs)
-               + element("h3", "Front") + front_plots(context, runs)
-               + element("h3", "Temperature, solid and heat budget")
-               + profiles_of_case(context, runs)
-               + pair(budget(context, runs), front_of_all_resolutions(context, runs))
+               + (record.changes_phase ? front_and_heat(context, runs)
+                                       : temperature_alone(context, runs))
                + printed(context, runs) + criteria(context, record) + limits(runs);
     return element("section", {{"id", case_anchor(record.name)}}, content) + Markup("\n");
   }

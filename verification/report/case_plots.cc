@@ -113,8 +113,8 @@ namespace meltfront::verification
                     const std::string &abscissa, double scale)
     {
       const bool resolution = abscissa == "h" || abscissa == "dt";
-      const bool few_steps = abscissa == "dt" && runs.has("front_end")
-                             && runs.record->changes_phase;
+      const bool few_steps
+          = abscissa == "dt" && runs.has("front_end") && runs.record->changes_phase;
       const std::string error = few_steps ? "front_end" : main_error(*runs.record);
       Plot plot;
       plot.x.logarithmic = plot.y.logarithmic = true;

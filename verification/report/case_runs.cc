@@ -195,6 +195,8 @@ namespace meltfront::verification
 
   double main_error_scale(const CaseRuns &runs)
   {
+    if(!runs.record->changes_phase)
+      return 1; // temperature errors are relative
     if(!runs.record->exact.empty())
       return std::abs(runs.record->front_exact_end);
     for(const LabelRuns &label : runs.labels)

@@ -173,7 +173,8 @@ namespace meltfront::verification
       case Shown::without_exact:
         return runs.record->exact.empty() || asked_for(*runs.record, quantity);
       default:
-        return asked_for(*runs.record, quantity);
+        return asked_for(*runs.record, quantity)
+               || quantity.name == main_error(*runs.record);
       }
     }
 

@@ -121,18 +121,19 @@ namespace meltfront::verification
     Markup content = element("h2", "What accuracy costs");
     if(std::none_of(context.runs.begin(), context.runs.end(), has_relative_error))
       content += element(
-          "p",
-          "No finished run has a front to compare with an exact one or a reference.");
+          "p", "No finished run can be compared with an exact solution or a reference.");
     else
     {
       content
           += element(
                  "p",
-                 "The cheapest method that reaches a front error, and the CPU time "
-                 "that it takes. The error is the root mean square over the run, "
+                 "The cheapest method that reaches an error, and the CPU time "
+                 "that it takes. The error is the front's root mean square over the run, "
                  "divided by the exact front at the end; where there is no exact "
                  "solution, the error of the solid's volume at the end, divided by the "
-                 "reference's volume. Times are interpolated "
+                 "reference's volume; where nothing changes its phase, the "
+                 "temperature's root mean square over its largest value. Times are "
+                 "interpolated "
                  "between measured resolutions, never extrapolated; ≤ marks a "
                  "method whose coarsest run is already better.")
              + cost_table(context)

@@ -68,6 +68,29 @@ namespace meltfront::verification
                            + text(" − ") + factor(material.liquid.conductivity) + liquid);
     }
 
+    /** Conduction alone: one substance, perhaps with an inclusion. */
+    Markup conduction_equation(const CaseRecord &record)
+    {
+      const Markup flux
+          = text("∇·(") + symbol("k") + text(" ∇") + symbol("T") + text(")");
+      const cases::PhaseProperties &solid = record.material.solid;
+      const Markup release
+          = record.heat_release.empty() ? Markup() : text(" + ") + symbol("q");
+      const Markup rate = record.steady ? text("0")
+                                        : symbol("ρ") + symbol("c") + text(" ")
+                                              + derivative(symbol("T"), symbol("t"));
+      Markup numbers = symbol("k") + text(" = ") + equation_number(solid.conductivity);
+      if(!record.inclusion.empty())
+        numbers += text(", " + record.inclusion);
+      if(!record.steady)
+        numbers += text(", ") + symbol("ρ") + symbol("c") + text(" = ")
+                   + equation_number(solid.volumetric_heat_capacity());
+      if(!record.heat_release.empty())
+        numbers += text(", ") + symbol("q") + text(" = " + record.heat_release);
+      return equation_line("", rate + text(" = ") + flux + release)
+             + equation_line("", numbers);
+    }
+
     Markup conditions(const CaseRecord &record)
     {
       Markup rows;
@@ -81,9 +104,13 @@ namespace meltfront::verification
           rows += element("dt", what) + element("dd", items) + Markup("\n");
       };
       const std::string seconds = unit_of(record, " s");
-      add("start", {"t = " + plain_number(record.start_time, 6) + seconds
-                    + (record.initial_state.empty() ? "" : ": " + record.initial_state)});
-      add("end", {"t = " + plain_number(record.end_time, 6) + seconds});
+      if(!record.steady)
+      {
+        add("start",
+            {"t = " + plain_number(record.start_time, 6) + seconds
+             + (record.initial_state.empty() ? "" : ": " + record.initial_state)});
+        add("end", {"t = " + plain_number(record.end_time, 6) + seconds});
+      }
       add("walls", record.boundaries);
       add("sources", record.sources);
       return element("dl", {{"class", "conditions"}}, rows);
@@ -95,22 +122,22 @@ namespace meltfront::verification
     if(record.alloy)
       return element("div", {{"class", "equations"}}, alloy_equations(record))
              + conditions(record);
+    if(!record.changes_phase)
+      return element("div", {{"class", "equations"}}, conduction_equation(record))
+             + conditions(record);
     const cases::Material &material = record.material;
     const std::string degrees = unit_of(record, " (K or °C)");
     const Markup melting = equation_number(material.melting_temperature);
     Markup result
         = equation_line("solid", heat_equation(record, material.solid, "s"))
           + equation_line("liquid", heat_equation(record, material.liquid, "l"));
-    if(material.latent_heat > 0)
-      result += equation_line("front", stefan_condition(record))
-                + equation_line("", symbol("T") + text(" = ") + symbol("T", "m")
-                                        + text(" = ") + melting
-                                        + text(degrees + " at the front"
-                                               + (record.symmetry == "none"
-                                                      ? ", n its normal into the liquid"
-                                                      : "")));
-    else
-      result += element("p", "There is no latent heat.");
+    result += equation_line("front", stefan_condition(record))
+              + equation_line("", symbol("T") + text(" = ") + symbol("T", "m")
+                                      + text(" = ") + melting
+                                      + text(degrees + " at the front"
+                                             + (record.symmetry == "none"
+                                                    ? ", n its normal into the liquid"
+                                                    : "")));
     if(material.solid.density != material.liquid.density && record.symmetry == "planar")
       result += equation_line(
           "motion",

@@ -15,6 +15,8 @@ namespace meltfront::verification
       if(runs.record->exact.empty())
         wanted = {"solid_volume_end_error", "solid_volume_rms_error",
                   "front_mode_end_error"};
+      if(!runs.record->changes_phase)
+        wanted = {"temperature_rmse", "temperature_l2", "temperature_max"};
       std::erase_if(wanted, [&runs](const std::string &name) { return !runs.has(name); });
       return wanted;
     }

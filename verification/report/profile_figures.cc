@@ -70,11 +70,15 @@ namespace meltfront::verification
             text(fmt::format("{} {}, each method's finest run.{}", what, when,
                              restated(record, name))));
       };
-      return element("div", {{"class", "pair"}},
-                     figure(ProfileQuantity::temperature, "temperature", "Temperature")
-                         + figure(ProfileQuantity::solid_fraction, "solid fraction",
-                                  "Mass fraction of solid, the share of the latent heat "
-                                  "that is lost,"))
+      return element(
+                 "div", {{"class", "pair"}},
+                 figure(ProfileQuantity::temperature, "temperature", "Temperature")
+                     + (!record.changes_phase
+                            ? Markup()
+                            : figure(
+                                ProfileQuantity::solid_fraction, "solid fraction",
+                                "Mass fraction of solid, the share of the latent heat "
+                                "that is lost,")))
              + element("div", {{"class", "pair"}},
                        figure(ProfileQuantity::concentration, "concentration",
                               "Mass fraction of solute in the liquid"));

@@ -73,6 +73,15 @@ TEST(Criterion, TakesALabelWithOptions)
     EXPECT_THROW(parse_label(label), InputError) << label;
 }
 
+TEST(Criterion, IsTheWorstOfAnyValueOfAnOption)
+{
+  EXPECT_EQ(parse_criterion("sph[kernel=*, jitter=0.2]: worst front_rms <= 1").method,
+            "sph[kernel=*, jitter=0.2]");
+  for(const char *bad : {"sph[kernel=*]: order of front_rms >= 1",
+                         "sph[kernel = *]: front_rms at n=20 <= 1"})
+    EXPECT_THROW(parse_criterion(bad), InputError) << bad;
+}
+
 TEST(Criterion, KeepsAKnownShortfall)
 {
   const Criterion c = parse_criterion(

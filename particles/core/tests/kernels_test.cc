@@ -36,7 +36,7 @@ namespace meltfront::particles
       for(const KernelShape shape : shapes)
         for(int d = 1; d <= 3; ++d)
           EXPECT_NEAR(integral(SmoothingKernel(shape, d, 0.37)), 1, 1e-11)
-              << kernel_names()[static_cast<int>(shape)] << ' ' << d;
+              << kernel_name(shape) << ' ' << d;
     }
 
     TEST(Kernels, SlopeIsTheDerivativeOfTheValue)
@@ -53,7 +53,7 @@ namespace meltfront::particles
                 = (kernel.value(r + step) - kernel.value(r - step)) / (2 * step);
             EXPECT_NEAR(kernel.radial_derivative_over_distance(r), difference / r,
                         1e-7 * scale)
-                << kernel_names()[static_cast<int>(shape)] << ' ' << d << ' ' << r;
+                << kernel_name(shape) << ' ' << d << ' ' << r;
           }
         }
     }
@@ -115,7 +115,7 @@ namespace meltfront::particles
         const double spacing = 0.025;
         const SmoothingKernel kernel(c.shape, 2, c.smoothing * spacing);
         EXPECT_NEAR(lattice_second_moment(kernel, spacing), c.moment, 1e-6)
-            << kernel_names()[static_cast<int>(c.shape)] << ' ' << c.smoothing;
+            << kernel_name(c.shape) << ' ' << c.smoothing;
       }
     }
 
@@ -128,9 +128,32 @@ namespace meltfront::particles
 
     TEST(Kernels, AreFoundByName)
     {
-      for(const KernelShape shape : shapes)
-        EXPECT_EQ(kernel_shape(kernel_names()[static_cast<int>(shape)]), shape);
+      for(std::size_t i = 0; i < std::size(shapes); ++i)
+        EXPECT_EQ(kernel_shape(smoothing_kernel_names()[i]), shapes[i]);
       EXPECT_THROW(kernel_shape("gaussian"), cases::InputError);
+      EXPECT_THROW(SmoothingKernel(KernelShape::hat, 2, 1), cases::Refusal);
+    }
+
+    struct NormCase
+    {
+      KernelShape shape;
+      double centre[3]; ///< W(0) h^d in 1D, 2D, 3D
+    };
+
+    // Dehnen and Aly 2012, table 1, with the support at 2 h (quintic spline: 3 h).
+    TEST(Kernels, ValuesAtTheCentreAreThePublishedOnes)
+    {
+      const double pi = std::numbers::pi;
+      const NormCase table[]
+          = {{KernelShape::cubic_spline, {2. / 3, 10 / (7 * pi), 1 / pi}},
+             {KernelShape::quintic_spline, {11. / 20, 462 / (478 * pi), 66 / (120 * pi)}},
+             {KernelShape::wendland_c2, {5. / 8, 7 / (4 * pi), 21 / (16 * pi)}},
+             {KernelShape::wendland_c4, {3. / 4, 9 / (4 * pi), 495 / (256 * pi)}},
+             {KernelShape::wendland_c6, {55. / 64, 39 / (14 * pi), 1365 / (512 * pi)}}};
+      for(const NormCase &c : table)
+        for(int d = 1; d <= 3; ++d)
+          EXPECT_NEAR(SmoothingKernel(c.shape, d, 1).value(0) / c.centre[d - 1], 1, 1e-14)
+              << kernel_name(c.shape) << ' ' << d;
     }
   } // namespace
 } // namespace meltfront::particles

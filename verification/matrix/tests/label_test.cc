@@ -25,6 +25,16 @@ namespace meltfront::verification
       EXPECT_TRUE(options_of("sph").empty());
     }
 
+    TEST(Label, APatternMeansAnyValue)
+    {
+      EXPECT_TRUE(label_matches("sph[b=*,a=1]", "sph[a=1,b=x]"));
+      EXPECT_TRUE(label_matches("sph [ a = 1 ]", "sph[a=1]"));
+      EXPECT_FALSE(label_matches("sph[a=*]", "sph[a=1,b=2]"));
+      EXPECT_FALSE(label_matches("sph[a=*,b=2]", "sph[a=1]"));
+      EXPECT_FALSE(label_matches("sph[a=*]", "sph-2005[a=1]"));
+      EXPECT_FALSE(label_matches("sph", "sph[a=1]"));
+    }
+
     std::string problem_of(const std::string &label)
     {
       static const tests::FakeMethod fake("fake");
@@ -48,15 +58,16 @@ namespace meltfront::verification
     TEST(Label, IsHeldAgainstMethodsAndTheirOptions)
     {
       for(const char *good :
-          {"fake", "fake[step_factor=0.9]", "fake[scheme=rkl2, step_factor=1,threads=2]"})
+          {"fake", "fake[step_factor=0.9]", "fake[scheme=rkl2, step_factor=1,threads=2]",
+           "fake[scheme=*]"})
         EXPECT_EQ(problem_of(good), "") << good;
       EXPECT_EQ(problem_of("fakes"), "there is no method 'fakes'");
       EXPECT_NE(problem_of("fake[step_factr=0.9]").find("step_factor"),
                 std::string::npos);
-      for(const char *bad :
-          {"fake[]", "fake[", "fake[step_factor]", "fake[step_factor=]", "fake]",
-           "fake[step_factor=1]x", "fake[[step_factor=1]]", "fake[scheme=rk4]",
-           "fake[step_factor=7]", "fake[threads=0]", "fake[threads=two]", ""})
+      for(const char *bad : {"fake[]", "fake[", "fake[step_factor]", "fake[step_factor=]",
+                             "fake]", "fake[step_factor=1]x", "fake[[step_factor=1]]",
+                             "fake[scheme=rk4]", "fake[step_factor=7]", "fake[shape=*]",
+                             "fake[threads=0]", "fake[threads=two]", ""})
         EXPECT_NE(problem_of(bad), "") << bad;
     }
   } // namespace

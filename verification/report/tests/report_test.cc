@@ -132,7 +132,7 @@ namespace meltfront::verification
     }
     const std::string html = report_of(result);
     position(html,
-             "No finished run has a front to compare with an exact one or a reference.");
+             "No finished run can be compared with an exact solution or a reference.");
     position(html, "it broke");
   }
 

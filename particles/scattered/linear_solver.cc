@@ -1,0 +1,170 @@
+#include <cases/error.h>
+#include <cases/stopwatch.h>
+#include <particles/scattered/direct_solver.h>
+#include <particles/scattered/iterative_solver.h>
+#include <particles/scattered/linear_solver.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    /** Unknowns up to which factors are cheaper than iterations, by dimension. */
+    constexpr std::size_t direct_up_to[] = {0, 10'000'000, 20'000, 4'000};
+
+    /** Unknowns beyond which the preconditioner must not weaken with their number. */
+    constexpr std::size_t multigrid_from = 100'000;
+
+    LinearMethod chosen(std::size_t unknowns, const LinearSolverParameters &parameters)
+    {
+      if(parameters.method != LinearMethod::automatic)
+        return parameters.method;
+      if(unknowns <= direct_up_to[std::clamp(parameters.dimension, 1, 3)])
+        return LinearMethod::direct;
+      if(unknowns > multigrid_from)
+        return parameters.symmetric ? LinearMethod::cg_multigrid
+                                    : LinearMethod::gmres_multigrid;
+      return parameters.symmetric ? LinearMethod::cg_jacobi : LinearMethod::gmres_ilut;
+    }
+
+    /** One over the largest entry of each row; of a row of zeros, which makes the matrix
+     * singular, one. */
+    std::vector<double> row_scales(const CompressedRows &matrix)
+    {
+      std::vector<double> scales(matrix.rows(), 1.);
+      for(std::size_t i = 0; i < matrix.rows(); ++i)
+      {
+        double largest = 0;
+        for(std::size_t e = matrix.offsets[i]; e < matrix.offsets[i + 1]; ++e)
+          largest = std::max(largest, std::abs(matrix.coefficients[e]));
+        if(largest > 0)
+          scales[i] = 1 / largest;
+      }
+      return scales;
+    }
+
+    double norm(std::span<const double> vector)
+    {
+      double sum = 0;
+      for(const double value : vector)
+        sum += value * value;
+      return std::sqrt(sum);
+    }
+  } // namespace
+
+  const std::vector<std::string> &linear_method_names()
+  {
+    static const std::vector<std::string> names{"automatic",    "direct",
+                                                "gmres-ilut",   "cg-jacobi",
+                                                "cg-multigrid", "gmres-multigrid"};
+    return names;
+  }
+
+  struct LinearSolver::Implementation
+  {
+    Implementation(const CompressedRows &given, const LinearSolverParameters &parameters)
+      : method(chosen(given.rows(), parameters))
+      , tolerance(parameters.tolerance)
+      , matrix(given)
+    {
+      const bool needs_symmetry
+          = method == LinearMethod::cg_jacobi || method == LinearMethod::cg_multigrid;
+      if(needs_symmetry && !parameters.symmetric)
+        throw cases::InputError(
+            fmt::format("conjugate gradients ({}) need a symmetric matrix, which this "
+                        "one is not; take gmres-ilut",
+                        linear_method_names()[static_cast<std::size_t>(method)]));
+      const cases::Stopwatch watch;
+      if(!parameters.symmetric)
+      {
+        scales = row_scales(matrix);
+        for(std::size_t i = 0; i < matrix.rows(); ++i)
+          for(std::size_t e = matrix.offsets[i]; e < matrix.offsets[i + 1]; ++e)
+            matrix.coefficients[e] *= scales[i];
+      }
+      if(method == LinearMethod::direct)
+        direct.emplace(matrix);
+      else
+        iterative.emplace(matrix, method, parameters);
+      load.resize(matrix.rows());
+      product.resize(matrix.rows());
+      setup = watch.elapsed().wall;
+    }
+
+    LinearMethod method;
+    double tolerance;
+    CompressedRows matrix;
+    std::vector<double> scales; ///< of rows; empty: none
+    std::optional<DirectSolver> direct;
+    std::optional<IterativeSolver> iterative;
+    std::vector<double> load, product;
+    double setup = 0;
+  };
+
+  LinearSolver::LinearSolver(const CompressedRows &matrix,
+                             const LinearSolverParameters &parameters)
+    : implementation(std::make_unique<Implementation>(matrix, parameters))
+  {
+  }
+
+  LinearSolver::~LinearSolver() = default;
+  LinearSolver::LinearSolver(LinearSolver &&) noexcept = default;
+  LinearSolver &LinearSolver::operator=(LinearSolver &&) noexcept = default;
+
+  LinearSolver::Outcome LinearSolver::solve(std::span<const double> right_hand_side,
+                                            std::span<double> x)
+  {
+    Implementation &impl = *implementation;
+    for(std::size_t i = 0; i < impl.load.size(); ++i)
+      impl.load[i] = right_hand_side[i] * (impl.scales.empty() ? 1. : impl.scales[i]);
+    const double size = norm(impl.load);
+    if(size == 0 && !(impl.direct && impl.direct->reciprocal_condition() == 0))
+    {
+      std::ranges::fill(x, 0.);
+      return {true, 0, 0.};
+    }
+    Outcome outcome;
+    if(impl.direct)
+      outcome.converged = impl.direct->solve(impl.load, x);
+    else
+      outcome = impl.iterative->solve(impl.load, x);
+    impl.matrix.multiply(x, impl.product, 1);
+    for(std::size_t i = 0; i < impl.load.size(); ++i)
+      impl.product[i] -= impl.load[i];
+    outcome.residual = norm(impl.product) / size;
+    // What Krylov methods carry along may part from the residual itself.
+    constexpr double slack = 100;
+    if(!std::isfinite(outcome.residual)
+       || (impl.iterative && outcome.residual > slack * impl.tolerance))
+      outcome.converged = false;
+    return outcome;
+  }
+
+  LinearMethod LinearSolver::method() const
+  {
+    return implementation->method;
+  }
+
+  double LinearSolver::reciprocal_condition() const
+  {
+    return implementation->direct ? implementation->direct->reciprocal_condition()
+                                  : std::numeric_limits<double>::quiet_NaN();
+  }
+
+  double LinearSolver::fill() const
+  {
+    return implementation->direct ? implementation->direct->fill()
+                                  : implementation->iterative->fill();
+  }
+
+  double LinearSolver::setup_seconds() const
+  {
+    return implementation->setup;
+  }
+} // namespace meltfront::particles

@@ -1,0 +1,216 @@
+#include <cases/error.h>
+#include <particles/scattered/linear_problem.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace meltfront;
+using namespace meltfront::particles;
+
+namespace
+{
+  constexpr double pi = std::numbers::pi;
+  constexpr int cells = 20;
+  constexpr double spacing = 1. / cells;
+
+  /** Keeps the last snapshot. */
+  struct Recorder : cases::Observer
+  {
+    bool wants(long, double) override
+    {
+      return true;
+    }
+
+    void observe(const cases::Snapshot &snapshot) override
+    {
+      temperature.assign(snapshot.temperature.begin(), snapshot.temperature.end());
+      heat = snapshot.heat;
+      time = snapshot.time;
+      worst_defect = std::max(worst_defect, snapshot.heat.defect());
+    }
+
+    void begin(const cases::RunDescription &) override
+    {
+    }
+
+    std::vector<double> temperature;
+    cases::HeatBudget heat;
+    double time = -1, worst_defect = 0;
+  };
+
+  /** Cells of a slab of unit conductivity and capacity between walls at temperatures
+   * that may change, and heat released in them. */
+  struct Slab
+  {
+    Slab()
+    {
+      scene.symmetry = cases::Symmetry::planar;
+      scene.domain.upper = {1, 0, 0};
+      scene.material.latent_heat = 0;
+      scene.boundaries[0] = scene.boundaries[1] = cases::Boundary{
+          cases::BoundaryKind::fixed_temperature, cases::Field::uniform(0)};
+      scene.initial.temperature = {"", [](const cases::Position &p, double)
+                                   { return std::sin(pi * p[0]) + 1; }};
+      std::vector<std::uint32_t> scratch;
+      for(int i = 0; i < cells; ++i)
+      {
+        std::vector<std::uint32_t> columns{static_cast<std::uint32_t>(i)};
+        const double ends = (i == 0 || i == cells - 1) ? 3 : 2;
+        std::vector<double> values{-ends / spacing};
+        for(const int j : {i - 1, i + 1})
+          if(j >= 0 && j < cells)
+          {
+            columns.push_back(static_cast<std::uint32_t>(j));
+            values.push_back(1 / spacing);
+          }
+        problem.operator_rows.add_row(columns, values, scratch);
+        problem.mass.add_row(std::span(columns).first(1), std::vector<double>{spacing},
+                             scratch);
+        x.push_back((i + 0.5) * spacing);
+        weights.push_back(spacing);
+      }
+      problem.symmetric = true;
+      problem.source = [this](double time, std::span<double> source)
+      {
+        std::ranges::fill(source, release * spacing);
+        source.front() += 2 / spacing * wall(time);
+        source.back() += 2 / spacing * wall(time);
+      };
+      problem.inflow = [this](double time, std::span<const double> u) {
+        return HeatInflow{2 / spacing * (2 * wall(time) - u.front() - u.back()), release};
+      };
+      description.method = "test";
+    }
+
+    Recorder run(const std::string &scheme, int steps)
+    {
+      cases::Resolution resolution;
+      resolution.n = cells;
+      resolution.options = cases::Options(linear_options());
+      resolution.options.set("time_scheme", scheme);
+      resolution.options.set("steps", std::to_string(steps));
+      Recorder recorder;
+      cost = run_linear_problem(scene, problem, {1, {x, {}, {}}, weights}, description,
+                                resolution, recorder);
+      return recorder;
+    }
+
+    double wall(double time) const
+    {
+      return offset + slope * time;
+    }
+
+    cases::Scene scene;
+    LinearProblem problem;
+    LinearDescription description;
+    std::vector<double> x, weights;
+    double release = 0, offset = 1, slope = 0;
+    cases::Cost cost;
+  };
+
+  /** The slab's own answer: its sine is an eigenvector of the operator. */
+  double decayed(double x, double time)
+  {
+    const double rate = 4 / (spacing * spacing) * std::pow(std::sin(pi * spacing / 2), 2);
+    return std::sin(pi * x) * std::exp(-rate * time) + 1;
+  }
+
+  double error(const std::string &scheme, int steps)
+  {
+    Slab slab;
+    slab.scene.end_time = 0.2;
+    const Recorder recorder = slab.run(scheme, steps);
+    EXPECT_EQ(recorder.time, 0.2);
+    double largest = 0;
+    for(int i = 0; i < cells; ++i)
+      largest = std::max(largest,
+                         std::abs(recorder.temperature[i] - decayed(slab.x[i], 0.2)));
+    return largest;
+  }
+
+  double order(const std::string &scheme)
+  {
+    return std::log2(error(scheme, 20) / error(scheme, 160)) / 3;
+  }
+} // namespace
+
+TEST(LinearRun, OrdersInTime)
+{
+  EXPECT_NEAR(order("backward-euler"), 1, 0.1);
+  EXPECT_NEAR(order("crank-nicolson"), 2, 0.15);
+  EXPECT_NEAR(order("bdf2"), 2, 0.15);
+}
+
+TEST(LinearRun, HeatIsBooked)
+{
+  for(const char *scheme : {"backward-euler", "crank-nicolson", "bdf2"})
+  {
+    Slab slab;
+    slab.release = 3;
+    slab.slope = 5;
+    slab.scene.end_time = 0.3;
+    slab.scene.heat_release = cases::Field::uniform(3);
+    slab.scene.boundaries[1] = cases::Boundary(); // no bound on the temperature matters
+    const Recorder recorder = slab.run(scheme, 37);
+    EXPECT_LT(recorder.worst_defect, 1e-13) << scheme;
+    EXPECT_GT(recorder.heat.boundary + recorder.heat.sources, 0.5);
+  }
+}
+
+TEST(LinearRun, ASteadySceneIsSolvedAtOnce)
+{
+  Slab slab;
+  slab.scene.problem = cases::ProblemKind::poisson;
+  slab.scene.end_time = 1;
+  slab.release = 8;
+  const Recorder recorder = slab.run("bdf2", 0);
+  EXPECT_EQ(slab.cost.steps, 1);
+  EXPECT_LT(recorder.heat.defect(), 1e-13);
+  for(int i = 0; i < cells; ++i)
+    EXPECT_NEAR(recorder.temperature[i],
+                1 + 4 * slab.x[i] * (1 - slab.x[i]) + spacing * spacing, 1e-12);
+}
+
+TEST(LinearRun, UnknownsNeedNotBeTemperatures)
+{
+  Slab plain, reconstructed;
+  plain.scene.end_time = reconstructed.scene.end_time = 0.1;
+  // Unknowns that are half the temperatures.
+  for(CompressedRows *rows :
+      {&reconstructed.problem.operator_rows, &reconstructed.problem.mass})
+    for(double &value : rows->coefficients)
+      value *= 2;
+  reconstructed.problem.inflow = {};
+  std::vector<std::uint32_t> scratch;
+  for(std::uint32_t i = 0; i < cells; ++i)
+    reconstructed.problem.reconstruction.add_row(std::vector{i}, std::vector{2.},
+                                                 scratch);
+  const Recorder one = plain.run("bdf2", 30), other = reconstructed.run("bdf2", 30);
+  for(int i = 0; i < cells; ++i)
+    EXPECT_NEAR(one.temperature[i], other.temperature[i], 1e-13);
+  EXPECT_TRUE(std::isnan(other.heat.defect()));
+}
+
+TEST(LinearRun, ASingularMatrixStopsTheRun)
+{
+  Slab slab;
+  slab.scene.problem = cases::ProblemKind::poisson;
+  slab.problem.symmetric = false;
+  CompressedRows &rows = slab.problem.operator_rows;
+  // Without walls any constant solves it.
+  rows.coefficients.front() = -1 / spacing;
+  rows.coefficients.back() = -1 / spacing;
+  EXPECT_THROW(slab.run("bdf2", 0), cases::NumericalError);
+}
+
+TEST(LinearRun, WhatLeavesItsBoundsIsNoResult)
+{
+  Slab slab;
+  slab.scene.end_time = 0.1;
+  for(double &value : slab.problem.operator_rows.coefficients)
+    value = -value;
+  slab.problem.symmetric = false;
+  EXPECT_THROW(slab.run("backward-euler", 50), cases::NumericalError);
+}
