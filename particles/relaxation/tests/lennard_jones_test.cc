@@ -238,8 +238,8 @@ namespace meltfront::particles
         parameters.potential.length = 1. / 21;
         parameters.most_iterations = 20;
         parameters.threads = threads;
-        result.descent = relax_by_lennard_jones(result.particles, rim(21), unit_box(2),
-                                                parameters);
+        result.descent
+            = relax_by_lennard_jones(result.particles, rim(21), unit_box(2), parameters);
         return result;
       };
       const Relaxed one = twenty_iterations(1), two = twenty_iterations(2);
