@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <particles/alloy/alloy.h>
+#include <particles/relaxation/voronoi_fv.h>
 #include <particles/sph/sph.h>
 #include <reference_fem/cut/cut.h>
 #include <reference_fem/enthalpy/enthalpy.h>
@@ -20,6 +21,7 @@ namespace meltfront::verification
       list.push_back(particles::make_sph_mixture());
       list.push_back(particles::make_sph_two_population());
       list.push_back(particles::make_sph_two_population_2005());
+      list.push_back(particles::make_voronoi_fv());
       list.push_back(reference_fem::make_fem_enthalpy());
       list.push_back(reference_fem::make_fem_fitted());
       list.push_back(reference_fem::make_fem_cut());

@@ -219,9 +219,9 @@ namespace meltfront::particles
       EXPECT_LT(solve(scene, 8, {{"arrangement", "lattice"}}).error(exact), 1e-12);
       scene.boundaries[3] = cases::Boundary{BoundaryKind::heat_transfer,
                                             cases::Field::uniform(6), false, 2};
-      const Outcome transfer = solve(scene, 8, {{"arrangement", "lattice"}});
-      EXPECT_LT(transfer.error(exact), 1e-12);
-      EXPECT_LT(transfer.worst_defect, 1e-11);
+      EXPECT_LT(solve(scene, 8, {{"arrangement", "lattice"}}).error(exact), 1e-12);
+      scene.heat_release = cases::Field::uniform(4);
+      EXPECT_LT(solve(scene, 8, {{"arrangement", "random"}}).worst_defect, 1e-11);
     }
 
     TEST(VoronoiFv, AnInclusionBetweenCellsIsExact)
@@ -229,7 +229,7 @@ namespace meltfront::particles
       cases::Scene scene = box_scene(
           1, field([](const Position &p, double) { return p[0] > 0.5 ? 1. : 0.; }));
       scene.inclusion = cases::Inclusion{
-          field([](const Position &p, double) { return 0.5 - p[0]; }), 9};
+          field([](const Position &p, double) { return p[0] - 0.5; }), 9};
       // n + 1 odd: the jump is midway between two particles.
       const auto exact = [](const Position &p)
       { return p[0] < 0.5 ? 0.2 * p[0] : 1 - 1.8 * (1 - p[0]); };
