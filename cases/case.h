@@ -17,7 +17,8 @@ namespace meltfront::cases
   /** What a criterion asks of a quantity. */
   enum class Statistic
   {
-    value,  ///< the quantity at one n
+    value,  ///< the quantity at one n, the mean over the seeds
+    median, ///< the quantity at one n, the median over the seeds
     order,  ///< the exponent fitted over all n of the table
     worst,  ///< the largest value over all n of the table
     failure ///< whether the run at one n ends with a numerical error, as it is known to
@@ -30,7 +31,7 @@ namespace meltfront::cases
     std::string method;   ///< or a label, `fem-fitted[degree=2]`; `[degree=*]`: any
     std::string quantity; ///< a column of the convergence table, e.g. `front_rms`
     Statistic statistic = Statistic::value;
-    int n = 0;      ///< for Statistic::value and failure
+    int n = 0;      ///< for Statistic::value, median and failure
     int n_from = 0; ///< for the others: rows n_from <= n <= n_to of the table count
     int n_to = std::numeric_limits<int>::max();
     double lower = -std::numeric_limits<double>::infinity();

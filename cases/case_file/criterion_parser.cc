@@ -243,9 +243,12 @@ namespace meltfront::cases
       criterion.statistic = Statistic::order;
     else if(cursor.take("worst"))
       criterion.statistic = Statistic::worst;
+    else if(cursor.take("median"))
+      criterion.statistic = Statistic::median;
     check_any_value(criterion);
     criterion.quantity = cursor.word("a quantity");
-    if(criterion.statistic == Statistic::value)
+    if(criterion.statistic == Statistic::value
+       || criterion.statistic == Statistic::median)
       criterion.n = read_n(cursor);
     else
       read_rows(cursor, criterion);

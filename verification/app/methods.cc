@@ -2,6 +2,7 @@
 #include <particles/alloy/alloy.h>
 #include <particles/rkpm/moab_integral.h>
 #include <particles/rkpm/rkpm.h>
+#include <particles/relaxation/voronoi_fv.h>
 #include <particles/sph/sph.h>
 #include <reference_fem/cut/cut.h>
 #include <reference_fem/enthalpy/enthalpy.h>
@@ -25,6 +26,7 @@ namespace meltfront::verification
       for(auto &method : particles::make_rkpm_methods())
         list.push_back(std::move(method));
       list.push_back(particles::make_moab_integral());
+      list.push_back(particles::make_voronoi_fv());
       list.push_back(reference_fem::make_fem_enthalpy());
       list.push_back(reference_fem::make_fem_fitted());
       list.push_back(reference_fem::make_fem_cut());

@@ -50,6 +50,8 @@ namespace meltfront::verification
       {
       case cases::Statistic::value:
         return "value";
+      case cases::Statistic::median:
+        return "median";
       case cases::Statistic::order:
         return "order";
       case cases::Statistic::failure:
@@ -62,7 +64,8 @@ namespace meltfront::verification
     cases::Statistic statistic_named(const std::string &name)
     {
       for(const cases::Statistic statistic :
-          {cases::Statistic::value, cases::Statistic::order, cases::Statistic::failure})
+          {cases::Statistic::value, cases::Statistic::median, cases::Statistic::order,
+           cases::Statistic::failure})
         if(name == name_of(statistic))
           return statistic;
       return cases::Statistic::worst;

@@ -25,6 +25,7 @@ namespace meltfront::verification
     {
       Runs runs;
       const bool at_one_n = criterion.statistic == cases::Statistic::value
+                            || criterion.statistic == cases::Statistic::median
                             || criterion.statistic == cases::Statistic::failure;
       const bool derived = is_derived_quantity(criterion.quantity);
       for(const RunRecord &run : result.runs)
@@ -72,6 +73,8 @@ namespace meltfront::verification
         return fmt::format("fails at n={}", criterion.n);
       if(criterion.statistic == cases::Statistic::value)
         return fmt::format("{} at n={}", criterion.quantity, criterion.n);
+      if(criterion.statistic == cases::Statistic::median)
+        return fmt::format("median {} at n={}", criterion.quantity, criterion.n);
       const bool all
           = criterion.n_from <= 0 && criterion.n_to == std::numeric_limits<int>::max();
       return fmt::format(
@@ -132,6 +135,19 @@ namespace meltfront::verification
       return sum / static_cast<double>(runs.size());
     }
 
+    double median_over(const Runs &runs, const std::string &quantity)
+    {
+      std::vector<double> values;
+      for(const RunRecord *run : runs)
+        values.push_back(table_value(*run, quantity));
+      if(std::ranges::any_of(values, [](double value) { return std::isnan(value); }))
+        return nan;
+      std::ranges::sort(values);
+      const std::size_t half = values.size() / 2;
+      return values.size() % 2 == 1 ? values[half]
+                                    : 0.5 * (values[half - 1] + values[half]);
+    }
+
     double value_of(const CaseRecord &record, const Runs &runs,
                     const cases::Criterion &criterion)
     {
@@ -141,6 +157,8 @@ namespace meltfront::verification
         return order_over(record, runs, criterion.quantity);
       case cases::Statistic::worst:
         return worst_over(runs, criterion.quantity);
+      case cases::Statistic::median:
+        return median_over(runs, criterion.quantity);
       case cases::Statistic::failure:
         return std::ranges::all_of(runs, [](const RunRecord *run)
                                    { return failed_numerically(*run); })

@@ -31,14 +31,14 @@ namespace meltfront::verification
    * A criterion concerns the runs whose label is its method, options in brackets in any
    * order; without brackets, those with no option set by the matrix. Orders are over h,
    * or over dt where the runs refine that (Refinement), without levels at round-off
-   * (round_off_floor()). Runs of several seeds count with their mean (`worst`: the
-   * largest). Refused runs are no part of an order or a worst value, nor is a case's
-   * reference run of those of its own difference from itself. A criterion is not
-   * judged, and listed as an omission, if the matrix has no such run: no run of the
-   * method at its n, none at all for `worst`, fewer than four resolutions for an order.
-   * A criterion of failure holds if all its runs ended with an error that the method saw
-   * itself. Any other run that failed, was refused at the criterion's n or is missing
-   * makes the value NaN, which does not pass.
+   * (round_off_floor()). Runs of several seeds count with their mean (`median`:
+   * that, `worst`: the largest). Refused runs are no part of an order or a worst value,
+   * nor is a case's reference run of those of its own difference from itself. A criterion
+   * is not judged, and listed as an omission, if the matrix has no such run: no run of
+   * the method at its n, none at all for `worst`, fewer than four resolutions for an
+   * order. A criterion of failure holds if all its runs ended with an error that the
+   * method saw itself. Any other run that failed, was refused at the criterion's n or is
+   * missing makes the value NaN, which does not pass.
    *
    * `passed` asks that every criterion judged passes and that no run failed that is not
    * known to, or is missing.

@@ -43,6 +43,16 @@ TEST(Criterion, TakesAFailureThatIsKnown)
   EXPECT_THROW(parse_criterion("sph: fails"), InputError);
 }
 
+TEST(Criterion, TakesTheMedianOfTheSeeds)
+{
+  const Criterion c = parse_criterion("sph: median front_rms at n=20 in 1 .. 2");
+  EXPECT_EQ(c.statistic, Statistic::median);
+  EXPECT_EQ(c.quantity, "front_rms");
+  EXPECT_EQ(c.n, 20);
+  EXPECT_EQ(c.upper, 2);
+  EXPECT_THROW(parse_criterion("sph: median front_rms <= 2"), InputError);
+}
+
 TEST(Criterion, TakesOrdersAndWorstValues)
 {
   const Criterion order = parse_criterion("sph: order of front_rms >= 1.25");

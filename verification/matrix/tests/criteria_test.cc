@@ -203,6 +203,25 @@ namespace meltfront::verification
       EXPECT_NEAR(result.criteria.at(2).value, 1, 1e-12);
     }
 
+    TEST(Criteria, TakeTheMedianOverSeeds)
+    {
+      std::vector<RunRecord> runs;
+      for(const double error : {9., 1., 2., 4.})
+      {
+        runs.push_back(run_at(20, error));
+        runs.back().seed = runs.size();
+      }
+      const cases::Criterion middle = criterion(cases::Statistic::median, 0, 3, 20);
+      const MatrixResult even = evaluated(runs, {middle});
+      EXPECT_EQ(even.criteria.at(0).value, 3);
+      EXPECT_EQ(even.criteria.at(0).quantity, "median front_rms at n=20");
+      EXPECT_TRUE(even.passed);
+      runs.erase(runs.begin() + 1);
+      EXPECT_EQ(evaluated(runs, {middle}).criteria.at(0).value, 4);
+      runs.push_back(ended(20, RunStatus::failed, "broke"));
+      EXPECT_TRUE(std::isnan(evaluated(runs, {middle}).criteria.at(0).value));
+    }
+
     TEST(Summary, HoldsVerdictBoundsAndOmissions)
     {
       using enum cases::Statistic;
