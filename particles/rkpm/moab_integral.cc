@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <cases/stopwatch.h>
+#include <particles/relaxation/relax_nodes.h>
 #include <particles/rkpm/integral_problem.h>
 #include <particles/rkpm/moab_integral.h>
 
@@ -154,7 +155,8 @@ namespace meltfront::particles
       const NodeSet nodes = arrange_nodes(
           scene, complete.n - 1,
           choice<NodeArrangement>(arrangement_names(), options.get_string("arrangement")),
-          options.get_double("jitter"), complete.seed, method_name);
+          options.get_double("jitter"), complete.seed, method_name,
+          [&scene](NodeSet &set) { relax_inner_nodes(set, scene); });
       const IntegralProblem problem(scene, nodes, read_parameters(scene, complete));
       LinearDescription description;
       description.method = method_name;

@@ -1,5 +1,6 @@
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
+#include <particles/relaxation/relax_nodes.h>
 #include <particles/rkpm/rkpm.h>
 #include <particles/rkpm/rkpm_problem.h>
 
@@ -58,7 +59,8 @@ namespace meltfront::particles
             = rkpm::read_parameters(policy, complete.options, scene.domain.dimension);
         const NodeSet nodes
             = arrange_nodes(scene, complete.n - 1, parameters.arrangement,
-                            parameters.jitter, complete.seed, policy.name);
+                            parameters.jitter, complete.seed, policy.name,
+                            [&scene](NodeSet &set) { relax_inner_nodes(set, scene); });
         const rkpm::RkpmProblem problem(scene, nodes, parameters, policy.name,
                                         complete.threads);
         LinearDescription description;

@@ -231,7 +231,8 @@ namespace meltfront::particles
 
   NodeSet arrange_nodes(const cases::Scene &scene, int intervals,
                         NodeArrangement arrangement, double jitter_over_spacing,
-                        std::uint64_t seed, const std::string &method)
+                        std::uint64_t seed, const std::string &method,
+                        const std::function<void(NodeSet &)> &relax)
   {
     require_box(scene, method);
     if(intervals < 2)
@@ -242,8 +243,10 @@ namespace meltfront::particles
       displace(nodes, jitter_over_spacing, seed);
     if(arrangement == NodeArrangement::random || arrangement == NodeArrangement::relaxed)
       scatter(nodes, scene.domain, seed);
-    if(arrangement == NodeArrangement::relaxed)
+    if(arrangement == NodeArrangement::relaxed && !relax)
       throw cases::Refusal(fmt::format("{} relaxes no nodes", method));
+    if(arrangement == NodeArrangement::relaxed)
+      relax(nodes);
     if(scene.inclusion)
       InclusionSurface(scene, nodes).divide();
     return nodes;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -62,11 +63,13 @@ namespace meltfront::particles
    * @param intervals of the lattice along x; along y and z as many as make the spacings
    * as equal as whole numbers allow
    * @param jitter largest displacement over the spacing, of NodeArrangement::jittered
+   * @param relax moves the inner nodes of NodeArrangement::relaxed, which are random
    * @throws Refusal for a domain that is neither slab nor box, or with periodic walls.
    */
   NodeSet arrange_nodes(const cases::Scene &scene, int intervals,
                         NodeArrangement arrangement, double jitter, std::uint64_t seed,
-                        const std::string &method);
+                        const std::string &method,
+                        const std::function<void(NodeSet &)> &relax = {});
 
   /**
    * What holds at a node on one or more walls: its temperature, or
