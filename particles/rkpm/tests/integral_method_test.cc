@@ -100,6 +100,7 @@ namespace meltfront::particles
           = steady(2, quadratic,
                    [](const cases::Position &, double) { return -6 * conductivity; });
       scene.material.solid.conductivity = conductivity;
+      scene.material.liquid.conductivity = conductivity;
       // dT/dx = 1 + 2 x - y, dT/dy = -2 - x + 4 y
       scene.boundaries[1] = cases::Boundary{cases::BoundaryKind::flux,
                                             {"", [](const cases::Position &p, double)
@@ -131,7 +132,7 @@ namespace meltfront::particles
       for(const char *arrangement : {"lattice", "jittered"})
       {
         std::vector<double> errors;
-        for(const int n : {11, 21, 41, 81})
+        for(const int n : {21, 41, 81, 161})
           errors.push_back(
               run(scene, decay, n, {{"arrangement", arrangement}, {"steps", "1000"}})
                   .error);
