@@ -4,6 +4,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -70,14 +71,31 @@ namespace meltfront::particles
         { return shape_value(shape, std::hypot(x, y)) * std::pow(y, powers[1]); };
         const double low = std::max(box.lower[1], -half);
         const double high = std::min(box.upper[1], half);
-        return low < high ? std::pow(x, powers[0]) * half
-                                * (adaptive(along, low, std::min(high, 0.))
-                                   + adaptive(along, std::max(low, 0.), high))
-                          : 0;
+        const auto piece = [&](double begin, double end)
+        {
+          return begin < end
+                     ? gauss_kronrod<double, 31>::integrate(along, begin, end, 2, 1e-12)
+                     : 0;
+        };
+        return std::pow(x, powers[0]) * half
+               * (piece(low, std::min(high, 0.)) + piece(std::max(low, 0.), high));
       };
+      // In pieces, between which a wall begins to cut strips.
       const double from = std::asin(std::max(box.lower[0], -1.));
       const double to = std::asin(std::min(box.upper[0], 1.));
-      return gauss_kronrod<double, 61>::integrate(strip, from, to, 8, 1e-11);
+      std::vector<double> ends{from, to};
+      for(const double wall : {-box.lower[1], box.upper[1]})
+        if(wall < 1)
+          for(const double sign : {-1., 1.})
+            ends.push_back(std::clamp(sign * std::acos(wall), from, to));
+      ends.push_back(std::clamp(0., from, to));
+      std::ranges::sort(ends);
+      double sum = 0;
+      for(std::size_t k = 1; k < ends.size(); ++k)
+        if(ends[k] > ends[k - 1])
+          sum += gauss_kronrod<double, 31>::integrate(strip, ends[k - 1], ends[k], 2,
+                                                      1e-10);
+      return sum;
     }
 
     TEST(KernelMoments, InThePlaneAgainstAdaptiveQuadrature)
@@ -112,6 +130,7 @@ namespace meltfront::particles
         // A kernel whose centre a corner cuts into quarters.
         std::vector<double> whole(6), part(6), sum(6, 0.);
         moments.evaluate({}, whole);
+        const double rounding = 1e-14 * std::max(1., whole[0]);
         for(const ScaledBox &quarter :
             {ScaledBox{{0, 0}, {3, 3}}, ScaledBox{{-3, 0}, {0, 3}},
              ScaledBox{{-3, -3}, {0, 0}}, ScaledBox{{0, -3}, {3, 0}}})
@@ -119,11 +138,11 @@ namespace meltfront::particles
           moments.evaluate(quarter, part);
           for(std::size_t a = 0; a < 6; ++a)
             sum[a] += part[a];
-          EXPECT_NEAR(part[0], whole[0] / 4, 1e-14) << name;
-          EXPECT_NEAR(part[3], whole[3] / 4, 1e-14) << name;
+          EXPECT_NEAR(part[0], whole[0] / 4, rounding) << name;
+          EXPECT_NEAR(part[3], whole[3] / 4, rounding) << name;
         }
         for(std::size_t a = 0; a < 6; ++a)
-          EXPECT_NEAR(sum[a], whole[a], 1e-14) << name << ' ' << a;
+          EXPECT_NEAR(sum[a], whole[a], rounding) << name << ' ' << a;
         EXPECT_NEAR(whole[0], 1 / kernel_norm(shape, 2), 1e-13) << name;
       }
     }

@@ -98,14 +98,17 @@ namespace meltfront::particles
       Solution parabola = monomial(2, 0);
       parabola.value = [](double x, double) { return x * x - pi * pi; };
       for(const std::string &name : kernel_names())
-        if(const KernelShape kernel = kernel_shape(name);
-           kernel != KernelShape::hat && kernel != KernelShape::epanechnikov)
-          for(const int n : {15, 30, 60, 120})
-            for(const std::uint8_t flux_sides : {0, 2})
-              EXPECT_LT(poisson_error(arrange(1, n, -pi, pi, 0, 1, flux_sides),
-                                      with(kernel, 3, 2.5), parabola),
-                        1e-11)
-                  << name << ' ' << n;
+      {
+        const KernelShape kernel = kernel_shape(name);
+        if(kernel == KernelShape::hat || kernel == KernelShape::epanechnikov)
+          continue;
+        for(const int n : {15, 30, 60, 120})
+          for(const std::uint8_t flux_sides : {0, 2})
+            EXPECT_LT(poisson_error(arrange(1, n, -pi, pi, 0, 1, flux_sides),
+                                    with(kernel, 3, 2.5), parabola),
+                      1e-11)
+                << name << ' ' << n;
+      }
       EXPECT_LT(poisson_error(arrange(1, 120, -pi, pi, 0, 1, 0),
                               published(WeightPolicy::single, KernelShape::epanechnikov),
                               parabola),
