@@ -16,7 +16,7 @@ namespace meltfront::verification
     using cases::PrmKind;
 
     constexpr const char *library_folder = MELTFRONT_MATRIX_LIBRARY;
-    constexpr int most_blocks = 32;
+    constexpr int most_blocks = 64;
 
     std::string block_name(int number)
     {
