@@ -1,8 +1,8 @@
 #include <cases/error.h>
 #include <particles/alloy/alloy.h>
+#include <particles/relaxation/voronoi_fv.h>
 #include <particles/rkpm/moab_integral.h>
 #include <particles/rkpm/rkpm.h>
-#include <particles/relaxation/voronoi_fv.h>
 #include <particles/sph/sph.h>
 #include <reference_fem/cut/cut.h>
 #include <reference_fem/enthalpy/enthalpy.h>
