@@ -93,4 +93,17 @@ namespace meltfront::particles
       }
     }
   }
+
+  void scatter(ParticleStorage &particles, std::span<const std::uint32_t> chosen,
+               const std::array<double, 3> &lower, const std::array<double, 3> &upper,
+               std::uint64_t seed)
+  {
+    std::mt19937_64 generator(seed);
+    for(const std::uint32_t i : chosen)
+      for(int d = 0; d < particles.dimension; ++d)
+      {
+        const double uniform = static_cast<double>(generator() >> 11) * 0x1p-53;
+        particles.position[d][i] = lower[d] + (upper[d] - lower[d]) * uniform;
+      }
+  }
 } // namespace meltfront::particles

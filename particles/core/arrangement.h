@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 
 namespace meltfront::particles
 {
@@ -50,6 +51,12 @@ namespace meltfront::particles
    */
   void jitter(ParticleStorage &particles, double amplitude, std::uint64_t seed,
               const std::function<bool(const std::array<double, 3> &)> &movable);
+
+  /** Put particles at uniformly random places of a box; the same seed gives the same
+   * places on every machine. @param chosen numbers of the particles that are moved */
+  void scatter(ParticleStorage &particles, std::span<const std::uint32_t> chosen,
+               const std::array<double, 3> &lower, const std::array<double, 3> &upper,
+               std::uint64_t seed);
 } // namespace meltfront::particles
 
 #endif

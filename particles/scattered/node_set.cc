@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace meltfront::particles
 {
@@ -88,34 +87,6 @@ namespace meltfront::particles
       std::array<int, 3> intervals{};
       std::array<double, 3> spacing{};
     };
-
-    /** Numbers in [0, 1) that are the same on every machine. */
-    class Uniform
-    {
-    public:
-      explicit Uniform(std::uint64_t seed)
-        : engine(seed)
-      {
-      }
-
-      double operator()()
-      {
-        constexpr double unit = 1. / 9007199254740992.; // 2^-53
-        return unit * static_cast<double>(engine() >> 11);
-      }
-
-    private:
-      std::mt19937_64 engine;
-    };
-
-    void scatter(NodeSet &nodes, const cases::Domain &domain, std::uint64_t seed)
-    {
-      Uniform uniform(seed);
-      for(const std::uint32_t i : nodes.inner)
-        for(int d = 0; d < domain.dimension; ++d)
-          nodes.positions.position[d][i]
-              = domain.lower[d] + (domain.upper[d] - domain.lower[d]) * uniform();
-    }
 
     void displace(NodeSet &nodes, double jitter_over_spacing, std::uint64_t seed)
     {
@@ -242,7 +213,7 @@ namespace meltfront::particles
     if(arrangement == NodeArrangement::jittered)
       displace(nodes, jitter_over_spacing, seed);
     if(arrangement == NodeArrangement::random || arrangement == NodeArrangement::relaxed)
-      scatter(nodes, scene.domain, seed);
+      scatter(nodes.positions, nodes.inner, scene.domain.lower, scene.domain.upper, seed);
     if(arrangement == NodeArrangement::relaxed && !relax)
       throw cases::Refusal(fmt::format("{} relaxes no nodes", method));
     if(arrangement == NodeArrangement::relaxed)

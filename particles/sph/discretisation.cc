@@ -1,9 +1,11 @@
 #include <cases/error.h>
+#include <particles/relaxation/lennard_jones.h>
 #include <particles/sph/discretisation.h>
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace meltfront::particles
 {
@@ -39,7 +41,7 @@ namespace meltfront::particles
     , layout(p.layout)
     , spacing(lattice_spacing(scene.domain.side(), p.n, p.layout))
     , kernel(p.kernel, p.dimension, p.smoothing * spacing)
-    , displaced(p.jitter > 0)
+    , displaced(p.jitter > 0 || p.arrangement >= Arrangement::random)
     , particle_volume(power(spacing, p.dimension))
     , cross_section(1)
   {
@@ -61,6 +63,11 @@ namespace meltfront::particles
   {
     if(!displaced)
       return;
+    if(p.arrangement >= Arrangement::random)
+    {
+      scatter_in_box(p);
+      return;
+    }
     const auto movable = [this](const cases::Position &position)
     {
       if(layout == LatticeLayout::cell_centred)
@@ -85,6 +92,50 @@ namespace meltfront::particles
           = arrange_in_shell(dimension, scene.domain.radius,
                              scene.domain.radius + kernel.support(), spacing, layout);
     relaxation = relax(particles, kernel, spacing, bounds);
+  }
+
+  /** Three rows of the lattice of cells outside of a box. */
+  ParticleStorage Discretisation::lattice_around_box() const
+  {
+    constexpr int rows = 3;
+    std::array<LatticeDirection, 3> wider;
+    for(int d = 0; d < dimension; ++d)
+      wider[d] = {scene.domain.lower[d] - rows * spacing,
+                  scene.domain.upper[d] + rows * spacing, LatticeLayout::cell_centred};
+    const ParticleStorage all = arrange_in_box(dimension, wider, spacing);
+    ParticleStorage around{dimension, {}};
+    for(std::size_t i = 0; i < all.size(); ++i)
+    {
+      bool inside = true;
+      for(int d = 0; d < dimension; ++d)
+        inside = inside && all.position[d][i] > scene.domain.lower[d]
+                 && all.position[d][i] < scene.domain.upper[d];
+      if(!inside)
+        around.add(all.point(i));
+    }
+    return around;
+  }
+
+  void Discretisation::scatter_in_box(const SphParameters &p)
+  {
+    bool periodic = false;
+    for(const double period : periodicity.period)
+      periodic = periodic || period > 0;
+    if(layout != LatticeLayout::cell_centred || periodic || scene.domain.round()
+       || scene.domain.outline)
+      throw cases::Refusal(
+          "random particles need a slab in one dimension or a box without "
+          "periodic walls, in the cell layout");
+    std::vector<std::uint32_t> all(particles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    scatter(particles, all, scene.domain.lower, scene.domain.upper, p.seed);
+    if(p.arrangement != Arrangement::minimised)
+      return;
+    LennardJonesRelaxation how;
+    how.potential.length = spacing;
+    descent = relax_by_lennard_jones(particles, lattice_around_box(),
+                                     {dimension, scene.domain.lower, scene.domain.upper},
+                                     how);
   }
 
   void Discretisation::fill_slab_or_box(const SphParameters &p)

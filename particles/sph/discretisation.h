@@ -6,6 +6,7 @@
 #include <particles/core/neighbour_list.h>
 #include <particles/core/particle_storage.h>
 #include <particles/core/relaxation.h>
+#include <particles/relaxation/conjugate_gradients.h>
 #include <particles/sph/parameters.h>
 
 #include <vector>
@@ -35,8 +36,9 @@ namespace meltfront::particles
     LatticeLayout layout;
     double spacing; ///< dp (m)
     SmoothingKernel kernel;
-    bool displaced;        ///< the particles are jittered
+    bool displaced;        ///< the particles are not on a lattice
     Relaxation relaxation; ///< of the particles, where they were relaxed
+    Descent descent;       ///< of their energy, where that was minimised
     ParticleStorage particles;
     /** Lattice points outside a ball within reach of its particles: they hold the rim's
      * values. */
@@ -55,6 +57,8 @@ namespace meltfront::particles
     void fill_ball();
     void fill_outline();
     void disturb(const SphParameters &parameters);
+    void scatter_in_box(const SphParameters &parameters);
+    ParticleStorage lattice_around_box() const;
     void find_held_particles();
   };
 } // namespace meltfront::particles

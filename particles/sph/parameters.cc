@@ -13,7 +13,8 @@ namespace meltfront::particles
     /** In the order of the enumeration. */
     const std::vector<std::string> &arrangement_names()
     {
-      static const std::vector<std::string> names{"lattice", "jittered", "relaxed"};
+      static const std::vector<std::string> names{"lattice", "jittered", "relaxed",
+                                                  "random", "lennard-jones"};
       return names;
     }
 
@@ -114,7 +115,8 @@ namespace meltfront::particles
          "Particles along the side where n is the number of steps.", 5, 1e6},
         {"arrangement", "", std::string("jittered"),
          "Particles on a lattice, displaced from it by `jitter` (by nothing if that is "
-         "0), or relaxed after that until they crowd nowhere.",
+         "0), or relaxed after that until they crowd nowhere; in a box also random, or "
+         "moved from there to a minimum of the Lennard-Jones energy.",
          0, 0, arrangement_names()},
         {"jitter", "1", 0.0,
          "Random displacement of each particle, in particle spacings and per direction.",
@@ -143,6 +145,9 @@ namespace meltfront::particles
         throw cases::Refusal(fmt::format(
             "{} relaxes particles that are displaced: jitter has to be positive",
             policy.name));
+      if(arrangement >= Arrangement::random && jitter > 0)
+        throw cases::Refusal(fmt::format(
+            "{} does not displace random particles: jitter has to be 0", policy.name));
       return arrangement;
     }
 

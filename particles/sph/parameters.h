@@ -25,7 +25,9 @@ namespace meltfront::particles
   {
     lattice,
     jittered, ///< displaced from a lattice at random
-    relaxed   ///< jittered, then moved until they crowd nowhere
+    relaxed,  ///< jittered, then moved until they crowd nowhere
+    random,   ///< as many as on the lattice, anywhere
+    minimised ///< random, then moved to a minimum of the Lennard-Jones energy
   };
 
   enum class TimeScheme

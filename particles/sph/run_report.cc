@@ -29,6 +29,12 @@ namespace meltfront::particles
            fmt::format("{} sweeps, spread of the second moment from {:.3g} to {:.3g}",
                        done.sweeps, done.spread_before, done.spread_after),
            ""});
+    if(const Descent &done = dis.descent; done.iterations > 0)
+      description.parameters.push_back(
+          {"Lennard-Jones energy",
+           fmt::format("from {:.3g} to {:.6g} in {} iterations", done.energy_before,
+                       done.energy, done.iterations),
+           ""});
     return description;
   }
 

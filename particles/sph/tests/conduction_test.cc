@@ -1,3 +1,4 @@
+#include <cases/error.h>
 #include <cases/exact/formula_solution.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/tests/scenes.h>
@@ -105,6 +106,35 @@ namespace meltfront::particles::testing
       problem.scene.effect_choices[cases::Effect::inclusion] = cases::EffectChoice::on;
       const Outcome same = run(*method, problem, 20);
       EXPECT_EQ(plain.temperature, same.temperature);
+    }
+
+    TEST(Conduction, ParticlesMovedApartAreAsGoodAsJitteredOnes)
+    {
+      const Formula wave = [](const cases::Position &p, double t) {
+        return 1 + std::cos(pi * p[0]) * std::cos(pi * p[1]) * std::exp(-2 * pi * pi * t);
+      };
+      Problem problem;
+      cases::Material material = unit_material();
+      material.latent_heat = 0;
+      problem.scene = unit_box(2, material, 0, 0.02);
+      problem.scene.domain.lower = {0, 0, 0};
+      problem.scene.domain.upper = {1, 1, 0};
+      problem.scene.initial.temperature = {"", wave};
+      problem.exact
+          = std::make_shared<cases::FormulaSolution>(cases::Symmetry::none, "", wave);
+      const auto spread = [&](const OptionTexts &options)
+      {
+        const Outcome outcome = run(*method, problem, 24, options, 3);
+        EXPECT_LE(outcome.largest_defect, 1e-12);
+        return std::max(outcome.highest - 2, -outcome.lowest);
+      };
+      EXPECT_LE(spread({{"arrangement", "lennard-jones"}, {"smoothing", "1.3"}}), 1e-9);
+      EXPECT_LE(spread({{"arrangement", "random"}, {"smoothing", "1.3"}}), 1e-9);
+      EXPECT_THROW(run(*method, line_sink_in_disk(), 20, {{"arrangement", "random"}}),
+                   cases::Refusal);
+      EXPECT_THROW(
+          run(*method, problem, 20, {{"arrangement", "random"}, {"jitter", "0.1"}}),
+          cases::Refusal);
     }
   } // namespace
 } // namespace meltfront::particles::testing
