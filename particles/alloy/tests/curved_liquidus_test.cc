@@ -162,7 +162,7 @@ namespace meltfront::particles::testing
       const BentSite at;
       int all = 0;
       for(const double c : {0.02, 0.14, 0.3})
-        for(const double heat : {1e-6, 1., 1e3, 3e4, 1.5e5})
+        for(const double heat : {1e-6, 1., 1e3, 3e4, 1.5e5, 4e5})
           for(const double own : {-30., -5.})
           {
             const double m = 1.7, salt = c * m, ice = 1.1;
@@ -235,7 +235,9 @@ namespace meltfront::particles::testing
                 EXPECT_GE(x, liquidus - 1e-9);
                 mushes += site.ice_mass > 0;
                 if(site.ice_mass > 0)
+                {
                   EXPECT_NEAR(x, liquidus, 1e-9);
+                }
                 eutectics += x < eutectic + 1e-9;
               }
               if(is_kept && solute.mass < 0.59 * site.liquid_mass)
@@ -323,6 +325,8 @@ namespace meltfront::particles::testing
       return largest;
     }
 
+    // Explicit steps only with a eutectic: an implicit one may have two solutions where a
+    // site gets there, and the last bit decides, on the straight line itself too.
     TEST(TwoPopulationOnACurve, IsThatOnALineForATableOfIt)
     {
       const auto method = make_sph_two_population();
@@ -330,12 +334,15 @@ namespace meltfront::particles::testing
         for(const double diffusivity : {0., 6.2e-10})
           for(const OptionTexts &options : all_schemes)
           {
-            cases::Scene scene = nitrate_slab(13200, diffusivity);
+            const std::string &scheme = options[0].second;
+            if(std::isfinite(eutectic) && scheme != "euler" && scheme != "rkl2")
+              continue;
+            cases::Scene scene = nitrate_slab(40000, diffusivity);
             scene.alloy->eutectic_temperature = eutectic;
             const auto line = run(*method, scene, 40, options);
             const auto table = run(*method, with_table(scene), 40, options);
             EXPECT_LT(largest_difference(line.temperature, table.temperature), 1e-9)
-                << options[0].second << " " << eutectic << " " << diffusivity;
+                << scheme << " " << eutectic << " " << diffusivity;
             EXPECT_LT(largest_difference(line.solid_fraction, table.solid_fraction),
                       1e-9);
           }
@@ -374,7 +381,8 @@ namespace meltfront::particles::testing
         std::vector<double> spacing, errors;
         for(const int n : {30, 45, 60, 120})
         {
-          const auto found = run(*make_sph_two_population(), problem.scene, n, options);
+          const auto found
+              = run(*make_sph_two_population(), problem.scene, n, options, 100);
           errors.push_back(temperature_error(found, problem));
           spacing.push_back(found.description.spacing);
           EXPECT_LT(found.heat_defect, 1e-12);
@@ -400,8 +408,8 @@ namespace meltfront::particles::testing
                                         { return t < 20000 ? -30. : 14.7; },
                                         false};
           scene.boundaries[1] = insulated();
-          const auto found = run(*make_sph_two_population(), scene, 20, options);
-          EXPECT_GT(*std::max_element(found.solids.begin(), found.solids.end()), 0.04);
+          const auto found = run(*make_sph_two_population(), scene, 20, options, 10);
+          EXPECT_GT(*std::max_element(found.solids.begin(), found.solids.end()), 0.035);
           EXPECT_EQ(found.solid, 0) << options[0].second;
           EXPECT_LT(found.heat_defect, 1e-12) << options[0].second;
           EXPECT_LT(found.mass_defect, 1e-12);
@@ -453,10 +461,10 @@ namespace meltfront::particles::testing
       salty.alloy->solutes[0].largest_concentration = 0.1;
       EXPECT_THROW(run(*method, salty, 20), cases::InputError);
       for(const auto &curve :
-          std::vector<std::function<double(double)>>{[](double c) { return 3 + 37 * c; },
-                                                     [](double c)
-                                                     { return 37 * c * (1 - c); },
-                                                     [](double) { return std::nan(""); }})
+          std::vector<std::function<double(double)>>{
+              [](double c) { return 3 + 37 * c; },
+              [](double c) { return 37 * c * (1 - c); },
+              [](double c) { return c < 0.4 ? 37 * c : std::nan(""); }})
       {
         cases::Scene wrong = scene;
         wrong.alloy->solutes[0].liquidus_curve = curve;
