@@ -1,55 +1,19 @@
-#include <cases/error.h>
-#include <cases/exact/mushy_layer.h>
 #include <particles/alloy/phase_exchange.h>
 #include <particles/alloy/solid_path.h>
-#include <particles/alloy/tests/alloy_scenes.h>
-#include <particles/sph/tests/scenes.h>
+#include <particles/alloy/tests/curved_scenes.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <memory>
 #include <random>
 
 namespace meltfront::particles::testing
 {
   namespace
   {
-    constexpr double no_eutectic = -std::numeric_limits<double>::infinity();
-
-    double bent(double c)
-    {
-      return 37 * c * (1 + 0.64 * c);
-    }
-
-    /** Brine whose liquidus is bent, known up to 0.6. */
-    cases::Scene bent_slab(double end_time, double eutectic = no_eutectic,
-                           double diffusivity = 0)
-    {
-      cases::Scene scene = nitrate_slab(end_time, diffusivity);
-      cases::Solute &salt = scene.alloy->solutes[0];
-      salt.liquidus_slope = 0;
-      salt.liquidus_curve = bent;
-      salt.largest_concentration = 0.6;
-      scene.alloy->eutectic_temperature = eutectic;
-      return scene;
-    }
-
-    /** Brine whose straight liquidus is given by a table. */
-    cases::Scene with_table(cases::Scene scene)
-    {
-      std::vector<std::pair<double, double>> points;
-      for(int i = 0; i <= 10; ++i)
-        points.push_back({0.1 * i, -nitrate_slope * 0.1 * i});
-      cases::Solute &salt = scene.alloy->solutes[0];
-      salt.liquidus_slope = 0;
-      salt.liquidus_curve = cases::liquidus_through(points, 0);
-      salt.largest_concentration = 1;
-      return scene;
-    }
-
     /** With crystals of another density. */
     AlloySubstance substance_of(cases::Scene scene, double crystal_density = 917)
     {
@@ -260,6 +224,28 @@ namespace meltfront::particles::testing
       }
     }
 
+    // The rates of super steps against the change of phase after a short time.
+    TEST(CurvedExchange, KnowsTheRateOfFreezing)
+    {
+      const BentSite at;
+      const double m = 1.9, ice = BentSite::mass - m, duration = 0.01;
+      for(const double c : {0.05, 0.2})
+        for(const double heat_flow : {-100., 100.})
+          for(const double solute_flow : {-1e-5, 0., 1e-5})
+          {
+            const double x = -bent(c);
+            SiteContent<double> site{m, m * (334400 + 4180 * x), ice, ice * 2006 * x};
+            const auto rate = at.exchange.freezing_rate(
+                site, CurvedSolute{&at.curve, c * m}, heat_flow, solute_flow);
+            site.liquid_heat += heat_flow * duration;
+            const CurvedSolute after{&at.curve, c * m + solute_flow * duration};
+            ASSERT_FALSE(at.exchange.settle(site, after));
+            const double found = (site.ice_mass - ice) / duration;
+            EXPECT_NEAR(rate.mass / found, 1, 1e-5) << c << heat_flow << solute_flow;
+            EXPECT_NEAR(rate.heat / rate.mass, 2006 * x, 1e-9);
+          }
+    }
+
     // Automatic derivatives against differences.
     TEST(CurvedExchange, KnowsItsDerivative)
     {
@@ -309,167 +295,6 @@ namespace meltfront::particles::testing
                          }
                        });
       EXPECT_GT(compared, 5000);
-    }
-
-    const std::vector<OptionTexts> all_schemes{
-        {{"time_scheme", "euler"}},
-        {{"time_scheme", "rkl2"}},
-        {{"time_scheme", "backward-euler"}, {"step_factor", "20"}},
-        {{"time_scheme", "crank-nicolson"}, {"step_factor", "20"}}};
-
-    double largest_difference(const std::vector<double> &a, const std::vector<double> &b)
-    {
-      double largest = 0;
-      for(std::size_t i = 0; i < a.size(); ++i)
-        largest = std::max(largest, std::abs(a[i] - b[i]));
-      return largest;
-    }
-
-    // Explicit steps only with a eutectic: an implicit one may have two solutions where a
-    // site gets there, and the last bit decides, on the straight line itself too.
-    TEST(TwoPopulationOnACurve, IsThatOnALineForATableOfIt)
-    {
-      const auto method = make_sph_two_population();
-      for(const double eutectic : {no_eutectic, -14.})
-        for(const double diffusivity : {0., 6.2e-10})
-          for(const OptionTexts &options : all_schemes)
-          {
-            const std::string &scheme = options[0].second;
-            if(std::isfinite(eutectic) && scheme != "euler" && scheme != "rkl2")
-              continue;
-            cases::Scene scene = nitrate_slab(40000, diffusivity);
-            scene.alloy->eutectic_temperature = eutectic;
-            const auto line = run(*method, scene, 40, options);
-            const auto table = run(*method, with_table(scene), 40, options);
-            EXPECT_LT(largest_difference(line.temperature, table.temperature), 1e-9)
-                << scheme << " " << eutectic << " " << diffusivity;
-            EXPECT_LT(largest_difference(line.solid_fraction, table.solid_fraction),
-                      1e-9);
-          }
-    }
-
-    /** The bent brine with its exact mushy layer. */
-    Problem bent_layer(double end_time)
-    {
-      cases::Scene scene = bent_slab(end_time);
-      const auto exact = std::make_shared<cases::MushyLayer>(
-          scene.material, *scene.alloy, std::vector<double>{nitrate_concentration}, -16.5,
-          14.7);
-      scene.boundaries[1] = exact_wall(exact);
-      return {scene, exact};
-    }
-
-    double temperature_error(const AlloyOutcome &found, const Problem &problem)
-    {
-      double sum = 0;
-      for(std::size_t i = 0; i < found.x.size(); ++i)
-      {
-        const double deviation
-            = found.temperature[i]
-              - problem.exact->temperature(cases::Position{found.x[i], 0, 0},
-                                           problem.scene.end_time);
-        sum += deviation * deviation;
-      }
-      return std::sqrt(sum / static_cast<double>(found.x.size()));
-    }
-
-    TEST(TwoPopulationOnACurve, ConvergesToTheMushyLayer)
-    {
-      const Problem problem = bent_layer(91800);
-      for(const OptionTexts &options : all_schemes)
-      {
-        std::vector<double> spacing, errors;
-        for(const int n : {30, 45, 60, 120})
-        {
-          const auto found
-              = run(*make_sph_two_population(), problem.scene, n, options, 100);
-          errors.push_back(temperature_error(found, problem));
-          spacing.push_back(found.description.spacing);
-          EXPECT_LT(found.heat_defect, 1e-12);
-          EXPECT_LT(found.mass_defect, 1e-12);
-          EXPECT_LT(found.solute_defect, 1e-12);
-          EXPECT_GE(found.lowest, -16.5 - 1e-7);
-          EXPECT_LE(found.highest, 14.7 + 1e-7);
-        }
-        EXPECT_LT(errors.back(), 0.011) << options[0].second;
-        EXPECT_GT(fitted_order(spacing, errors), 1.2) << options[0].second;
-      }
-    }
-
-    // Through the eutectic temperature and back.
-    TEST(TwoPopulationOnACurve, GivesBackWhatFroze)
-    {
-      for(const double diffusivity : {0., 6.2e-10})
-        for(const OptionTexts &options : all_schemes)
-        {
-          cases::Scene scene = bent_slab(2e6, -17.7, diffusivity);
-          scene.boundaries[0]->value = {"",
-                                        [](const cases::Position &, double t)
-                                        { return t < 20000 ? -30. : 14.7; },
-                                        false};
-          scene.boundaries[1] = insulated();
-          const auto found = run(*make_sph_two_population(), scene, 20, options, 10);
-          EXPECT_GT(*std::max_element(found.solids.begin(), found.solids.end()), 0.035);
-          EXPECT_EQ(found.solid, 0) << options[0].second;
-          EXPECT_LT(found.heat_defect, 1e-12) << options[0].second;
-          EXPECT_LT(found.mass_defect, 1e-12);
-          EXPECT_LT(found.solute_defect, 1e-12);
-        }
-    }
-
-    // Beyond the largest known concentration a run ends and says where.
-    TEST(TwoPopulationOnACurve, StopsWhereTheLiquidusIsNotKnown)
-    {
-      const auto method = make_sph_two_population();
-      cases::Scene scene = bent_slab(91800);
-      scene.alloy->solutes[0].largest_concentration = 0.3; // down to -13.2
-      for(const OptionTexts &options : all_schemes)
-        try
-        {
-          run(*method, scene, 40, options);
-          FAIL() << options[0].second;
-        }
-        catch(const cases::NumericalError &error)
-        {
-          EXPECT_EQ(error.method, "sph-two-population");
-          EXPECT_GT(error.step, 0);
-          EXPECT_GT(error.time, 0);
-          EXPECT_LT(error.time, 91800);
-          const std::string text = error.what();
-          EXPECT_NE(error.quantity.find("liquid particle 0 at x = 0.00625 m"),
-                    std::string::npos)
-              << text;
-          EXPECT_NE(text.find("the liquidus is known up to 0.3"), std::string::npos)
-              << text;
-        }
-      scene.alloy->eutectic_temperature = -15; // not on the curve either
-      EXPECT_THROW(run(*method, scene, 40), cases::NumericalError);
-      scene.alloy->eutectic_temperature = -13;
-      EXPECT_NO_THROW(run(*method, scene, 40));
-    }
-
-    TEST(TwoPopulationOnACurve, RefusesWhatItCannotDo)
-    {
-      const auto method = make_sph_two_population();
-      const cases::Scene scene = bent_slab(1000);
-      EXPECT_THROW(run(*make_sph_two_population_2005(), scene, 20), cases::Refusal);
-      EXPECT_THROW(run(*method, scene, 20, {{"new_ice", "kernel"}}), cases::Refusal);
-      EXPECT_THROW(run(*method, scene, 20, {{"latent_heat", "constant"}}),
-                   cases::Refusal);
-      EXPECT_THROW(run(*method, scene, 20, {{"exchange", "published"}}), cases::Refusal);
-      cases::Scene salty = scene;
-      salty.alloy->solutes[0].largest_concentration = 0.1;
-      EXPECT_THROW(run(*method, salty, 20), cases::InputError);
-      for(const auto &curve :
-          std::vector<std::function<double(double)>>{
-              [](double c) { return 3 + 37 * c; },
-              [](double c) { return 37 * c * (1 - c); },
-              [](double c) { return c < 0.4 ? 37 * c : std::nan(""); }})
-      {
-        cases::Scene wrong = scene;
-        wrong.alloy->solutes[0].liquidus_curve = curve;
-        EXPECT_THROW(run(*method, wrong, 20), cases::InputError);
-      }
     }
   } // namespace
 } // namespace meltfront::particles::testing
