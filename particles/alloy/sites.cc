@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace meltfront::particles
 {
@@ -24,7 +25,18 @@ namespace meltfront::particles
                parameters.new_ice == NewIce::site && !parameters.constant_latent_heat)
   {
     if(!substance.diagram.straight())
-      throw cases::Refusal(fmt::format("{} needs a straight liquidus", parameters.name));
+    {
+      if(parameters.new_ice == NewIce::kernel || parameters.constant_latent_heat
+         || parameters.exchange == PhaseExchange::published)
+        throw cases::Refusal(fmt::format(
+            "{} takes a curved liquidus only with exchange = corrected, new_ice = site "
+            "and latent_heat = energy_function",
+            parameters.name));
+      curve.emplace(substance);
+    }
+    for(const cases::Solute &solute : substance.alloy.solutes)
+      weight.push_back(curve ? 1. : solute.liquidus_slope);
+    check_composition(dis);
     for(Population *p : {&liquid, &ice})
       for(auto *array : {&p->mass, &p->heat, &p->excess, &p->share})
         array->assign(padded, 0.);
@@ -33,15 +45,7 @@ namespace meltfront::particles
     for(const std::uint32_t a : dis.held)
       is_held[a] = 1;
     for(std::size_t a = 0; a < n; ++a)
-    {
-      const auto content = [&](std::size_t s)
-      { return s < concentration.size() ? concentration[s][a] : 0.; };
-      if(!(substance.diagram.depression(content(0), content(1)) > 0))
-        throw cases::Refusal(
-            fmt::format("{} needs solute everywhere, and there is none at x = {:.6g} m",
-                        parameters.name, dis.particles.position[0][a]));
       share_out(initial, a);
-    }
     if(parameters.new_ice == NewIce::kernel
        || parameters.exchange == PhaseExchange::published)
     {
@@ -58,10 +62,28 @@ namespace meltfront::particles
     update();
   }
 
+  void Sites::check_composition(const Discretisation &dis) const
+  {
+    for(std::size_t a = 0; a < n; ++a)
+    {
+      const double x = dis.particles.position[0][a];
+      if(!(dissolved(a) > 0))
+        throw cases::Refusal(
+            fmt::format("{} needs solute everywhere, and there is none at x = {:.6g} m",
+                        parameters.name, x));
+      if(curve && concentration[0][a] > curve->largest_concentration())
+        throw cases::InputError(fmt::format(
+            "the initial concentration is {:.6g} at x = {:.6g} m; the liquidus is known "
+            "up to {:.6g}",
+            concentration[0][a], x, curve->largest_concentration()));
+    }
+  }
+
   void Sites::share_out(const MixtureState &initial, std::size_t a)
   {
-    const cases::PhaseState state
-        = substance.diagram.on_straight(initial.enthalpy[a], dissolved(a) / site_mass);
+    const cases::PhaseState state = substance.diagram.equilibrium(
+        initial.enthalpy[a], concentration[0][a],
+        concentration.size() > 1 ? concentration[1][a] : 0.);
     const cases::Material &m = substance.material;
     const double part = is_held[a] ? 0. : state.liquid_fraction;
     const double x = state.temperature - m.melting_temperature;
@@ -90,8 +112,25 @@ namespace meltfront::particles
   {
     double sum = 0;
     for(std::size_t s = 0; s < concentration.size(); ++s)
-      sum += substance.alloy.solutes[s].liquidus_slope * concentration[s][a];
+      sum += weight[s] * concentration[s][a];
     return sum * site_mass;
+  }
+
+  std::optional<std::size_t> Sites::beyond_liquidus() const
+  {
+    if(!curve)
+      return std::nullopt;
+    const double largest = curve->largest_concentration() * (1 + 1e-12);
+    // What has frozen at the eutectic temperature holds solute that its liquid does not.
+    const double eutectic = curve->eutectic_concentration();
+    const double most_frozen = eutectic <= largest
+                                   ? substance.eutectic_excess * (1 - 1e-12)
+                                   : -std::numeric_limits<double>::infinity();
+    for(std::size_t a = 0; a < n; ++a)
+      if(!is_held[a] && dissolved(a) > largest * liquid.mass[a]
+         && liquid.excess[a] > most_frozen)
+        return a;
+    return std::nullopt;
   }
 
   void Sites::change_phase()
@@ -99,27 +138,27 @@ namespace meltfront::particles
     meter.measure(
         [this]
         {
-          change_sites();
+          with_liquidus([this](const auto &solute_of) { change_sites(solute_of); });
           if(parameters.new_ice == NewIce::kernel)
             spread_new_ice();
           update();
         });
   }
 
-  void Sites::change_sites()
+  template <typename SoluteOf>
+  void Sites::change_sites(const SoluteOf &solute_of)
   {
     for(std::size_t a = 0; a < n; ++a)
     {
       if(is_held[a])
         continue;
-      const double depression_mass = dissolved(a);
+      const auto solute = solute_of(dissolved(a));
       SiteContent<double> site = content(a);
       if(parameters.new_ice == NewIce::site)
-        is_kept[a] = exchange.settle(site, depression_mass);
-      else if(exchange.freezes(site, depression_mass))
+        is_kept[a] = exchange.settle(site, solute);
+      else if(exchange.freezes(site, solute))
       {
-        const SiteExchange::NewIce<double> made
-            = exchange.freeze_liquid(site, depression_mass);
+        const SiteExchange::NewIce<double> made = exchange.freeze_liquid(site, solute);
         new_ice[a] = made.mass;
         new_heat[a] = made.heat;
       }
@@ -166,10 +205,15 @@ namespace meltfront::particles
       kernel_sums->sum(ice.mass, gained); // density of ice, equation 4.18
       work += static_cast<long>(kernel_sums->interactions());
     }
+    with_liquidus(
+        [this](const auto &solute_of)
+        {
+          for(std::size_t a = 0; a < n; ++a)
+            depression[a] = solute_of(dissolved(a)).depression(site_mass);
+        });
     for(std::size_t a = 0; a < n; ++a)
     {
       liquid_fraction[a] = liquid.mass[a] / site_mass;
-      depression[a] = dissolved(a) / site_mass;
       const bool any_ice = ice.mass[a] > 0, any_liquid = liquid.mass[a] > 0;
       if(any_liquid)
         liquid.excess[a] = (liquid.heat[a] / liquid.mass[a] - m.latent_heat)
@@ -240,6 +284,12 @@ namespace meltfront::particles
 
   void Sites::make_rates(std::span<double> flows) const
   {
+    with_liquidus([&](const auto &solute_of) { make_rates(flows, solute_of); });
+  }
+
+  template <typename SoluteOf>
+  void Sites::make_rates(std::span<double> flows, const SoluteOf &solute_of) const
+  {
     const std::size_t size = liquid.mass.size();
     double *liquid_mass = flows.data(), *liquid_heat = liquid_mass + size;
     double *ice_mass = liquid_heat + size, *ice_heat = ice_mass + size;
@@ -247,17 +297,16 @@ namespace meltfront::particles
     for(std::size_t a = 0; a < n; ++a)
     {
       liquid_mass[a] = ice_mass[a] = 0;
-      double depression_flow = 0;
+      double solute_flow = 0;
       for(std::size_t s = 0; s < concentration.size(); ++s)
       {
-        depression_flow
-            += substance.alloy.solutes[s].liquidus_slope * solute[s * size + a];
+        solute_flow += weight[s] * solute[s * size + a];
         solute[s * size + a] /= site_mass;
       }
       if(is_held[a] || is_kept[a] || !(ice.mass[a] > 0))
         continue;
       const SiteExchange::NewIce<double> made = exchange.freezing_rate(
-          content(a), dissolved(a), liquid_heat[a], depression_flow);
+          content(a), solute_of(dissolved(a)), liquid_heat[a], solute_flow);
       liquid_mass[a] = -made.mass;
       liquid_heat[a] -= made.heat;
       ice_mass[a] = made.mass;

@@ -66,7 +66,34 @@ namespace meltfront::particles
 
     SiteContent<double> content(std::size_t site) const;
     void set_content(std::size_t site, const SiteContent<double> &content);
-    double dissolved(std::size_t site) const; ///< PS
+
+    /** What the depression of the liquidus follows: PS or, on a curve, the mass of
+     * solute.
+     */
+    double dissolved(std::size_t site) const;
+
+    /** Call visitor(solute_of), solute_of(dissolved) the StraightSolute or CurvedSolute
+     * of a site: loops over sites within it know which. */
+    template <typename Visitor>
+    void with_liquidus(const Visitor &visitor) const
+    {
+      if(curve)
+        visitor(
+            [liquidus = &*curve](double solute) {
+              return CurvedSolute{liquidus, solute};
+            });
+      else
+        visitor([](double depression_mass) { return StraightSolute{depression_mass}; });
+    }
+
+    /** The liquidus where it is curved, else null. */
+    const CurvedLiquidus *curved_liquidus() const
+    {
+      return curve ? &*curve : nullptr;
+    }
+
+    /** The first site whose liquid is saltier than a curved liquidus is known for. */
+    std::optional<std::size_t> beyond_liquidus() const;
 
     const SiteExchange &phase_exchange() const
     {
@@ -96,7 +123,11 @@ namespace meltfront::particles
     long work = 0; ///< interactions of the sums over kernels
 
   private:
-    void change_sites();
+    template <typename SoluteOf>
+    void change_sites(const SoluteOf &solute_of);
+    template <typename SoluteOf>
+    void make_rates(std::span<double> flows, const SoluteOf &solute_of) const;
+    void check_composition(const Discretisation &discretisation) const;
     void share_out(const MixtureState &initial, std::size_t site);
     void spread_new_ice();
 
@@ -105,6 +136,8 @@ namespace meltfront::particles
     std::size_t n;
     double volume;
     SiteExchange exchange;
+    std::optional<CurvedLiquidus> curve;
+    std::vector<double> weight; ///< of each solute in dissolved()
     EffectMeter meter;
     std::optional<KernelSums> kernel_sums;
     std::vector<double> normaliser;        ///< zeta of equation 4.14

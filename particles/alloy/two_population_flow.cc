@@ -48,7 +48,20 @@ namespace meltfront::particles
                            { return temperature - melting; });
   }
 
-  double TwoPopulationFlow::wall_solid_share(std::size_t site, double wall) const
+  template <typename Visitor>
+  void TwoPopulationFlow::with_path(const Visitor &visitor) const
+  {
+    if(const CurvedLiquidus *curve = sites.curved_liquidus())
+      visitor([this, curve](double excess, std::size_t site)
+              { return curve->solid_path(excess, sites.concentration[0][site]); });
+    else
+      visitor([this](double excess, std::size_t site)
+              { return path.whole(excess, sites.depression[site]); });
+  }
+
+  template <typename Path>
+  double TwoPopulationFlow::wall_solid_share(std::size_t site, double wall,
+                                             const Path &solid_path) const
   {
     // Such that the mean of both shares is that over the temperatures between site and
     // wall, along the equilibrium of the site's composition.
@@ -56,15 +69,15 @@ namespace meltfront::particles
     const double difference = wall - own;
     if(std::abs(difference) < 1e-6 * lowered)
       return sites.ice.share[site];
-    const double mean
-        = (path.whole(wall, lowered) - path.whole(own, lowered)) / difference;
+    const double mean = (solid_path(wall, site) - solid_path(own, site)) / difference;
     return std::clamp(2 * mean - sites.ice.share[site], 0., 1.);
   }
 
+  template <typename Path>
   double TwoPopulationFlow::other_share_of_wall(bool of_ice, std::size_t site,
-                                                double wall) const
+                                                double wall, const Path &solid_path) const
   {
-    const double solid = wall_solid_share(site, wall);
+    const double solid = wall_solid_share(site, wall, solid_path);
     return of_ice ? 1 - solid : solid;
   }
 
@@ -81,13 +94,20 @@ namespace meltfront::particles
                                             std::span<double> flow)
   {
     pass(pair, flow);
-    if(!wall_temperature)
-      return 0;
-    return wall_temperature->add(
-        [&](std::size_t row, double wall) {
-          return pair.from_wall(row, wall, other_share_of_wall(pair.of_ice, row, wall));
-        },
-        fraction, flow);
+    double heat = 0;
+    if(wall_temperature)
+      with_path(
+          [&](const auto &solid_path)
+          {
+            heat = wall_temperature->add(
+                [&](std::size_t row, double wall)
+                {
+                  return pair.from_wall(
+                      row, wall, other_share_of_wall(pair.of_ice, row, wall, solid_path));
+                },
+                fraction, flow);
+          });
+    return heat;
   }
 
   CorrectedPair TwoPopulationFlow::to_liquid_pair(const double *liquid,
@@ -146,12 +166,17 @@ namespace meltfront::particles
     wall_rate.assign(rows.rows.padded_rows(), 0.);
     diagonal.resize(rows.rows.padded_rows());
     if(wall_temperature)
-      wall_temperature->differentiate(
-          [&](std::size_t row, double wall) {
-            return -pair.wall_conductivity(row,
-                                           other_share_of_wall(pair.of_ice, row, wall));
-          },
-          fraction, wall_rate);
+      with_path(
+          [&](const auto &solid_path)
+          {
+            wall_temperature->differentiate(
+                [&](std::size_t row, double wall)
+                {
+                  return -pair.wall_conductivity(
+                      row, other_share_of_wall(pair.of_ice, row, wall, solid_path));
+                },
+                fraction, wall_rate);
+          });
     pass(CorrectedPairSlope{pair}, diagonal);
     for(std::size_t a = 0; a < diagonal.size(); ++a)
       diagonal[a] = wall_rate[a] - diagonal[a];

@@ -113,8 +113,14 @@ namespace meltfront::particles
     CorrectedPair to_ice_pair(const double *liquid, const double *ice) const;
     void set_diagonal(const CorrectedPair &pair, double fraction,
                       std::vector<double> &wall_rate, std::vector<double> &diagonal);
-    double other_share_of_wall(bool of_ice, std::size_t site, double wall_excess) const;
-    double wall_solid_share(std::size_t site, double wall_excess) const;
+    template <typename Visitor>
+    void with_path(const Visitor &visitor) const;
+    template <typename Path>
+    double other_share_of_wall(bool of_ice, std::size_t site, double wall_excess,
+                               const Path &solid_path) const;
+    template <typename Path>
+    double wall_solid_share(std::size_t site, double wall_excess,
+                            const Path &solid_path) const;
 
     cases::EffectSet effects;
     const AlloySubstance &substance;

@@ -31,7 +31,7 @@ namespace meltfront::particles
     , krylov(2 * size, [this](std::span<const double> change, std::span<double> result)
              { apply(change, result); })
     , base(sites.is_held.size())
-    , depression_mass(sites.is_held.size())
+    , dissolved(sites.is_held.size())
   {
     for(auto *array : {&heat, &flow, &excess, &residual, &correction, &diagonal, &change})
       array->assign(2 * size, 0.);
@@ -46,7 +46,7 @@ namespace meltfront::particles
     for(std::size_t a = 0; a < base.size(); ++a)
     {
       base[a] = sites.content(a);
-      depression_mass[a] = sites.dissolved(a);
+      dissolved[a] = sites.dissolved(a);
     }
     if(weight < 1)
     {
@@ -87,7 +87,8 @@ namespace meltfront::particles
     sites.change_phase();
   }
 
-  void TwoPopulationImplicit::respond()
+  template <typename SoluteOf>
+  void TwoPopulationImplicit::respond(const SoluteOf &solute_of)
   {
     const SiteExchange &exchange = sites.phase_exchange();
     for(std::size_t a = 0; a < base.size(); ++a)
@@ -100,7 +101,7 @@ namespace meltfront::particles
       SiteContent<DualNumber> site{
           base[a].liquid_mass, DualNumber(base[a].liquid_heat + heat[a], {1, 0}),
           base[a].ice_mass, DualNumber(base[a].ice_heat + heat[size + a], {0, 1})};
-      exchange.settle(site, depression_mass[a]);
+      exchange.settle(site, solute_of(dissolved[a]));
       const bool any_liquid = site.liquid_mass.value > 0;
       const bool any_ice = site.ice_mass.value > 0;
       const DualNumber liquid
@@ -118,7 +119,7 @@ namespace meltfront::particles
 
   double TwoPopulationImplicit::evaluate(double fraction)
   {
-    respond();
+    sites.with_liquidus([this](const auto &solute_of) { respond(solute_of); });
     const std::span<const double> x(excess);
     const std::span<double> f(flow);
     through_walls = flows.heat_at(x.first(size), x.subspan(size, size), fraction,
@@ -159,11 +160,12 @@ namespace meltfront::particles
       if(iterations == 0)
         return false;
       krylov_iterations += iterations;
-      correct();
+      sites.with_liquidus([this](const auto &solute_of) { correct(solute_of); });
     }
   }
 
-  void TwoPopulationImplicit::correct()
+  template <typename SoluteOf>
+  void TwoPopulationImplicit::correct(const SoluteOf &solute_of)
   {
     const SiteExchange &exchange = sites.phase_exchange();
     const double beyond = beyond_kink * sites.site_mass * exchange.heat_of_melting();
@@ -173,7 +175,7 @@ namespace meltfront::particles
           = base[a].liquid_heat + base[a].ice_heat + heat[a] + heat[size + a];
       const double step = correction[a] + correction[size + a];
       double part = 1;
-      for(const double kink : exchange.kinks(depression_mass[a]))
+      for(const double kink : exchange.kinks(solute_of(dissolved[a])))
       {
         const double to_kink = kink - from;
         if(std::abs(to_kink) > 2 * beyond && to_kink * step > 0

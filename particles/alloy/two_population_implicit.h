@@ -49,8 +49,10 @@ namespace meltfront::particles
   private:
     bool solve(double fraction);
     double evaluate(double fraction);
-    void respond();
-    void correct();
+    template <typename SoluteOf>
+    void respond(const SoluteOf &solute_of);
+    template <typename SoluteOf>
+    void correct(const SoluteOf &solute_of);
     void finish();
     void apply(std::span<const double> change, std::span<double> result);
 
@@ -59,7 +61,7 @@ namespace meltfront::particles
     std::size_t size; ///< of an array of one population
     KrylovSolver krylov;
     std::vector<SiteContent<double>> base; ///< with the heats of the explicit part
-    std::vector<double> depression_mass;
+    std::vector<double> dissolved;         ///< Sites::dissolved()
     // Liquid, then ice:
     std::vector<double> heat, flow, excess, residual, correction, diagonal, change;
     std::array<std::vector<double>, 2> slope; ///< of the own temperature by both heats

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace meltfront::particles
 {
@@ -164,7 +165,7 @@ namespace meltfront::particles
         return step == plan.steps ? scene.end_time : scene.start_time + step * plan.step;
       }
 
-      /** The maximum principle, for every particle that has mass. */
+      /** The maximum principle, for every particle that has mass; a known liquidus. */
       void check(long step, double time) const
       {
         const double melting = scene.material.melting_temperature;
@@ -191,6 +192,18 @@ namespace meltfront::particles
         };
         check_one(sites.liquid, "liquid");
         check_one(sites.ice, "ice");
+        if(const std::optional<std::size_t> a = sites.beyond_liquidus())
+          throw cases::NumericalError(
+              parameters.name, step, time,
+              fmt::format(
+                  "mass fraction of solute in the liquid particle {} at x = {:.6g} "
+                  "m",
+                  *a, dis.particles.position[0][*a]),
+              fmt::format(
+                  "is {:.6g}, and the liquidus is known up to {:.6g}: extend it or "
+                  "state the eutectic temperature",
+                  sites.dissolved(*a) / sites.liquid.mass[*a],
+                  sites.curved_liquidus()->largest_concentration()));
       }
 
       cases::Snapshot snapshot(long step, double time)

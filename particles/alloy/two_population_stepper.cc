@@ -164,6 +164,6 @@ namespace meltfront::particles
       for(const double c : solute)
         if(!(c >= 0))
           return true;
-    return false;
+    return sites.beyond_liquidus().has_value();
   }
 } // namespace meltfront::particles

@@ -214,7 +214,7 @@ namespace meltfront::particles::testing
         const SiteContent<double> content{
             liquid, liquid * (334400 + 4180 * (40 * part(random) - 30)), ice,
             ice * 2006 * (40 * part(random) - 40)};
-        check(content, Site::mass * (0.5 + 8 * part(random)), site);
+        check(content, StraightSolute{Site::mass * (0.5 + 8 * part(random))}, site);
       }
     }
 
@@ -223,33 +223,33 @@ namespace meltfront::particles::testing
     TEST(SiteExchange, SettlesInEquilibrium)
     {
       int kept = 0, mushes = 0;
-      for_random_sites(
-          Site(),
-          [&](const SiteContent<double> &before, double depression_mass, const Site &at)
-          {
-            SiteContent<double> site = before;
-            kept += at.exchange.settle(site, depression_mass);
-            const double heat = before.liquid_heat + before.ice_heat;
-            EXPECT_NEAR(site.liquid_heat + site.ice_heat, heat, 1e-9);
-            EXPECT_NEAR(site.liquid_mass + site.ice_mass, Site::mass, 1e-14);
-            EXPECT_GE(site.liquid_mass, 0);
-            EXPECT_GE(site.ice_mass, 0);
-            if(site.liquid_mass > 0)
-            {
-              const double x = at.exchange.liquid_excess(site);
-              const double liquidus = -depression_mass / site.liquid_mass;
-              EXPECT_GE(x, std::max(liquidus, -17.7) - 1e-9);
-              if(site.ice_mass > 0)
-              {
-                ++mushes;
-                EXPECT_NEAR(x, std::max(liquidus, -17.7), 1e-9);
-              }
-            }
-            SiteContent<double> again = site;
-            at.exchange.settle(again, depression_mass);
-            EXPECT_NEAR(again.liquid_mass, site.liquid_mass, 1e-9);
-            EXPECT_NEAR(again.ice_heat, site.ice_heat, 1e-4);
-          });
+      for_random_sites(Site(),
+                       [&](const SiteContent<double> &before,
+                           const StraightSolute &solute, const Site &at)
+                       {
+                         SiteContent<double> site = before;
+                         kept += at.exchange.settle(site, solute);
+                         const double heat = before.liquid_heat + before.ice_heat;
+                         EXPECT_NEAR(site.liquid_heat + site.ice_heat, heat, 1e-9);
+                         EXPECT_NEAR(site.liquid_mass + site.ice_mass, Site::mass, 1e-14);
+                         EXPECT_GE(site.liquid_mass, 0);
+                         EXPECT_GE(site.ice_mass, 0);
+                         if(site.liquid_mass > 0)
+                         {
+                           const double x = at.exchange.liquid_excess(site);
+                           const double liquidus = -solute.depression(site.liquid_mass);
+                           EXPECT_GE(x, std::max(liquidus, -17.7) - 1e-9);
+                           if(site.ice_mass > 0)
+                           {
+                             ++mushes;
+                             EXPECT_NEAR(x, std::max(liquidus, -17.7), 1e-9);
+                           }
+                         }
+                         SiteContent<double> again = site;
+                         at.exchange.settle(again, solute);
+                         EXPECT_NEAR(again.liquid_mass, site.liquid_mass, 1e-9);
+                         EXPECT_NEAR(again.ice_heat, site.ice_heat, 1e-4);
+                       });
       EXPECT_GT(kept, 100);
       EXPECT_GT(mushes, 500);
     }
@@ -259,49 +259,50 @@ namespace meltfront::particles::testing
     {
       int compared = 0;
       const auto temperatures
-          = [](const auto &exchange, auto site, double depression_mass)
+          = [](const auto &exchange, auto site, const StraightSolute &solute)
       {
-        exchange.settle(site, depression_mass);
+        exchange.settle(site, solute);
         const auto liquid = value_of(site.liquid_mass) > 0 ? exchange.liquid_excess(site)
                                                            : exchange.ice_excess(site);
         const auto ice = value_of(site.ice_mass) > 0 ? exchange.ice_excess(site) : liquid;
         return std::array{liquid, ice};
       };
-      for_random_sites(
-          Site(),
-          [&](const SiteContent<double> &site, double depression_mass, const Site &at)
-          {
-            const auto exact
-                = temperatures(at.exchange,
-                               SiteContent<DualNumber>{
-                                   site.liquid_mass, DualNumber(site.liquid_heat, {1, 0}),
-                                   site.ice_mass, DualNumber(site.ice_heat, {0, 1})},
-                               depression_mass);
-            for(int by = 0; by < 2; ++by)
-            {
-              if(by == 1 && site.ice_mass < 0.1)
-                continue;
-              const double width = 1.;
-              const auto moved = [&](double change)
-              {
-                SiteContent<double> other = site;
-                (by == 0 ? other.liquid_heat : other.ice_heat) += change;
-                return temperatures(at.exchange, other, depression_mass);
-              };
-              const auto below = moved(-width), here = moved(0), above = moved(width);
-              for(int of = 0; of < 2; ++of)
-              {
-                const double left = (here[of] - below[of]) / width;
-                const double right = (above[of] - here[of]) / width;
-                const double slope = exact[of].slope[by];
-                EXPECT_NEAR(exact[of].value, here[of], 1e-12);
-                if(std::abs(left - right) > 1e-9)
-                  continue; // a kink
-                ++compared;
-                EXPECT_NEAR(slope, 0.5 * (left + right), 1e-8);
-              }
-            }
-          });
+      for_random_sites(Site(),
+                       [&](const SiteContent<double> &site, const StraightSolute &solute,
+                           const Site &at)
+                       {
+                         const auto exact = temperatures(
+                             at.exchange,
+                             SiteContent<DualNumber>{
+                                 site.liquid_mass, DualNumber(site.liquid_heat, {1, 0}),
+                                 site.ice_mass, DualNumber(site.ice_heat, {0, 1})},
+                             solute);
+                         for(int by = 0; by < 2; ++by)
+                         {
+                           if(by == 1 && site.ice_mass < 0.1)
+                             continue;
+                           const double width = 1.;
+                           const auto moved = [&](double change)
+                           {
+                             SiteContent<double> other = site;
+                             (by == 0 ? other.liquid_heat : other.ice_heat) += change;
+                             return temperatures(at.exchange, other, solute);
+                           };
+                           const auto below = moved(-width), here = moved(0),
+                                      above = moved(width);
+                           for(int of = 0; of < 2; ++of)
+                           {
+                             const double left = (here[of] - below[of]) / width;
+                             const double right = (above[of] - here[of]) / width;
+                             const double slope = exact[of].slope[by];
+                             EXPECT_NEAR(exact[of].value, here[of], 1e-12);
+                             if(std::abs(left - right) > 1e-9)
+                               continue; // a kink
+                             ++compared;
+                             EXPECT_NEAR(slope, 0.5 * (left + right), 1e-8);
+                           }
+                         }
+                       });
       EXPECT_GT(compared, 5000);
     }
   } // namespace
