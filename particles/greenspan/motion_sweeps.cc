@@ -1,0 +1,269 @@
+// The sweeps of a step over all particles but for the pair forces, and sums over them.
+
+#include <cases/error.h>
+#include <particles/greenspan/motion.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::particles::greenspan
+{
+  namespace
+  {
+    /** Sums are taken block by block, whatever the number of threads. */
+    constexpr std::size_t block_size = 4096;
+
+    /** Call something for each block of particles. */
+    template <typename Body>
+    void for_each_block(std::size_t n, int threads, const Body &body)
+    {
+      const auto blocks = static_cast<std::ptrdiff_t>((n + block_size - 1) / block_size);
+      const auto run = [&](std::ptrdiff_t block)
+      {
+        const std::size_t begin = block * block_size;
+        body(block, begin, std::min(n, begin + block_size));
+      };
+      if(threads == 1 || blocks == 1)
+        for(std::ptrdiff_t block = 0; block < blocks; ++block)
+          run(block);
+      else
+      {
+#pragma omp parallel for schedule(static) num_threads(threads)
+        for(std::ptrdiff_t block = 0; block < blocks; ++block)
+          run(block);
+      }
+    }
+
+    template <int dimension>
+    SpeedSums drift_block(Coordinates &position, const Coordinates &velocity,
+                          double time_step, std::size_t begin, std::size_t end)
+    {
+      double *x[dimension];
+      const double *v[dimension];
+      for(int d = 0; d < dimension; ++d)
+      {
+        x[d] = position[d].data();
+        v[d] = velocity[d].data();
+      }
+      double sum = 0, largest = 0;
+#pragma omp simd reduction(+ : sum) reduction(max : largest)
+      for(std::size_t i = begin; i < end; ++i)
+      {
+        double squared = 0;
+        for(int d = 0; d < dimension; ++d)
+        {
+          squared += v[d][i] * v[d][i];
+          x[d][i] += time_step * v[d][i];
+        }
+        sum += squared;
+        largest = std::max(largest, squared);
+      }
+      return {sum, largest};
+    }
+
+    /** v += factor(R^2) (r - s) within the source's reach. */
+    template <typename Factor>
+    void heat_block(const Coordinates &position, Coordinates &velocity, int dimension,
+                    const HeatSource &source, std::size_t begin, std::size_t end,
+                    const Factor &factor)
+    {
+      const double reach = source.reach * source.reach;
+      for(std::size_t i = begin; i < end; ++i)
+      {
+        std::array<double, 3> apart{};
+        double squared = 0;
+        for(int d = 0; d < dimension; ++d)
+        {
+          apart[d] = position[d][i] - source.position[d];
+          squared += apart[d] * apart[d];
+        }
+        const double f = squared < reach ? factor(squared) : 0;
+        for(int d = 0; d < dimension; ++d)
+          velocity[d][i] += f * apart[d];
+      }
+    }
+  } // namespace
+
+  void Motion::drift()
+  {
+    const std::size_t n = names.size();
+    std::vector<SpeedSums> &speeds = block_speeds;
+    speeds.resize((n + block_size - 1) / block_size);
+    const auto body = [&](std::size_t block, std::size_t begin, std::size_t end)
+    {
+      const double dt = given.time_step;
+      speeds[block] = dimension == 2 ? drift_block<2>(position, velocity, dt, begin, end)
+                                     : drift_block<3>(position, velocity, dt, begin, end);
+    };
+    for_each_block(n, given.threads, body);
+    SpeedSums all;
+    for(const SpeedSums &block : speeds)
+    {
+      all.sum += block.sum;
+      all.largest = std::max(all.largest, block.largest);
+    }
+    const double move = given.time_step * std::sqrt(all.largest);
+    if(!std::isfinite(all.sum) || move > furthest_in_a_step)
+      explain_broken_velocity();
+    const double kinetic = all.sum / 2;
+    if(kinetic > 2 * kinetic_before + all_bonds)
+      fail("kinetic energy",
+           fmt::format("grows from {:.6g} to {:.6g} in one step, by more than itself and "
+                       "all bonds; the time step {:g} is too large for this motion",
+                       kinetic_before, kinetic, given.time_step));
+    kinetic_before = kinetic;
+    travelled += move;
+  }
+
+  void Motion::explain_broken_velocity() const
+  {
+    for(std::size_t i = 0; i < names.size(); ++i)
+    {
+      double squared = 0, from_source = 0;
+      for(int d = 0; d < dimension; ++d)
+      {
+        const double move = given.time_step * velocity[d][i];
+        squared += move * move;
+        if(given.source)
+        {
+          const double apart = position[d][i] - move - given.source->position[d];
+          from_source += apart * apart;
+        }
+      }
+      const std::string quantity
+          = fmt::format("the velocity of particle {}", names[i] + 1);
+      if(!std::isfinite(squared))
+        fail(quantity, "is not finite; it met another particle or the heat source");
+      if(std::sqrt(squared) <= furthest_in_a_step)
+        continue;
+      if(given.source && std::sqrt(from_source) < furthest_in_a_step)
+        fail(quantity, fmt::format("takes it {:.3g} far in one step, for the heat source "
+                                   "lies inside it; move the source",
+                                   std::sqrt(squared)));
+      fail(quantity,
+           fmt::format("takes it {:.3g} far in one step, more than a tenth of a "
+                       "bond; the time step {:g} is too large for this motion",
+                       std::sqrt(squared), given.time_step));
+    }
+    fail("kinetic energy", "is not finite");
+  }
+
+  void Motion::reflect()
+  {
+    const Base base = *given.base;
+    const auto body = [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      const double *x = position[0].data();
+      double *y = position[1].data(), *v = velocity[1].data();
+#pragma omp simd
+      for(std::size_t i = begin; i < end; ++i)
+      {
+        const double hot = base.hot_left - base.hot_slope * (x[i] + base.hot_half_width);
+        const double gamma
+            = std::abs(x[i]) < base.hot_half_width ? hot : base.restitution;
+        const double thrown_back = -gamma * v[i];
+        v[i] = y[i] < 0 ? thrown_back : v[i];
+        for(int d = 0; d < dimension; d += 2)
+          velocity[d][i] = y[i] < 0 ? 0 : velocity[d][i];
+        y[i] = std::abs(y[i]);
+      }
+    };
+    for_each_block(names.size(), given.threads, body);
+  }
+
+  void Motion::heat()
+  {
+    const HeatSource &source = *given.source;
+    const double strength = source.strength(steps_taken);
+    const double exponent = -(source.power + 1) / 2;
+    const auto sweep = [&](const auto &factor)
+    {
+      for_each_block(
+          names.size(), given.threads,
+          [&](std::size_t, std::size_t begin, std::size_t end)
+          { heat_block(position, velocity, dimension, source, begin, end, factor); });
+    };
+    if(source.power == 2)
+      sweep([strength](double squared)
+            { return strength / (squared * std::sqrt(squared)); });
+    else if(source.power == -2)
+      sweep([strength](double squared) { return strength * std::sqrt(squared); });
+    else
+      sweep([strength, exponent](double squared)
+            { return strength * std::pow(squared, exponent); });
+  }
+
+  void Motion::add_temperatures()
+  {
+    const auto body = [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for(int d = 0; d < dimension; ++d)
+      {
+        double *sum = kinetic_sum.data();
+        const double *v = velocity[d].data();
+        for(std::size_t i = begin; i < end; ++i)
+          sum[i] += v[i] * v[i] / 2;
+      }
+    };
+    for_each_block(names.size(), given.threads, body);
+  }
+
+  void Motion::fade()
+  {
+    const double left = std::exp(-given.drag * given.time_step);
+    const auto body = [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for(int d = 0; d < dimension; ++d)
+        for(std::size_t i = begin; i < end; ++i)
+          velocity[d][i] *= left;
+    };
+    for_each_block(names.size(), given.threads, body);
+  }
+
+  Energy Motion::energy() const
+  {
+    const Coordinates acceleration = raw_accelerations();
+    Energy result;
+    for(std::size_t i = 0; i < names.size(); ++i)
+    {
+      for(int d = 0; d < dimension; ++d)
+      {
+        const double v = velocity[d][i] - given.time_step / 2 * acceleration[d][i];
+        result.kinetic += v * v / 2;
+      }
+      result.height += given.gravity * position[1][i];
+      for(const std::uint32_t j : rows.row(i))
+      {
+        double squared = 0;
+        for(int d = 0; d < dimension; ++d)
+        {
+          const double apart = position[d][i] - position[d][j];
+          squared += apart * apart;
+        }
+        result.bonds += given.force.potential(std::sqrt(squared)) / 2;
+      }
+    }
+    return result;
+  }
+
+  double Motion::temperature() const
+  {
+    double sum = 0;
+    for(int d = 0; d < dimension; ++d)
+      for(std::size_t i = 0; i < names.size(); ++i)
+        sum += velocity[d][i] * velocity[d][i];
+    return sum / (dimension * static_cast<double>(names.size()));
+  }
+
+  std::array<double, 3> Motion::momentum() const
+  {
+    const Coordinates acceleration = raw_accelerations();
+    std::array<double, 3> sum{};
+    for(int d = 0; d < dimension; ++d)
+      for(std::size_t i = 0; i < names.size(); ++i)
+        sum[d] += velocity[d][i] - given.time_step / 2 * acceleration[d][i];
+    return sum;
+  }
+} // namespace meltfront::particles::greenspan
