@@ -1,0 +1,55 @@
+#ifndef meltfront_particles_greenspan_bonds_h
+#define meltfront_particles_greenspan_bonds_h
+
+#include <particles/greenspan/particle_state.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace meltfront::particles::greenspan
+{
+  /** Pairs of particles nearer to each other than a bond's greatest length. */
+  class BondGraph
+  {
+  public:
+    /** @param length of a bond at most, exclusive: 1.5 in the report */
+    BondGraph(int dimension, const std::array<std::vector<double>, 3> &position,
+              double length = 1.5);
+
+    /** Number of particles. */
+    std::size_t size() const
+    {
+      return begin.size() - 1;
+    }
+
+    /** Number of bonds. */
+    std::size_t count() const
+    {
+      return partners.size() / 2;
+    }
+
+    /** Partners of a particle, ascending. */
+    std::span<const std::uint32_t> operator[](std::size_t particle) const
+    {
+      return {partners.data() + begin[particle], begin[particle + 1] - begin[particle]};
+    }
+
+    bool bonded(std::size_t a, std::size_t b) const;
+
+    /** How many of this graph's bonds another one of the same particles has, too. */
+    std::size_t shared_with(const BondGraph &other) const;
+
+    /** 1 for each corner of a triangle of bonds whose three corners are eligible. */
+    std::vector<char> in_triangle(const std::vector<char> &eligible) const;
+
+    /** The same where all are eligible. */
+    std::vector<char> in_triangle() const;
+
+  private:
+    std::vector<std::size_t> begin;
+    std::vector<std::uint32_t> partners;
+  };
+} // namespace meltfront::particles::greenspan
+
+#endif
