@@ -1,11 +1,10 @@
 #include <particles/greenspan/experiments.h>
+#include <particles/greenspan/random_numbers.h>
 #include <particles/greenspan/tables.h>
 
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <numbers>
-#include <random>
 
 namespace meltfront::particles::greenspan
 {
@@ -142,12 +141,6 @@ namespace meltfront::particles::greenspan
       BondGraph first_bonds;
       AverageVelocity average;
     };
-
-    /** Uniform in (0, 1], the same on every machine. */
-    double uniform(std::mt19937_64 &generator)
-    {
-      return (static_cast<double>(generator() >> 11) + 1) * 0x1p-53;
-    }
   } // namespace
 
   Experiment Experiment::triangle_slow(double power)
@@ -190,13 +183,11 @@ namespace meltfront::particles::greenspan
 
   void disturb(ParticleState &state, double deviation, std::uint64_t seed)
   {
-    std::mt19937_64 generator(seed);
+    RandomNumbers random(seed);
     for(std::size_t i = 0; i < state.size(); ++i)
       for(int d = 0; d < state.dimension; ++d)
       {
-        const double radius = std::sqrt(-2 * std::log(uniform(generator)));
-        const double angle = 2 * std::numbers::pi * uniform(generator);
-        state.position[d][i] += deviation * radius * std::cos(angle);
+        state.position[d][i] += deviation * random.normal();
         if(d == 1)
           state.position[d][i] = std::max(0., state.position[d][i]);
       }

@@ -121,7 +121,7 @@ namespace meltfront::particles::greenspan
     void fade();
     Coordinates raw_accelerations() const;
     [[noreturn]] void fail(const std::string &quantity, const std::string &problem) const;
-    [[noreturn]] void explain_broken_velocity() const;
+    [[noreturn]] void explain_broken_motion(double kinetic, double move) const;
 
     MotionParameters given;
     int dimension;

@@ -105,49 +105,55 @@ namespace meltfront::particles::greenspan
       all.largest = std::max(all.largest, block.largest);
     }
     const double move = given.time_step * std::sqrt(all.largest);
-    if(!std::isfinite(all.sum) || move > furthest_in_a_step)
-      explain_broken_velocity();
     const double kinetic = all.sum / 2;
-    if(kinetic > 2 * kinetic_before + all_bonds)
-      fail("kinetic energy",
-           fmt::format("grows from {:.6g} to {:.6g} in one step, by more than itself and "
-                       "all bonds; the time step {:g} is too large for this motion",
-                       kinetic_before, kinetic, given.time_step));
+    if(!std::isfinite(all.sum) || move > furthest_in_a_step
+       || kinetic > 2 * kinetic_before + all_bonds)
+      explain_broken_motion(kinetic, move);
     kinetic_before = kinetic;
     travelled += move;
   }
 
-  void Motion::explain_broken_velocity() const
+  void Motion::explain_broken_motion(double kinetic, double move) const
   {
+    const auto speed = [this](std::size_t i)
+    { return std::hypot(velocity[0][i], velocity[1][i], velocity[dimension - 1][i]); };
+    std::size_t fastest = 0;
     for(std::size_t i = 0; i < names.size(); ++i)
     {
-      double squared = 0, from_source = 0;
+      if(!std::isfinite(speed(i)))
+        fail(fmt::format("the velocity of particle {}", names[i] + 1),
+             "is not finite; it met another particle or the heat source");
+      if(speed(i) > speed(fastest))
+        fastest = i;
+    }
+    if(given.source)
+    {
+      double squared = 0;
       for(int d = 0; d < dimension; ++d)
       {
-        const double move = given.time_step * velocity[d][i];
-        squared += move * move;
-        if(given.source)
-        {
-          const double apart = position[d][i] - move - given.source->position[d];
-          from_source += apart * apart;
-        }
+        const double before
+            = position[d][fastest] - given.time_step * velocity[d][fastest];
+        squared += (before - given.source->position[d])
+                   * (before - given.source->position[d]);
       }
-      const std::string quantity
-          = fmt::format("the velocity of particle {}", names[i] + 1);
-      if(!std::isfinite(squared))
-        fail(quantity, "is not finite; it met another particle or the heat source");
-      if(std::sqrt(squared) <= furthest_in_a_step)
-        continue;
-      if(given.source && std::sqrt(from_source) < furthest_in_a_step)
-        fail(quantity, fmt::format("takes it {:.3g} far in one step, for the heat source "
-                                   "lies inside it; move the source",
-                                   std::sqrt(squared)));
-      fail(quantity,
-           fmt::format("takes it {:.3g} far in one step, more than a tenth of a "
-                       "bond; the time step {:g} is too large for this motion",
-                       std::sqrt(squared), given.time_step));
+      if(std::sqrt(squared) < furthest_in_a_step)
+        fail(
+            fmt::format("particle {}", names[fastest] + 1),
+            fmt::format("is thrown out with velocity {:.4g} by the heat source that lies "
+                        "inside it; move the source",
+                        speed(fastest)));
     }
-    fail("kinetic energy", "is not finite");
+    if(move > furthest_in_a_step)
+      fail(fmt::format("particle {}", names[fastest] + 1),
+           fmt::format(
+               "moves by {:.3g} in one step, more than a tenth of a bond; the time "
+               "step {:g} is too large for this motion",
+               move, given.time_step));
+    fail("kinetic energy",
+         fmt::format(
+             "grows from {:.6g} to {:.6g} in one step, by more than itself and all "
+             "bonds; the time step {:g} is too large for this motion",
+             kinetic_before, kinetic, given.time_step));
   }
 
   void Motion::reflect()

@@ -1,4 +1,6 @@
 #include <cases/error.h>
+#include <particles/greenspan/bonds.h>
+#include <particles/greenspan/generation.h>
 #include <particles/greenspan/motion.h>
 #include <particles/greenspan/tables.h>
 
@@ -60,6 +62,366 @@ namespace meltfront::particles::greenspan
           finer = error;
         }
       }
+    }
+
+    TEST(GreenspanMotion, MomentumOfIsolatedSolidsStays)
+    {
+      for(const int table : {1, 2})
+      {
+        ParticleState start = read_table(table);
+        start.velocity[0][3] += 0.7;
+        const PairForce force
+            = table == 1 ? PairForce::triangle() : PairForce::rectangle();
+        Motion motion(isolated(force), start);
+        const auto before = motion.momentum();
+        motion.advance(20000);
+        for(int d = 0; d < 2; ++d)
+          EXPECT_NEAR(motion.momentum()[d], before[d], 1e-10);
+      }
+    }
+
+    /** Differences of two states, the largest. */
+    double largest_difference(const ParticleState &a, const ParticleState &b)
+    {
+      double largest = 0;
+      for(int d = 0; d < a.dimension; ++d)
+        for(std::size_t i = 0; i < a.size(); ++i)
+          largest = std::max({largest, std::abs(a.position[d][i] - b.position[d][i]),
+                              std::abs(a.velocity[d][i] - b.velocity[d][i])});
+      return largest;
+    }
+
+    bool same_bits(const ParticleState &a, const ParticleState &b)
+    {
+      return a.position == b.position && a.velocity == b.velocity
+             && a.kinetic_sum == b.kinetic_sum && a.step == b.step;
+    }
+
+    MotionParameters heated_triangle(double power)
+    {
+      MotionParameters parameters;
+      parameters.base = Base{};
+      parameters.source = HeatSource::slow(power);
+      return parameters;
+    }
+
+    MotionParameters hot_rectangle()
+    {
+      MotionParameters parameters;
+      parameters.force = PairForce::rectangle();
+      parameters.base = Base::heated();
+      parameters.temperatures = true;
+      return parameters;
+    }
+
+    /** A melting crystal of some thousand particles, which collapses on a hot base. */
+    ParticleState hot_crystal(int base, int rows)
+    {
+      ParticleState state = HexagonalLattice::rectangle(
+          base, rows, 1.02 * PairForce::rectangle().equilibrium_distance());
+      set_temperature(state, 60, 5);
+      return state;
+    }
+
+    /** The formulas of the report, particle by particle in extended precision. */
+    class Oracle
+    {
+    public:
+      Oracle(const MotionParameters &p, const ParticleState &s)
+        : p(p)
+        , n(s.size())
+        , r(2, std::vector<long double>(n))
+        , v(r)
+      {
+        for(int d = 0; d < 2; ++d)
+        {
+          std::copy(s.position[d].begin(), s.position[d].end(), r[d].begin());
+          std::copy(s.velocity[d].begin(), s.velocity[d].end(), v[d].begin());
+        }
+        kick(0.5L * p.time_step);
+      }
+
+      void step(long k)
+      {
+        for(std::size_t i = 0; i < n; ++i)
+        {
+          for(int d = 0; d < 2; ++d)
+            r[d][i] += (long double)p.time_step * v[d][i];
+          if(p.base && r[1][i] < 0)
+          {
+            r[1][i] = -r[1][i];
+            const long double x = r[0][i];
+            const bool hot = p.base->hot_half_width > 0 && -5 < x && x < 5;
+            v[0][i] = 0;
+            v[1][i] *= -(hot ? 1.5L - 0.025L * (x + 5) : (long double)0.1);
+          }
+          if(p.source)
+          {
+            const long double dx = r[0][i] - (long double)p.source->position[0],
+                              dy = r[1][i] - (long double)p.source->position[1];
+            const long double distance = std::hypot(dx, dy);
+            const long double strength = k <= 50000 ? 0.008 : 0.0095;
+            const long double kick
+                = strength * std::pow(distance, -(long double)p.source->power);
+            if(distance < 2.5L)
+            {
+              v[0][i] += kick * dx / distance;
+              v[1][i] += kick * dy / distance;
+            }
+          }
+        }
+        kick(p.time_step);
+      }
+
+      double difference(const ParticleState &s) const
+      {
+        long double largest = 0;
+        for(int d = 0; d < 2; ++d)
+          for(std::size_t i = 0; i < n; ++i)
+            largest = std::max(largest, std::abs(r[d][i] - s.position[d][i]));
+        return static_cast<double>(largest);
+      }
+
+    private:
+      void kick(long double dt)
+      {
+        const PairForce &f = p.force;
+        for(std::size_t i = 0; i < n; ++i)
+        {
+          long double sum[2] = {};
+          for(std::size_t j = 0; j < n; ++j)
+          {
+            const long double dx = r[0][i] - r[0][j], dy = r[1][i] - r[1][j];
+            const long double d = std::hypot(dx, dy);
+            if(j == i || d > 1.5L)
+              continue;
+            const long double force
+                = -f.attraction / std::pow(d, (long double)f.attraction_exponent)
+                  + f.repulsion / std::pow(d, (long double)f.repulsion_exponent);
+            sum[0] += force * dx / d;
+            sum[1] += force * dy / d;
+          }
+          v[0][i] += dt * sum[0];
+          v[1][i] += dt * (sum[1] - p.gravity);
+        }
+      }
+
+      MotionParameters p;
+      std::size_t n;
+      std::vector<std::vector<long double>> r, v;
+    };
+
+    TEST(GreenspanMotion, FollowsTheFormulasOfTheReport)
+    {
+      struct Run
+      {
+        MotionParameters parameters;
+        int table;
+        long steps;
+        double tolerance;
+      };
+      for(const Run &run : {Run{heated_triangle(2), 1, 2000, 1e-12},
+                            Run{heated_triangle(-2), 1, 2000, 1e-12},
+                            Run{hot_rectangle(), 2, 1000, 1e-10}})
+      {
+        const ParticleState start = read_table(run.table);
+        Motion motion(run.parameters, start);
+        Oracle oracle(run.parameters, start);
+        motion.advance(run.steps);
+        for(long k = 1; k <= run.steps; ++k)
+          oracle.step(k);
+        EXPECT_LT(oracle.difference(motion.state()), run.tolerance) << run.table;
+      }
+    }
+
+    TEST(GreenspanMotion, HeatStagesChangeAfterTheirLastStep)
+    {
+      const HeatSource source = HeatSource::slow(2);
+      EXPECT_EQ(source.strength(1), 0.008);
+      EXPECT_EQ(source.strength(50000), 0.008);
+      EXPECT_EQ(source.strength(50001), 0.0095);
+      EXPECT_EQ(source.strength(80000), 0.0095);
+      EXPECT_EQ(source.strength(80001), 0.015);
+      EXPECT_EQ(source.strength(200000), 0.015);
+    }
+
+    TEST(GreenspanMotion, UnheatedSolidsKeepAllBonds)
+    {
+      MotionParameters parameters;
+      parameters.base = Base{};
+      for(const int table : {1, 2})
+      {
+        const ParticleState start = read_table(table);
+        if(table == 2)
+          parameters.force = PairForce::rectangle();
+        const BondGraph before(2, start.position);
+        EXPECT_EQ(before.count(), table == 1 ? 63u : 111u);
+        Motion motion(parameters, start);
+        for(int look = 0; look < 100; ++look)
+        {
+          motion.advance(1000);
+          const BondGraph after(2, motion.state().position);
+          ASSERT_EQ(before.shared_with(after), before.count()) << motion.step();
+          ASSERT_EQ(after.count(), before.count()) << motion.step();
+        }
+      }
+    }
+
+    TEST(GreenspanMotion, MirrorSymmetryStays)
+    {
+      MotionParameters parameters;
+      parameters.base = Base{};
+      Motion motion(parameters, read_table(1));
+      motion.advance(10000);
+      const ParticleState state = motion.state();
+      for(std::size_t i = 0; i < state.size(); ++i)
+      {
+        double nearest = 1;
+        for(std::size_t j = 0; j < state.size(); ++j)
+          nearest = std::min(nearest,
+                             std::hypot(state.position[0][i] + state.position[0][j],
+                                        state.position[1][i] - state.position[1][j]));
+        EXPECT_LT(nearest, 1e-11) << i;
+      }
+    }
+
+    TEST(GreenspanMotion, CellsAndAllPairsGiveTheSameBits)
+    {
+      const ParticleState start = hot_crystal(24, 20);
+      MotionParameters parameters = hot_rectangle();
+      parameters.search = NeighbourRows::Search::among_all;
+      Motion all(parameters, start);
+      parameters.search = NeighbourRows::Search::by_cells;
+      parameters.skin = 0.17;
+      Motion cells(parameters, start);
+      parameters.skin = 0.6;
+      Motion wide(parameters, start);
+      for(Motion *motion : {&all, &cells, &wide})
+        motion->advance(3000);
+      EXPECT_TRUE(same_bits(all.state(), cells.state()));
+      EXPECT_TRUE(same_bits(all.state(), wide.state()));
+      EXPECT_GT(cells.list_builds(), 10);
+      EXPECT_GT(cells.list_builds(), wide.list_builds());
+    }
+
+    TEST(GreenspanMotion, ThreadsAndResumingGiveTheSameBits)
+    {
+      // Sorted along a curve, two blocks; little skin, so that lists are made often.
+      const ParticleState start = hot_crystal(90, 60);
+      MotionParameters parameters = hot_rectangle();
+      parameters.source = HeatSource::fast(-2);
+      parameters.skin = 0.04;
+      Motion one(parameters, start);
+      one.advance(60);
+      Motion again(parameters, one.state());
+      one.advance(100);
+      again.advance(100);
+      EXPECT_TRUE(same_bits(one.state(), again.state()));
+      EXPECT_GT(one.list_builds(), 10); // among them new orders in memory
+      for(const int threads : {2, 3})
+      {
+        parameters.threads = threads;
+        Motion several(parameters, start);
+        several.advance(160);
+        EXPECT_TRUE(same_bits(one.state(), several.state())) << threads;
+      }
+    }
+
+    TEST(GreenspanMotion, GeneralExponentsAgreeWithCompiledOnes)
+    {
+      for(MotionParameters parameters :
+          {isolated(PairForce::triangle()), hot_rectangle()})
+      {
+        const ParticleState start = hot_crystal(24, 20);
+        Motion compiled(parameters, start);
+        parameters.force.compiled_exponents = false;
+        Motion general(parameters, start);
+        const auto a = compiled.accelerations(), b = general.accelerations();
+        for(int d = 0; d < 2; ++d)
+          for(std::size_t i = 0; i < start.size(); ++i)
+            // Terms of the sums are of the order of 100 to 1000.
+            EXPECT_NEAR(a[d][i], b[d][i], 1e-13 * 1000);
+        compiled.advance(300);
+        general.advance(300);
+        EXPECT_LT(largest_difference(compiled.state(), general.state()), 1e-9);
+      }
+    }
+
+    TEST(GreenspanMotion, BadStartsAreRefused)
+    {
+      const ParticleState good = read_table(1);
+      const auto refused = [&good](const auto &spoil, const MotionParameters &parameters)
+      {
+        ParticleState state = good;
+        spoil(state);
+        EXPECT_THROW(Motion(parameters, state), cases::InputError);
+      };
+      MotionParameters parameters;
+      parameters.base = Base{};
+      refused([](ParticleState &s) { s.position[0][4] = NAN; }, parameters);
+      refused([](ParticleState &s) { s.velocity[1][4] = INFINITY; }, parameters);
+      refused([](ParticleState &s) { s.position[0][4] = 1e300; }, parameters);
+      refused([](ParticleState &s) { s.position[1][4] = -0.1; }, parameters);
+      refused([](ParticleState &s) { s.dimension = 1; }, parameters);
+      refused([](ParticleState &s) { s = ParticleState{}; }, parameters);
+      refused([](ParticleState &s) { s.velocity[1].pop_back(); }, parameters);
+      refused(
+          [](ParticleState &s)
+          {
+            s.position[0][5] = s.position[0][4];
+            s.position[1][5] = s.position[1][4];
+          },
+          parameters);
+      const auto keep = [](ParticleState &) {};
+      MotionParameters bad = parameters;
+      bad.time_step = 0.015;
+      refused(keep, bad);
+      bad = parameters;
+      bad.source = HeatSource::slow(2);
+      bad.source->position = {good.position[0][27], good.position[1][27], 0};
+      refused(keep, bad);
+      bad = parameters;
+      bad.force.cutoff = 1;
+      refused(keep, bad);
+    }
+
+    /** The step in which a run fails, and what it says. */
+    std::pair<long, std::string> failure(const MotionParameters &parameters,
+                                         const ParticleState &start, long steps)
+    {
+      Motion motion(parameters, start);
+      try
+      {
+        motion.advance(steps);
+      }
+      catch(const cases::NumericalError &error)
+      {
+        EXPECT_EQ(error.step, motion.step());
+        return {error.step, error.what()};
+      }
+      return {-1, ""};
+    }
+
+    TEST(GreenspanMotion, BrokenRunsStopAtTheirStep)
+    {
+      // Compressed bonds are stiffer than those for which the step would do.
+      MotionParameters parameters = isolated(PairForce::triangle(), 0.012);
+      const auto [step, what]
+          = failure(parameters, HexagonalLattice::triangle(9, 0.9), 1000);
+      EXPECT_GE(step, 1);
+      EXPECT_LE(step, 3);
+      EXPECT_NE(what.find("time step"), std::string::npos) << what;
+
+      // A particle that falls through the source.
+      parameters = MotionParameters{};
+      parameters.source = HeatSource::slow(2);
+      parameters.source->position = {0, 1, 0};
+      ParticleState falling;
+      falling.add({0, 1.05, 0});
+      falling.velocity[1][0] = -100; // against the source
+      const auto [source_step, source_what] = failure(parameters, falling, 1000);
+      EXPECT_GE(source_step, 1);
+      EXPECT_NE(source_what.find("source"), std::string::npos) << source_what;
     }
   } // namespace
 } // namespace meltfront::particles::greenspan
