@@ -10,6 +10,9 @@ namespace meltfront::particles::benchmarks
   /** Building lists of neighbours. */
   void register_neighbour_benchmarks();
 
+  /** Steps of particle solids. */
+  void register_solid_benchmarks();
+
   /** Whole runs. */
   void register_run_benchmarks();
 } // namespace meltfront::particles::benchmarks

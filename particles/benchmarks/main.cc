@@ -20,6 +20,7 @@ int main(int argc, char **argv)
     return 2;
   register_operator_benchmarks();
   register_neighbour_benchmarks();
+  register_solid_benchmarks();
   register_run_benchmarks();
   Table table;
   return benchmark::RunSpecifiedBenchmarks(&table) > 0 ? 0 : 2;

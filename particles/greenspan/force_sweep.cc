@@ -42,18 +42,17 @@ namespace meltfront::particles::greenspan
       }
 
       void kick(const NeighbourRows &rows, const Coordinates &position,
-                Coordinates &velocity, double time_step, double gravity,
-                int threads) const override
+                Coordinates &velocity, const KickSize &size, int threads) const override
       {
         const auto slices = static_cast<std::ptrdiff_t>(rows.slices());
         if(threads == 1)
           for(std::ptrdiff_t slice = 0; slice < slices; ++slice)
-            kick_slice(rows, slice, position, velocity, time_step, gravity);
+            kick_slice(rows, slice, position, velocity, size);
         else
         {
 #pragma omp parallel for schedule(static) num_threads(threads)
           for(std::ptrdiff_t slice = 0; slice < slices; ++slice)
-            kick_slice(rows, slice, position, velocity, time_step, gravity);
+            kick_slice(rows, slice, position, velocity, size);
         }
       }
 
@@ -61,10 +60,11 @@ namespace meltfront::particles::greenspan
       /** The compiler makes vectors of the loops over lanes. */
       void kick_slice(const NeighbourRows &rows, std::size_t slice,
                       const Coordinates &position, Coordinates &velocity,
-                      double time_step, double gravity) const
+                      const KickSize &size) const
       {
         const Powers pair = powers; // a copy's members stay in registers
-        const double cutoff = squared_cutoff;
+        const double cutoff = squared_cutoff, time_step = size.time_step,
+                     left = size.left;
         const std::size_t row = slice * lanes;
         const double *x[dimension];
         for(int d = 0; d < dimension; ++d)
@@ -96,10 +96,10 @@ namespace meltfront::particles::greenspan
           double acceleration[lanes];
           sums[d].store(acceleration);
           double *v = velocity[d].data() + row;
-          const double weight = d == 1 ? gravity : 0;
+          const double weight = d == 1 ? size.gravity : 0;
 #pragma omp simd
           for(std::size_t lane = 0; lane < lanes; ++lane)
-            v[lane] += time_step * (acceleration[lane] - weight);
+            v[lane] = left * (v[lane] + time_step * (acceleration[lane] - weight));
         }
       }
 

@@ -11,6 +11,14 @@ namespace meltfront::particles::greenspan
   /** Padded arrays, one for each coordinate. */
   using Coordinates = std::array<std::vector<double>, 3>;
 
+  /** What a sweep does beside the pair forces. */
+  struct KickSize
+  {
+    double time_step;
+    double gravity; ///< downward, along the second coordinate
+    double left;    ///< share of the velocity that drag leaves; 1: no drag
+  };
+
   /** Adds up what the neighbours of all particles do to them. */
   class ForceSweep
   {
@@ -18,13 +26,11 @@ namespace meltfront::particles::greenspan
     virtual ~ForceSweep() = default;
 
     /**
-     * velocity += time_step * acceleration, with the pair forces of equation (2.7),
-     * summed in the order of the rows, and gravity, equation (2.8).
-     * @param gravity downward, along the second coordinate
+     * velocity = left * (velocity + time_step * acceleration), with the pair forces of
+     * equation (2.7), summed in the order of the rows, and gravity, equation (2.8).
      */
     virtual void kick(const NeighbourRows &rows, const Coordinates &position,
-                      Coordinates &velocity, double time_step, double gravity,
-                      int threads) const = 0;
+                      Coordinates &velocity, const KickSize &size, int threads) const = 0;
   };
 
   /** The sweep whose exponents are compiled in where there is one, and else any. */

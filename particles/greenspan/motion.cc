@@ -59,7 +59,7 @@ namespace meltfront::particles::greenspan
     build_lists();
     require_distinct_places();
     if(!start.staggered)
-      forces->kick(rows, position, velocity, given.time_step / 2, given.gravity,
+      forces->kick(rows, position, velocity, {given.time_step / 2, given.gravity, 1},
                    given.threads);
   }
 
@@ -205,18 +205,12 @@ namespace meltfront::particles::greenspan
   void Motion::take_step()
   {
     ++steps_taken;
-    drift();
-    if(given.base)
-      reflect();
-    if(given.source)
-      heat();
-    if(given.temperatures)
-      add_temperatures();
+    move();
     if(2 * travelled > given.skin)
       update_lists();
-    forces->kick(rows, position, velocity, given.time_step, given.gravity, given.threads);
-    if(given.drag > 0)
-      fade();
+    const double left = std::exp(-given.drag * given.time_step);
+    forces->kick(rows, position, velocity, {given.time_step, given.gravity, left},
+                 given.threads);
   }
 
   void Motion::set_source(const std::optional<HeatSource> &source)
@@ -273,7 +267,7 @@ namespace meltfront::particles::greenspan
     Coordinates result;
     for(int d = 0; d < dimension; ++d)
       result[d].assign(position[d].size(), 0);
-    forces->kick(rows, position, result, 1, given.gravity, given.threads);
+    forces->kick(rows, position, result, {1, given.gravity, 1}, given.threads);
     return result;
   }
 

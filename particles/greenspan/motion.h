@@ -114,11 +114,12 @@ namespace meltfront::particles::greenspan
     void build_lists();
     void update_lists();
     void take_step();
-    void drift();
-    void reflect();
-    void heat();
-    void add_temperatures();
-    void fade();
+    void move();
+    void move_block(std::size_t block, std::size_t begin, std::size_t end);
+    void reflect(std::size_t begin, std::size_t end);
+    void heat(std::size_t begin, std::size_t end);
+    void add_temperatures(std::size_t begin, std::size_t end);
+    void check_speeds();
     Coordinates raw_accelerations() const;
     [[noreturn]] void fail(const std::string &quantity, const std::string &problem) const;
     [[noreturn]] void explain_broken_motion(double kinetic, double move) const;

@@ -64,42 +64,63 @@ namespace meltfront::particles::greenspan
     }
 
     /** v += factor(R^2) (r - s) within the source's reach. */
-    template <typename Factor>
-    void heat_block(const Coordinates &position, Coordinates &velocity, int dimension,
+    template <int dimension, typename Factor>
+    void heat_block(const Coordinates &position, Coordinates &velocity,
                     const HeatSource &source, std::size_t begin, std::size_t end,
                     const Factor &factor)
     {
       const double reach = source.reach * source.reach;
+      const double *x[dimension];
+      double *v[dimension], centre[dimension];
+      for(int d = 0; d < dimension; ++d)
+      {
+        x[d] = position[d].data();
+        v[d] = velocity[d].data();
+        centre[d] = source.position[d];
+      }
+#pragma omp simd
       for(std::size_t i = begin; i < end; ++i)
       {
-        std::array<double, 3> apart{};
-        double squared = 0;
+        double apart[dimension], squared = 0;
         for(int d = 0; d < dimension; ++d)
         {
-          apart[d] = position[d][i] - source.position[d];
+          apart[d] = x[d][i] - centre[d];
           squared += apart[d] * apart[d];
         }
         const double f = squared < reach ? factor(squared) : 0;
         for(int d = 0; d < dimension; ++d)
-          velocity[d][i] += f * apart[d];
+          v[d][i] += f * apart[d];
       }
     }
   } // namespace
 
-  void Motion::drift()
+  void Motion::move()
   {
-    const std::size_t n = names.size();
-    std::vector<SpeedSums> &speeds = block_speeds;
-    speeds.resize((n + block_size - 1) / block_size);
-    const auto body = [&](std::size_t block, std::size_t begin, std::size_t end)
-    {
-      const double dt = given.time_step;
-      speeds[block] = dimension == 2 ? drift_block<2>(position, velocity, dt, begin, end)
-                                     : drift_block<3>(position, velocity, dt, begin, end);
-    };
-    for_each_block(n, given.threads, body);
+    block_speeds.resize((names.size() + block_size - 1) / block_size);
+    for_each_block(names.size(), given.threads,
+                   [this](std::size_t block, std::size_t begin, std::size_t end)
+                   { move_block(block, begin, end); });
+    check_speeds();
+  }
+
+  void Motion::move_block(std::size_t block, std::size_t begin, std::size_t end)
+  {
+    const double dt = given.time_step;
+    block_speeds[block] = dimension == 2
+                              ? drift_block<2>(position, velocity, dt, begin, end)
+                              : drift_block<3>(position, velocity, dt, begin, end);
+    if(given.base)
+      reflect(begin, end);
+    if(given.source)
+      heat(begin, end);
+    if(given.temperatures)
+      add_temperatures(begin, end);
+  }
+
+  void Motion::check_speeds()
+  {
     SpeedSums all;
-    for(const SpeedSums &block : speeds)
+    for(const SpeedSums &block : block_speeds)
     {
       all.sum += block.sum;
       all.largest = std::max(all.largest, block.largest);
@@ -156,40 +177,41 @@ namespace meltfront::particles::greenspan
              kinetic_before, kinetic, given.time_step));
   }
 
-  void Motion::reflect()
+  void Motion::reflect(std::size_t begin, std::size_t end)
   {
     const Base base = *given.base;
-    const auto body = [&](std::size_t, std::size_t begin, std::size_t end)
+    const double *x = position[0].data();
+    double *y = position[1].data(), *v = velocity[1].data();
+    // Along the base nothing moves on.
+    for(int d = 0; d < dimension; d += 2)
     {
-      const double *x = position[0].data();
-      double *y = position[1].data(), *v = velocity[1].data();
+      double *along = velocity[d].data();
 #pragma omp simd
       for(std::size_t i = begin; i < end; ++i)
-      {
-        const double hot = base.hot_left - base.hot_slope * (x[i] + base.hot_half_width);
-        const double gamma
-            = std::abs(x[i]) < base.hot_half_width ? hot : base.restitution;
-        const double thrown_back = -gamma * v[i];
-        v[i] = y[i] < 0 ? thrown_back : v[i];
-        for(int d = 0; d < dimension; d += 2)
-          velocity[d][i] = y[i] < 0 ? 0 : velocity[d][i];
-        y[i] = std::abs(y[i]);
-      }
-    };
-    for_each_block(names.size(), given.threads, body);
+        along[i] = y[i] < 0 ? 0 : along[i];
+    }
+#pragma omp simd
+    for(std::size_t i = begin; i < end; ++i)
+    {
+      const double hot = base.hot_left - base.hot_slope * (x[i] + base.hot_half_width);
+      const double gamma = std::abs(x[i]) < base.hot_half_width ? hot : base.restitution;
+      const double thrown_back = -gamma * v[i];
+      v[i] = y[i] < 0 ? thrown_back : v[i];
+      y[i] = std::abs(y[i]);
+    }
   }
 
-  void Motion::heat()
+  void Motion::heat(std::size_t begin, std::size_t end)
   {
     const HeatSource &source = *given.source;
     const double strength = source.strength(steps_taken);
     const double exponent = -(source.power + 1) / 2;
     const auto sweep = [&](const auto &factor)
     {
-      for_each_block(
-          names.size(), given.threads,
-          [&](std::size_t, std::size_t begin, std::size_t end)
-          { heat_block(position, velocity, dimension, source, begin, end, factor); });
+      if(dimension == 2)
+        heat_block<2>(position, velocity, source, begin, end, factor);
+      else
+        heat_block<3>(position, velocity, source, begin, end, factor);
     };
     if(source.power == 2)
       sweep([strength](double squared)
@@ -201,31 +223,15 @@ namespace meltfront::particles::greenspan
             { return strength * std::pow(squared, exponent); });
   }
 
-  void Motion::add_temperatures()
+  void Motion::add_temperatures(std::size_t begin, std::size_t end)
   {
-    const auto body = [&](std::size_t, std::size_t begin, std::size_t end)
+    double *sum = kinetic_sum.data();
+    for(int d = 0; d < dimension; ++d)
     {
-      for(int d = 0; d < dimension; ++d)
-      {
-        double *sum = kinetic_sum.data();
-        const double *v = velocity[d].data();
-        for(std::size_t i = begin; i < end; ++i)
-          sum[i] += v[i] * v[i] / 2;
-      }
-    };
-    for_each_block(names.size(), given.threads, body);
-  }
-
-  void Motion::fade()
-  {
-    const double left = std::exp(-given.drag * given.time_step);
-    const auto body = [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      for(int d = 0; d < dimension; ++d)
-        for(std::size_t i = begin; i < end; ++i)
-          velocity[d][i] *= left;
-    };
-    for_each_block(names.size(), given.threads, body);
+      const double *v = velocity[d].data();
+      for(std::size_t i = begin; i < end; ++i)
+        sum[i] += v[i] * v[i] / 2;
+    }
   }
 
   Energy Motion::energy() const
