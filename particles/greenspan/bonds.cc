@@ -2,6 +2,8 @@
 #include <particles/greenspan/bonds.h>
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 
 namespace meltfront::particles::greenspan
 {
@@ -75,5 +77,22 @@ namespace meltfront::particles::greenspan
   std::vector<char> BondGraph::in_triangle() const
   {
     return in_triangle(std::vector<char>(size(), 1));
+  }
+
+  double hexatic_order(const ParticleState &state, const BondGraph &bonds)
+  {
+    double sum = 0;
+    for(std::size_t a = 0; a < bonds.size(); ++a)
+    {
+      std::complex<double> psi = 0;
+      for(const std::uint32_t b : bonds[a])
+        psi += std::polar(1.,
+                          6
+                              * std::atan2(state.position[1][b] - state.position[1][a],
+                                           state.position[0][b] - state.position[0][a]));
+      if(!bonds[a].empty())
+        sum += std::abs(psi) / static_cast<double>(bonds[a].size());
+    }
+    return sum / static_cast<double>(bonds.size());
   }
 } // namespace meltfront::particles::greenspan

@@ -35,6 +35,12 @@ namespace meltfront::particles::greenspan
       return {partners.data() + begin[particle], begin[particle + 1] - begin[particle]};
     }
 
+    /** Mean number of partners of a particle. */
+    double coordination() const
+    {
+      return static_cast<double>(partners.size()) / static_cast<double>(size());
+    }
+
     bool bonded(std::size_t a, std::size_t b) const;
 
     /** How many of this graph's bonds another one of the same particles has, too. */
@@ -50,6 +56,13 @@ namespace meltfront::particles::greenspan
     std::vector<std::size_t> begin;
     std::vector<std::uint32_t> partners;
   };
+
+  /**
+   * Mean over all particles of the plane of |psi_6|, psi_6 the mean of exp(6 i angle)
+   * over the directions to a particle's partners: 1 in a hexagonal crystal, whatever its
+   * orientation; particles without partners count as 0.
+   */
+  double hexatic_order(const ParticleState &state, const BondGraph &bonds);
 } // namespace meltfront::particles::greenspan
 
 #endif

@@ -206,11 +206,15 @@ namespace meltfront::particles::greenspan
   {
     ++steps_taken;
     move();
+    if(given.radiation && steps_taken % given.radiation->interval == 0)
+      irradiate();
     if(2 * travelled > given.skin)
       update_lists();
     const double left = std::exp(-given.drag * given.time_step);
     forces->kick(rows, position, velocity, {given.time_step, given.gravity, left},
                  given.threads);
+    if(given.thermostat)
+      exchange_with_bath();
   }
 
   void Motion::set_source(const std::optional<HeatSource> &source)
@@ -228,6 +232,12 @@ namespace meltfront::particles::greenspan
   void Motion::set_drag(double drag)
   {
     given.drag = drag;
+    given.validate(dimension);
+  }
+
+  void Motion::set_thermostat(const std::optional<Thermostat> &thermostat)
+  {
+    given.thermostat = thermostat;
     given.validate(dimension);
   }
 

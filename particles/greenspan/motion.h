@@ -61,6 +61,9 @@ namespace meltfront::particles::greenspan
 
     void set_drag(double drag);
 
+    /** Replace the thermostat from now on. */
+    void set_thermostat(const std::optional<Thermostat> &thermostat);
+
     /** Multiply all velocities. */
     void scale_velocities(double factor);
 
@@ -100,6 +103,12 @@ namespace meltfront::particles::greenspan
     /** Sum of the velocities at the time of the positions. */
     std::array<double, 3> momentum() const;
 
+    /** Kinetic energy that radiation has given since the motion was made. */
+    double absorbed() const
+    {
+      return absorbed_energy;
+    }
+
     /** How often the lists of neighbours were made. */
     long list_builds() const
     {
@@ -120,6 +129,8 @@ namespace meltfront::particles::greenspan
     void heat(std::size_t begin, std::size_t end);
     void add_temperatures(std::size_t begin, std::size_t end);
     void check_speeds();
+    void irradiate();
+    void exchange_with_bath();
     Coordinates raw_accelerations() const;
     [[noreturn]] void fail(const std::string &quantity, const std::string &problem) const;
     [[noreturn]] void explain_broken_motion(double kinetic, double move) const;
@@ -134,6 +145,7 @@ namespace meltfront::particles::greenspan
     std::vector<double> kinetic_sum;  ///< padded; empty if not kept
     NeighbourRows rows;
     long builds = 0;
+    double absorbed_energy = 0;
     double travelled
         = 0; ///< bound of what a particle has moved since the lists were made
     double kinetic_before = 0;           ///< kinetic energy in the last step

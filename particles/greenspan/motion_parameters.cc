@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meltfront::particles::greenspan
@@ -45,6 +46,31 @@ namespace meltfront::particles::greenspan
                 stage.strength, "finite");
       }
     }
+
+    void validate(const Radiation &radiation, int dimension)
+    {
+      if(dimension != 2)
+        throw cases::InputError("shadows are known in the plane only; in space heat with "
+                                "a base, a thermostat or a heat source");
+      require(std::isfinite(radiation.power) && radiation.power >= 0,
+              "the power of radiation", radiation.power, "zero or more");
+      require(radiation.radius >= 0 && std::isfinite(radiation.radius),
+              "the radius of particles in light", radiation.radius, "zero or more");
+      require(radiation.interval >= 1, "the interval of radiation",
+              double(radiation.interval), "one step or more");
+    }
+
+    void validate(const Thermostat &thermostat)
+    {
+      for(const double temperature :
+          {thermostat.first_temperature, thermostat.last_temperature})
+        require(temperature >= 0 && std::isfinite(temperature),
+                "a temperature of the thermostat", temperature, "zero or more");
+      require(thermostat.steps >= 1, "the duration of the thermostat's ramp",
+              double(thermostat.steps), "one step or more");
+      require(thermostat.rate > 0 && std::isfinite(thermostat.rate),
+              "the rate of the thermostat", thermostat.rate, "positive");
+    }
   } // namespace
 
   Base Base::heated()
@@ -52,6 +78,20 @@ namespace meltfront::particles::greenspan
     Base base;
     base.hot_half_width = 5;
     return base;
+  }
+
+  Base Base::cooling()
+  {
+    Base base;
+    base.restitution = 0;
+    return base;
+  }
+
+  double Thermostat::temperature(long step) const
+  {
+    const double share
+        = std::clamp(static_cast<double>(step) / static_cast<double>(steps), 0., 1.);
+    return first_temperature + share * (last_temperature - first_temperature);
   }
 
   Base Base::heated_evenly(double gamma)
@@ -111,5 +151,9 @@ namespace meltfront::particles::greenspan
       greenspan::validate(*base);
     if(source)
       greenspan::validate(*source);
+    if(radiation)
+      greenspan::validate(*radiation, dimension);
+    if(thermostat)
+      greenspan::validate(*thermostat);
   }
 } // namespace meltfront::particles::greenspan

@@ -23,6 +23,9 @@ namespace meltfront::particles::greenspan
     /** Equation (5.1). */
     static Base heated();
 
+    /** One that takes all that falls on it: what lies on it cools. */
+    static Base cooling();
+
     /** The same gamma on -5 < x < 5, as the 2.5 of section 6. */
     static Base heated_evenly(double gamma);
   };
@@ -56,6 +59,37 @@ namespace meltfront::particles::greenspan
     static HeatSource fast(double power);
   };
 
+  /**
+   * Light that heats what it reaches (section 6 of the report names it as work to come):
+   * a particle of which no other hides the source receives energy, in the plane only.
+   * Each `interval` steps the kinetic energy of a particle grows by what it caught.
+   */
+  struct Radiation
+  {
+    bool parallel = false; ///< rays along `direction`; else from `position`
+    std::array<double, 3> position{};
+    std::array<double, 3> direction{0, -1, 0};
+    double power = 0;  ///< energy per time: of the point all around, of rays per width
+    double radius = 0; ///< of the particles; 0: half of the equilibrium distance
+    long interval = 20;
+  };
+
+  /**
+   * A bath (Langevin): v -> c v + sqrt(T (1 - c^2)) xi after each step, c = exp(-rate
+   * dt), xi normal numbers that depend on seed, step and particle only. Its temperature
+   * goes from the first to the last in so many steps.
+   */
+  struct Thermostat
+  {
+    double first_temperature = 0;
+    double last_temperature = 0;
+    long steps = 1;  ///< after which the last temperature holds
+    double rate = 1; ///< per unit of time
+    std::uint64_t seed = 1;
+
+    double temperature(long step) const;
+  };
+
   /** What moves the particles. */
   struct MotionParameters
   {
@@ -64,6 +98,8 @@ namespace meltfront::particles::greenspan
     double gravity = 32; ///< downward, along y
     std::optional<Base> base;
     std::optional<HeatSource> source;
+    std::optional<Radiation> radiation;
+    std::optional<Thermostat> thermostat;
     double drag = 0;           ///< velocities fade by exp(-drag time_step) in each step
     bool temperatures = false; ///< keep the sums of kinetic energy
 
