@@ -217,36 +217,10 @@ namespace meltfront::particles::greenspan
       exchange_with_bath();
   }
 
-  void Motion::set_source(const std::optional<HeatSource> &source)
-  {
-    given.source = source;
-    given.validate(dimension);
-  }
-
-  void Motion::set_base(const std::optional<Base> &base)
-  {
-    given.base = base;
-    given.validate(dimension);
-  }
-
-  void Motion::set_drag(double drag)
-  {
-    given.drag = drag;
-    given.validate(dimension);
-  }
-
   void Motion::set_thermostat(const std::optional<Thermostat> &thermostat)
   {
     given.thermostat = thermostat;
     given.validate(dimension);
-  }
-
-  void Motion::scale_velocities(double factor)
-  {
-    for(int d = 0; d < dimension; ++d)
-      for(double &v : velocity[d])
-        v *= factor;
-    kinetic_before *= factor * factor;
   }
 
   ParticleState Motion::state() const

@@ -53,19 +53,8 @@ namespace meltfront::particles::greenspan
      */
     void advance(long steps);
 
-    /** Replace the heating from now on. */
-    void set_source(const std::optional<HeatSource> &source);
-
-    /** Replace the base from now on. */
-    void set_base(const std::optional<Base> &base);
-
-    void set_drag(double drag);
-
     /** Replace the thermostat from now on. */
     void set_thermostat(const std::optional<Thermostat> &thermostat);
-
-    /** Multiply all velocities. */
-    void scale_velocities(double factor);
 
     const MotionParameters &parameters() const
     {

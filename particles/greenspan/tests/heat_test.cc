@@ -168,7 +168,6 @@ namespace meltfront::particles::greenspan
           mean += motion.temperature() / 100;
         }
         EXPECT_NEAR(mean, 10, 0.3) << dimension;
-        std::cout<<mean<<"\n";
       }
       parameters.thermostat->rate = 0;
       EXPECT_THROW(Motion(parameters, read_table(1)), cases::InputError);
