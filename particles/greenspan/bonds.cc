@@ -1,4 +1,3 @@
-#include <particles/core/neighbour_list.h>
 #include <particles/greenspan/bonds.h>
 
 #include <algorithm>
@@ -15,35 +14,12 @@ namespace meltfront::particles::greenspan
 
   BondGraph::BondGraph(int dimension, const std::array<std::vector<double>, 3> &position,
                        double length)
-    : begin(1, 0)
+    : found(position[0].size() > few_particles
+                ? find_in_cells(dimension, position, position[0].size(), length)
+                : find_among_all(dimension, position, position[0].size(), length))
   {
-    const std::size_t n = position[0].size();
-    if(n > few_particles)
-    {
-      const ParticleStorage storage{dimension, position};
-      const NeighbourList list(storage, length);
-      for(std::size_t a = 0; a < n; ++a)
-      {
-        partners.insert(partners.end(), list[a].begin(), list[a].end());
-        begin.push_back(partners.size());
-      }
-      return;
-    }
-    for(std::size_t a = 0; a < n; ++a)
-    {
-      for(std::size_t b = 0; b < n; ++b)
-      {
-        double squared = 0;
-        for(int d = 0; d < dimension; ++d)
-        {
-          const double apart = position[d][a] - position[d][b];
-          squared += apart * apart;
-        }
-        if(squared < length * length && a != b)
-          partners.push_back(b);
-      }
-      begin.push_back(partners.size());
-    }
+    for(std::size_t a = 0; a < size(); ++a)
+      std::sort(found[a].begin(), found[a].end());
   }
 
   bool BondGraph::bonded(std::size_t a, std::size_t b) const

@@ -2,6 +2,7 @@
 #define meltfront_particles_greenspan_bonds_h
 
 #include <particles/greenspan/particle_state.h>
+#include <particles/greenspan/sparse_cells.h>
 
 #include <cstdint>
 #include <span>
@@ -20,25 +21,25 @@ namespace meltfront::particles::greenspan
     /** Number of particles. */
     std::size_t size() const
     {
-      return begin.size() - 1;
+      return found.first.size();
     }
 
     /** Number of bonds. */
     std::size_t count() const
     {
-      return partners.size() / 2;
+      return found.entries.size() / 2;
     }
 
     /** Partners of a particle, ascending. */
     std::span<const std::uint32_t> operator[](std::size_t particle) const
     {
-      return {partners.data() + begin[particle], begin[particle + 1] - begin[particle]};
+      return found[particle];
     }
 
     /** Mean number of partners of a particle. */
     double coordination() const
     {
-      return static_cast<double>(partners.size()) / static_cast<double>(size());
+      return static_cast<double>(found.entries.size()) / static_cast<double>(size());
     }
 
     bool bonded(std::size_t a, std::size_t b) const;
@@ -53,8 +54,7 @@ namespace meltfront::particles::greenspan
     std::vector<char> in_triangle() const;
 
   private:
-    std::vector<std::size_t> begin;
-    std::vector<std::uint32_t> partners;
+    FoundRows found;
   };
 
   /**

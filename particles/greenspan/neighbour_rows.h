@@ -1,6 +1,8 @@
 #ifndef meltfront_particles_greenspan_neighbour_rows_h
 #define meltfront_particles_greenspan_neighbour_rows_h
 
+#include <particles/greenspan/sparse_cells.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -60,8 +62,7 @@ namespace meltfront::particles::greenspan
     /** Neighbours of a particle. */
     std::span<const std::uint32_t> row(std::size_t particle) const
     {
-      return {flat.data() + row_begin[particle],
-              row_begin[particle + 1] - row_begin[particle]};
+      return found[particle];
     }
 
     /** First entry of a slice, in entries(). */
@@ -79,20 +80,14 @@ namespace meltfront::particles::greenspan
     /** Pairs in the rows, each counted in both. */
     std::size_t pairs() const
     {
-      return flat.size();
+      return found.entries.size();
     }
 
   private:
-    void find_among_all(int dimension, const std::array<std::vector<double>, 3> &position,
-                        double radius);
-    void find_by_cells(int dimension, const std::array<std::vector<double>, 3> &position,
-                       double radius);
-    void order_by_name(std::span<const std::uint32_t> names);
     void fill_slices();
 
     std::size_t n = 0;
-    std::vector<std::size_t> row_begin; ///< of the rows in `flat`
-    std::vector<std::uint32_t> flat;
+    FoundRows found;
     std::vector<std::size_t> begin{0};
     std::vector<std::uint32_t> neighbours;
   };

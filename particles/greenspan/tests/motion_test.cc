@@ -186,6 +186,25 @@ namespace meltfront::particles::greenspan
       EXPECT_GT(cells.list_builds(), wide.list_builds());
     }
 
+    TEST(GreenspanMotion, FarAwayParticlesAreNeighboursToo)
+    {
+      ParticleState start = hot_crystal(24, 20);
+      const double far = 9e5; // a grid over all of it would have huge cells
+      for(const double x : {-far, far})
+        for(const double y : {1., 2.05, far})
+          start.add({x, y, 0});
+      MotionParameters parameters = hot_rectangle();
+      parameters.search = NeighbourRows::Search::among_all;
+      Motion all(parameters, start);
+      parameters.search = NeighbourRows::Search::by_cells;
+      Motion cells(parameters, start);
+      all.advance(300);
+      cells.advance(300);
+      EXPECT_TRUE(same_bits(all.state(), cells.state()));
+      const ParticleState end = all.state();
+      EXPECT_NE(end.velocity[1][end.size() - 6], start.velocity[1][end.size() - 6]);
+    }
+
     TEST(GreenspanMotion, ThreadsAndResumingGiveTheSameBits)
     {
       // Sorted along a curve, two blocks; little skin, so that lists are made often.
