@@ -20,11 +20,21 @@ namespace meltfront::particles::greenspan
                      || (search == Search::automatic && n <= few_particles);
     found = all ? find_among_all(dimension, position, n, radius)
                 : find_in_cells(dimension, position, n, radius);
-    for(std::size_t a = 0; a < n; ++a)
-      std::sort(found[a].begin(), found[a].end(),
-                [names](std::uint32_t p, std::uint32_t q)
-                { return names[p] < names[q]; });
+    order_by_name(names);
     fill_slices();
+  }
+
+  /** Particles in the order of their names are appended to the rows of their neighbours:
+   * no row needs to be sorted. */
+  void NeighbourRows::order_by_name(std::span<const std::uint32_t> names)
+  {
+    std::vector<std::uint32_t> named(n), filled(n, 0), ordered(found.entries.size());
+    for(std::size_t a = 0; a < n; ++a)
+      named[names[a]] = static_cast<std::uint32_t>(a);
+    for(const std::uint32_t a : named)
+      for(const std::uint32_t b : found[a])
+        ordered[found.first[b] + filled[b]++] = a;
+    found.entries.swap(ordered);
   }
 
   void NeighbourRows::fill_slices()

@@ -49,7 +49,7 @@ namespace meltfront::particles::greenspan
     /**
      * Neighbours nearer than a radius.
      * @param position padded arrays of the coordinates
-     * @param names of the particles, not padded
+     * @param names of the particles, 0 to n - 1 in any order, not padded
      */
     void build(int dimension, const std::array<std::vector<double>, 3> &position,
                std::span<const std::uint32_t> names, double radius, Search search);
@@ -84,6 +84,7 @@ namespace meltfront::particles::greenspan
     }
 
   private:
+    void order_by_name(std::span<const std::uint32_t> names);
     void fill_slices();
 
     std::size_t n = 0;
