@@ -1,0 +1,147 @@
+#ifndef meltfront_particles_greenspan_motion_h
+#define meltfront_particles_greenspan_motion_h
+
+#include <particles/greenspan/force_sweep.h>
+#include <particles/greenspan/motion_parameters.h>
+#include <particles/greenspan/particle_state.h>
+
+namespace meltfront::particles::greenspan
+{
+  /** Energies of all particles together, at the time of the positions. */
+  struct Energy
+  {
+    double kinetic = 0;
+    double bonds = 0;  ///< shifted potential, so that a pair that parts gives none away
+    double height = 0; ///< in the field of gravity
+
+    double total() const
+    {
+      return kinetic + bonds + height;
+    }
+  };
+
+  /** Of a block of particles. */
+  struct SpeedSums
+  {
+    double sum = 0;     ///< of the squared speeds
+    double largest = 0; ///< of them
+  };
+
+  /**
+   * Particles in motion by leapfrog, equations (2.1) to (2.3) of the report. In step k
+   *
+   *   r_k = r_{k-1} + dt v_{k-1/2}; base (3.1), (5.1); heat source (4.1); kinetic energy
+   *   is added to the temperature sums; v_{k+1/2} = v_{k-1/2} + dt a(r_k).
+   *
+   * Trajectories have the same bits for any number of threads, any skin, any way to look
+   * for neighbours and any order of the particles in memory.
+   */
+  class Motion
+  {
+  public:
+    /**
+     * @throws cases::InputError for a state with values that are not finite, two
+     * particles at one place, one below the base or at the source
+     */
+    Motion(const MotionParameters &parameters, const ParticleState &start);
+
+    /**
+     * Take steps.
+     * @throws cases::NumericalError in the step in which a velocity is not finite, a
+     * particle moves by more than a tenth of a bond, or kinetic energy grows by more than
+     * itself and all bonds
+     */
+    void advance(long steps);
+
+    /** Replace the thermostat from now on. */
+    void set_thermostat(const std::optional<Thermostat> &thermostat);
+
+    const MotionParameters &parameters() const
+    {
+      return given;
+    }
+
+    long step() const
+    {
+      return steps_taken;
+    }
+
+    double time() const
+    {
+      return static_cast<double>(steps_taken) * given.time_step;
+    }
+
+    std::size_t size() const
+    {
+      return names.size();
+    }
+
+    /** Everything, in the order in which the particles were given: a run that starts from
+     * it goes on bit for bit. */
+    ParticleState state() const;
+
+    /** Accelerations, gravity included, in the order of the given particles. */
+    std::array<std::vector<double>, 3> accelerations() const;
+
+    Energy energy() const;
+
+    /** Mean kinetic energy of a particle from the stored velocities, over half the
+     * dimension: the temperature with Boltzmann's constant 1. */
+    double temperature() const;
+
+    /** Sum of the velocities at the time of the positions. */
+    std::array<double, 3> momentum() const;
+
+    /** Kinetic energy that radiation has given since the motion was made. */
+    double absorbed() const
+    {
+      return absorbed_energy;
+    }
+
+    /** How often the lists of neighbours were made. */
+    long list_builds() const
+    {
+      return builds;
+    }
+
+  private:
+    void check_start(const ParticleState &start) const;
+    void require_distinct_places() const;
+    void load(const ParticleState &start);
+    void reorder(std::span<const std::uint32_t> order);
+    void build_lists();
+    void update_lists();
+    void take_step();
+    void move();
+    void move_block(std::size_t block, std::size_t begin, std::size_t end);
+    void reflect(std::size_t begin, std::size_t end);
+    void heat(std::size_t begin, std::size_t end);
+    void add_temperatures(std::size_t begin, std::size_t end);
+    void check_speeds();
+    void irradiate();
+    void exchange_with_bath();
+    Coordinates raw_accelerations() const;
+    [[noreturn]] void fail(const std::string &quantity, const std::string &problem) const;
+    [[noreturn]] void explain_broken_motion(double kinetic, double move) const;
+
+    MotionParameters given;
+    int dimension;
+    std::unique_ptr<ForceSweep> forces;
+    long steps_taken;
+    std::vector<std::uint32_t> names; ///< particle i of memory was given as names[i]
+    Coordinates position, velocity;   ///< padded
+    Coordinates listed;               ///< positions when the lists were made, padded
+    std::vector<double> kinetic_sum;  ///< padded; empty if not kept
+    NeighbourRows rows;
+    long builds = 0;
+    double absorbed_energy = 0;
+    double travelled
+        = 0; ///< bound of what a particle has moved since the lists were made
+    double kinetic_before = 0;           ///< kinetic energy in the last step
+    std::vector<SpeedSums> block_speeds; ///< of the last step
+    double furthest_in_a_step = 0;       ///< allowed
+    double all_bonds = 0; ///< work that breaks all bonds of a perfect crystal
+  };
+} // namespace meltfront::particles::greenspan
+
+#endif

@@ -1,0 +1,63 @@
+#ifndef meltfront_particles_greenspan_phases_h
+#define meltfront_particles_greenspan_phases_h
+
+#include <particles/greenspan/bonds.h>
+
+#include <deque>
+
+namespace meltfront::particles::greenspan
+{
+  /** Which particles may belong to a solid (1) and which are too hot for it (0). */
+  using Cold = std::vector<char>;
+
+  /** What is asked of a particle beside that it be the corner of a triangle of bonds. */
+  enum class PhaseTest
+  {
+    average_speed, ///< section 4: no faster on average than 7.5
+    temperature    ///< section 5: mean kinetic energy since the start below 25
+  };
+
+  inline constexpr double critical_speed = 7.5, critical_temperature = 25;
+
+  /**
+   * Average velocities v* = (r_k - r_{k-M}) / (M dt) over M steps, equation (4.2), which
+   * prints velocities where positions must stand: M dt = 0.1 makes a velocity of them
+   * only, and a cold solid would be a fluid otherwise.
+   */
+  class AverageVelocity
+  {
+  public:
+    /**
+     * @param interval steps between positions that are handed over
+     * @param window M, a multiple of the interval
+     * @throws cases::InputError if it is none
+     */
+    AverageVelocity(long interval, double time_step, long window = 1000);
+
+    /** Hand over the positions of the next interval. */
+    void record(const ParticleState &state);
+
+    /** Whether M steps have been seen. */
+    bool known() const;
+
+    /** |v*| of all particles. @throws cases::InputError before it is known */
+    std::vector<double> speed() const;
+
+    /** Particles with |v*| <= 7.5, and all before it is known. */
+    Cold cold() const;
+
+  private:
+    std::size_t frames;
+    double duration;
+    int dimension = 2;
+    std::deque<std::array<std::vector<double>, 3>> position; ///< oldest first
+  };
+
+  /** Temperature of each particle: mean kinetic energy over the steps taken. */
+  std::vector<double> temperatures(const ParticleState &state);
+
+  /** Particles with a temperature below 25. */
+  Cold cold_by_temperature(const ParticleState &state);
+} // namespace meltfront::particles::greenspan
+
+#endif
