@@ -332,7 +332,9 @@ namespace meltfront::particles
         snapshot.heat.booked = static_cast<bool>(problem.inflow);
         if(snapshot.heat.booked && scene.problem == cases::ProblemKind::poisson)
         {
+          // Without release the walls' sum is round-off, with nothing to relate it to.
           const HeatInflow inflow = problem.inflow(time, unknowns);
+          snapshot.heat.booked = inflow.released != 0;
           snapshot.heat.boundary = inflow.through_walls;
           snapshot.heat.sources = inflow.released;
         }
