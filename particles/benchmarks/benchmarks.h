@@ -16,6 +16,9 @@ namespace meltfront::particles::benchmarks
   /** Weights of reproducing kernels. */
   void register_moment_benchmarks();
 
+  /** Energies of relaxations, and relaxations. */
+  void register_relaxation_benchmarks();
+
   /** Whole runs. */
   void register_run_benchmarks();
 } // namespace meltfront::particles::benchmarks
