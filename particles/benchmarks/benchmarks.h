@@ -19,6 +19,9 @@ namespace meltfront::particles::benchmarks
   /** Steps of particle solids. */
   void register_solid_benchmarks();
 
+  /** Energies of relaxations, and relaxations. */
+  void register_relaxation_benchmarks();
+
   /** Whole runs. */
   void register_run_benchmarks();
 } // namespace meltfront::particles::benchmarks

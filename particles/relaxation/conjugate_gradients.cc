@@ -11,7 +11,11 @@ namespace meltfront::particles
   {
     constexpr double armijo = 1e-4;
     constexpr int most_halvings = 60;
-    constexpr double growth = 4; ///< of the first trial over the last step
+    constexpr double growth = 4;      ///< of the first trial over the last step
+    constexpr double overshoot = 0.3; ///< slope behind the trial over that before it
+    constexpr double recovery = 1.2; ///< of the limit on single particles after a success
+    constexpr double least_limit = 1e-3; ///< of it over the longest step
+    constexpr double few = 0.01;         ///< particles that may still be pushed strongly
 
     /** The state of a descent; sums run in the order of the coordinates. */
     class Descender
@@ -27,7 +31,7 @@ namespace meltfront::particles
         for(int d = 0; d < box.dimension; ++d)
           for(double &coordinate : x[d])
             coordinate = std::clamp(coordinate, box.lower[d], box.upper[d]);
-        gradient = trial = trial_gradient = direction = x;
+        gradient = trial = trial_gradient = spare = spare_gradient = direction = x;
         for(int d = 0; d < box.dimension; ++d)
           std::ranges::fill(direction[d], 0.);
         energy = evaluate(x, gradient);
@@ -40,16 +44,25 @@ namespace meltfront::particles
         if(!std::isfinite(energy))
           throw cases::NumericalError("relaxation", 0, 0, "the energy",
                                       "is not finite: particles coincide");
+        spread(result);
+        double window_start = energy;
+        long window_end = result.iterations + descent_window;
         while(!result.converged && result.iterations < parameters.most_iterations)
         {
           const double before = energy;
           if(!iterate())
-            result.converged = true; // nothing descends any more: round-off
-          else
           {
-            ++result.iterations;
-            result.converged
-                = std::abs(energy - before) <= parameters.tolerance * std::abs(energy);
+            result.converged = true; // nothing descends any more: round-off
+            break;
+          }
+          ++result.iterations;
+          result.converged
+              = std::abs(energy - before) <= parameters.tolerance * std::abs(energy);
+          if(result.iterations == window_end)
+          {
+            result.converged |= window_start - energy < parameters.least_fall;
+            window_start = energy;
+            window_end += descent_window;
           }
         }
         result.energy = energy;
@@ -72,6 +85,57 @@ namespace meltfront::particles
         return value;
       }
 
+      /** Move particles along their own forces while many are pushed strongly. */
+      void spread(Descent &result)
+      {
+        double limit = parameters.stiffness > 0 ? parameters.longest_step : 0;
+        while(limit > least_limit * parameters.longest_step
+              && result.iterations < parameters.most_iterations && many_pushed())
+        {
+          const double expected = move_apart(limit);
+          const double found = evaluate(trial, trial_gradient);
+          if(found <= energy + armijo * expected)
+          {
+            std::swap(x, trial);
+            std::swap(gradient, trial_gradient);
+            energy = found;
+            ++result.iterations;
+            limit = std::min(recovery * limit, parameters.longest_step);
+          }
+          else
+            limit *= 0.5;
+        }
+      }
+
+      /** Whether forces would move many particles by more than the longest step. */
+      bool many_pushed() const
+      {
+        const double bearable = parameters.stiffness * parameters.longest_step;
+        std::size_t pushed = 0;
+        for(std::size_t i = 0; i < x[0].size(); ++i)
+          pushed += squared_length(gradient, i) > bearable * bearable;
+        return static_cast<double>(pushed) > few * static_cast<double>(x[0].size());
+      }
+
+      /** Set the trial place, each particle moved by at most a limit.
+       * @return g . (trial - x) */
+      double move_apart(double limit)
+      {
+        double expected = 0;
+        for(std::size_t i = 0; i < x[0].size(); ++i)
+        {
+          const double force = std::sqrt(squared_length(gradient, i));
+          const double step = 1 / std::max(parameters.stiffness, force / limit);
+          for(int d = 0; d < box.dimension; ++d)
+          {
+            trial[d][i]
+                = std::clamp(x[d][i] - step * gradient[d][i], box.lower[d], box.upper[d]);
+            expected += gradient[d][i] * (trial[d][i] - x[d][i]);
+          }
+        }
+        return expected;
+      }
+
       /** One line search. @return whether the energy fell or stayed, at another place */
       bool iterate()
       {
@@ -80,12 +144,12 @@ namespace meltfront::particles
           slope = start_anew();
         if(slope == 0)
           return false;
-        if(search())
+        if(search(slope))
           return true;
         if(age == 0)
           return false;
-        start_anew();
-        return search();
+        slope = start_anew();
+        return slope < 0 && search(slope);
       }
 
       /** The direction after one step at least. @return g . d */
@@ -120,11 +184,10 @@ namespace meltfront::particles
         return -squared;
       }
 
-      bool search()
+      /** @param slope g . d, along which the energy falls */
+      bool search(double slope)
       {
-        double step = parameters.longest_step / largest(direction);
-        if(last_step > 0 && age > 0)
-          step = std::min(step, growth * last_step);
+        double step = first_trial(slope);
         for(int halving = 0; halving < most_halvings; ++halving, step *= 0.5)
         {
           const double expected = move(step);
@@ -134,11 +197,47 @@ namespace meltfront::particles
           // Not true either where the energy is not a number.
           if(found <= energy + armijo * expected)
           {
-            accept(found, step);
+            const double behind = product(trial_gradient, direction);
+            const double secant = slope / (slope - behind);
+            last_slope = slope;
+            next_growth = behind > slope ? std::clamp(secant, 0.5, growth) : growth;
+            if(behind > -overshoot * slope)
+              shorten(found, step, secant);
+            else
+              accept(found, step);
             return true;
           }
         }
         return false;
+      }
+
+      /** The last step, corrected by the slopes along it, where the new slope puts it. */
+      double first_trial(double slope) const
+      {
+        const double longest = parameters.longest_step / largest(direction);
+        if(last_step == 0 || age == 0)
+          return longest;
+        const double scale = next_growth * last_slope / slope;
+        return std::min(longest, last_step * std::clamp(scale, 0.1, growth));
+      }
+
+      /** The trial went far beyond the minimum along the direction: try where the slope
+       * would vanish if it was linear, and accept the lower of both. */
+      void shorten(double found, double step, double secant)
+      {
+        std::swap(trial, spare);
+        std::swap(trial_gradient, spare_gradient);
+        const double expected = move(secant * step);
+        const double nearer = evaluate(trial, trial_gradient);
+        if(nearer <= std::min(found, energy + armijo * expected))
+        {
+          next_growth = 1;
+          accept(nearer, secant * step);
+          return;
+        }
+        std::swap(trial, spare);
+        std::swap(trial_gradient, spare_gradient);
+        accept(found, step);
       }
 
       /** Set the trial place. @return g . (trial - x) */
@@ -174,18 +273,30 @@ namespace meltfront::particles
           age = 0;
       }
 
+      double squared_length(const Coordinates &vectors, std::size_t i) const
+      {
+        double result = 0;
+        for(int d = 0; d < box.dimension; ++d)
+          result += vectors[d][i] * vectors[d][i];
+        return result;
+      }
+
       /** Largest length of a particle's vector. */
       double largest(const Coordinates &vectors) const
       {
         double result = 0;
         for(std::size_t i = 0; i < vectors[0].size(); ++i)
-        {
-          double length = 0;
-          for(int d = 0; d < box.dimension; ++d)
-            length += vectors[d][i] * vectors[d][i];
-          result = std::max(result, length);
-        }
+          result = std::max(result, squared_length(vectors, i));
         return std::sqrt(result);
+      }
+
+      double product(const Coordinates &a, const Coordinates &b) const
+      {
+        double sum = 0;
+        for(int d = 0; d < box.dimension; ++d)
+          for(std::size_t i = 0; i < a[d].size(); ++i)
+            sum += a[d][i] * b[d][i];
+        return sum;
       }
 
       const EnergyFunction &function;
@@ -193,10 +304,12 @@ namespace meltfront::particles
       CoordinateBox box;
       DescentParameters parameters;
       Coordinates gradient, trial, trial_gradient, direction;
+      Coordinates spare, spare_gradient; ///< a trial that may still be accepted
       double energy = 0;
       double polak_ribiere = 0;
-      double last_step = 0;
-      std::size_t age = 0; ///< iterations since the last restart
+      double last_step = 0, last_slope = 0;
+      double next_growth = 1; ///< of the step that the last slopes call for
+      std::size_t age = 0;    ///< iterations since the last restart
       long evaluations = 0;
     };
   } // namespace

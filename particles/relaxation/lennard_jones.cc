@@ -9,7 +9,8 @@ namespace meltfront::particles
 {
   namespace
   {
-    constexpr double skin = 0.4; ///< over sigma
+    constexpr double skin = 0.4;      ///< over sigma
+    constexpr double stiffness = 100; ///< of a particle among others, epsilon / sigma^2
 
     void require_positive(double value, const char *what)
     {
@@ -188,7 +189,11 @@ namespace meltfront::particles
         { return energy(places, gradient); },
         sorted.position, shrunk(box, parameters.wall_distance * potential.length),
         {.longest_step = parameters.longest_step * potential.length,
+         .stiffness
+         = stiffness * potential.energy / (potential.length * potential.length),
          .tolerance = parameters.tolerance,
+         .least_fall
+         = parameters.least_fall * potential.energy * static_cast<double>(moving.size()),
          .most_iterations = parameters.most_iterations});
     for(int d = 0; d < box.dimension; ++d)
       for(std::size_t i = 0; i < order.size(); ++i)

@@ -74,6 +74,9 @@ namespace meltfront::particles
     double longest_step = 0.1;   ///< of a particle in an iteration, over sigma
     double wall_distance = 1e-3; ///< kept from the walls of the box, over sigma
     double tolerance = 1e-12;    ///< see DescentParameters
+    /** Stop when the energy fell by less in a window of iterations, over epsilon and the
+     * number of particles; 0: go on. */
+    double least_fall = 1e-3;
     long most_iterations = 200000;
     int threads = 1;
   };

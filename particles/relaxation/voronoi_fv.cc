@@ -69,6 +69,7 @@ namespace meltfront::particles
         LennardJonesRelaxation relaxation;
         relaxation.threads = resolution.threads;
         relaxation.tolerance = options.get_double("relaxation_tolerance");
+        relaxation.least_fall = options.get_double("relaxation_fall");
         relaxation.most_iterations = options.get_integer("relaxation_iterations");
         const double factor = options.get_double("length_over_spacing");
         const Descent descent
@@ -108,6 +109,10 @@ namespace meltfront::particles
            "Relative change of the Lennard-Jones energy in an iteration at which the "
            "relaxation stops.",
            1e-16, 1},
+          {"relaxation_fall", "1", LennardJonesRelaxation().least_fall,
+           "Fall of the Lennard-Jones energy per particle in 100 iterations, over "
+           "epsilon, below which the relaxation stops too; 0: not.",
+           0, 1},
           {"relaxation_iterations", "1", 200000L,
            "Most iterations of the relaxation by conjugate gradients.", 0, 1e9},
           {"sweeps", "1", 20L, "Lloyd's sweeps.", 0, 1e6},

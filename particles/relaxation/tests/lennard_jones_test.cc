@@ -67,10 +67,13 @@ namespace meltfront::particles
       Descent descent;
     };
 
-    Relaxed relaxed(int side, std::uint64_t seed)
+    /** @param least_fall 0: to a minimum */
+    Relaxed relaxed(int side, std::uint64_t seed,
+                    double least_fall = LennardJonesRelaxation().least_fall)
     {
       Relaxed result{random_particles(2, side * side, seed), {}};
       LennardJonesRelaxation parameters;
+      parameters.least_fall = least_fall;
       parameters.potential.length = 1. / (side + 1);
       result.descent = relax_by_lennard_jones(result.particles, rim(side + 1),
                                               unit_box(2), parameters);
@@ -251,9 +254,10 @@ namespace meltfront::particles
 
     TEST(LennardJones, AMinimumStays)
     {
-      Relaxed first = relaxed(10, 3);
+      Relaxed first = relaxed(10, 3, 0);
       ParticleStorage again = first.particles;
       LennardJonesRelaxation parameters;
+      parameters.least_fall = 0;
       parameters.potential.length = 1. / 11;
       const Descent descent
           = relax_by_lennard_jones(again, rim(11), unit_box(2), parameters);
@@ -262,6 +266,48 @@ namespace meltfront::particles
       for(int d = 0; d < 2; ++d)
         for(std::size_t a = 0; a < again.size(); ++a)
           EXPECT_NEAR(again.position[d][a], first.particles.position[d][a], 0.02);
+    }
+
+    /** Forces of random particles differ by fifteen orders: without the steps that
+     * spread them the energy takes several hundred evaluations to fall below zero. */
+    TEST(LennardJones, RandomParticlesAreSpreadWithinAHundredIterations)
+    {
+      for(const int side : {20, 40, 80})
+      {
+        ParticleStorage particles = random_particles(2, side * side, 1);
+        LennardJonesRelaxation parameters;
+        parameters.potential.length = 1. / (side + 1);
+        parameters.most_iterations = 100;
+        const Descent descent
+            = relax_by_lennard_jones(particles, rim(side + 1), unit_box(2), parameters);
+        EXPECT_GT(descent.energy_before, 1e6);
+        EXPECT_LT(descent.energy, -0.2 * 1e-2 * side * side) << side;
+        EXPECT_LE(descent.evaluations, 150) << side;
+      }
+    }
+
+    TEST(LennardJones, LineSearchesTakeFewEvaluations)
+    {
+      for(std::uint64_t seed = 1; seed <= 5; ++seed)
+      {
+        const Descent descent = relaxed(20, seed, 0).descent;
+        EXPECT_TRUE(descent.converged);
+        EXPECT_LT(descent.evaluations, 1.7 * descent.iterations) << seed;
+        EXPECT_LT(descent.largest_force, 1e-2 * 1e-2 * 21) << seed;
+      }
+    }
+
+    TEST(LennardJones, TheLeastFallStopsEarlierNearTheSameEnergy)
+    {
+      const Descent minimum = relaxed(20, 1, 0).descent;
+      for(const double least_fall : {1e-2, 1e-3, 1e-4})
+      {
+        const Descent descent = relaxed(20, 1, least_fall).descent;
+        EXPECT_TRUE(descent.converged);
+        EXPECT_LT(descent.iterations, minimum.iterations);
+        EXPECT_GE(descent.energy, minimum.energy);
+        EXPECT_LT(descent.energy, 0.9 * minimum.energy) << least_fall;
+      }
     }
 
     TEST(LennardJones, FillsACube)
