@@ -165,7 +165,10 @@ namespace meltfront::verification
                   fmt::format("run-{}-{}-{}", c.scene.name, method.name(), arguments.n));
     make_directory(directory);
 
-    FieldWriter fields(directory, c.scene.start_time, c.scene.end_time, arguments.frames);
+    FieldWriter fields(directory, c.scene.start_time, c.scene.end_time, arguments.frames,
+                       c.scene.problem == cases::ProblemKind::particle_solid
+                           ? c.scene.particle_solid->law.cutoff
+                           : 0);
     RepeatPolicy once;
     once.most = 1;
     const RunRecord record

@@ -5,70 +5,170 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <span>
+#include <tuple>
 
 namespace meltfront::verification
 {
   namespace
   {
-    const std::vector<std::string> data_names{"temperature", "solid_fraction", "volume"};
+    /** The arrays of a snapshot that are written, and at which points. */
+    struct Fields
+    {
+      std::vector<std::string> names;
+      std::vector<std::span<const double>> values;
+      std::vector<
+          std::tuple<unsigned int, unsigned int, std::string,
+                     dealii::DataComponentInterpretation::DataComponentInterpretation>>
+          vectors;
+      std::array<std::span<const double>, 3> positions;
+
+      void add(const char *name, std::span<const double> array)
+      {
+        if(array.empty() || array.size() != positions[0].size())
+          return;
+        names.emplace_back(name);
+        values.push_back(array);
+      }
+    };
+
+    /** Components beyond the dimension are zero; ParaView's vectors have three. */
+    void add_velocity(const cases::Snapshot &snapshot, std::span<const double> zeros,
+                      Fields &fields)
+    {
+      if(snapshot.velocity[0].empty())
+        return;
+      const auto first = static_cast<unsigned int>(fields.names.size());
+      constexpr const char *names[] = {"velocity_x", "velocity_y", "velocity_z"};
+      for(int d = 0; d < 3; ++d)
+        fields.add(names[d], snapshot.velocity[d].empty() ? zeros : snapshot.velocity[d]);
+      fields.vectors.emplace_back(
+          first, first + 2, "velocity",
+          dealii::DataComponentInterpretation::component_is_part_of_vector);
+    }
+
+    Fields fields_of(const cases::Snapshot &snapshot, std::vector<double> &zeros)
+    {
+      Fields fields;
+      const bool sites = !snapshot.positions[0].empty();
+      fields.positions = sites ? snapshot.positions : snapshot.front;
+      fields.add("temperature", snapshot.temperature);
+      fields.add("solid_fraction", snapshot.solid_fraction);
+      fields.add("volume", snapshot.weights);
+      if(!sites)
+        fields.add("curvature", snapshot.front_curvature);
+      zeros.assign(fields.positions[0].size(), 0);
+      add_velocity(snapshot, zeros, fields);
+      if(fields.names.empty()) // deal.II wants one
+        fields.add("index", zeros);
+      return fields;
+    }
 
     template <int dim>
     using Patches = std::vector<dealii::DataOutBase::Patch<dim, 3>>;
 
-    template <typename Patch>
-    void fill_vertex(Patch &patch, unsigned int vertex, const cases::Snapshot &snapshot,
-                     std::size_t site)
-    {
-      for(int d = 0; d < snapshot.dimension; ++d)
-        patch.vertices[vertex][d] = snapshot.positions[d][site];
-      patch.data(0, vertex) = snapshot.temperature[site];
-      patch.data(1, vertex) = snapshot.solid_fraction[site];
-      patch.data(2, vertex) = snapshot.weights[site];
-    }
-
-    /** One patch per cell of dimension dim; for dim = 0 one per site. */
-    template <int dim>
-    Patches<dim> make_patches(const cases::Snapshot &snapshot)
+    /** One patch per cell of dimension dim, given by its vertices; for dim = 0 one per
+     * site. */
+    template <int dim, typename Index>
+    Patches<dim> make_patches(const Fields &fields, std::span<const Index> cells)
     {
       constexpr std::size_t vertices = std::size_t(1) << dim;
       const std::size_t n
-          = dim == 0 ? snapshot.temperature.size() : snapshot.cells.size() / vertices;
+          = dim == 0 ? fields.positions[0].size() : cells.size() / vertices;
       Patches<dim> patches(n);
       for(std::size_t i = 0; i < n; ++i)
       {
         patches[i].patch_index = i;
-        patches[i].data.reinit(data_names.size(), vertices);
+        patches[i].data.reinit(fields.names.size(), vertices);
         for(std::size_t v = 0; v < vertices; ++v)
-          fill_vertex(patches[i], v, snapshot,
-                      dim == 0 ? i : snapshot.cells[vertices * i + v]);
+        {
+          const std::size_t site = dim == 0 ? i : cells[vertices * i + v];
+          for(int d = 0; d < 3; ++d)
+            if(!fields.positions[d].empty())
+              patches[i].vertices[v][d] = fields.positions[d][site];
+          for(std::size_t f = 0; f < fields.values.size(); ++f)
+            patches[i].data(f, v) = fields.values[f][site];
+        }
       }
       return patches;
     }
 
-    template <int dim>
-    void write_frame(const cases::Snapshot &snapshot, std::ostream &out)
+    template <int dim, typename Index>
+    void write_frame(const cases::Snapshot &snapshot, std::span<const Index> cells,
+                     std::ostream &out)
     {
+      std::vector<double> zeros;
+      const Fields fields = fields_of(snapshot, zeros);
       const dealii::DataOutBase::VtkFlags flags(snapshot.time, snapshot.step);
-      dealii::DataOutBase::write_vtu(make_patches<dim>(snapshot), data_names, {}, flags,
-                                     out);
+      dealii::DataOutBase::write_vtu(make_patches<dim>(fields, cells), fields.names,
+                                     fields.vectors, flags, out);
+    }
+
+    void write_sites(const cases::Snapshot &snapshot, std::ostream &out)
+    {
+      const std::span cells(snapshot.cells);
+      switch(cells.empty() ? 0 : snapshot.dimension)
+      {
+      case 0:
+        write_frame<0>(snapshot, cells, out);
+        break;
+      case 1:
+        write_frame<1>(snapshot, cells, out);
+        break;
+      case 2:
+        write_frame<2>(snapshot, cells, out);
+        break;
+      default:
+        write_frame<3>(snapshot, cells, out);
+      }
+    }
+
+    /** Pairs of solid particles nearer than a distance, found by sweeping along x. */
+    std::vector<std::size_t> bonds_of(const cases::Snapshot &snapshot, double distance)
+    {
+      std::vector<std::size_t> order;
+      for(std::size_t i = 0; i < snapshot.solid_fraction.size(); ++i)
+        if(snapshot.solid_fraction[i] >= 0.5)
+          order.push_back(i);
+      const auto &r = snapshot.positions;
+      std::ranges::sort(order, {}, [&r](std::size_t i) { return r[0][i]; });
+      std::vector<std::size_t> pairs;
+      for(std::size_t a = 0; a < order.size(); ++a)
+        for(std::size_t b = a + 1;
+            b < order.size() && r[0][order[b]] - r[0][order[a]] < distance; ++b)
+        {
+          double square = 0;
+          for(int d = 0; d < snapshot.dimension; ++d)
+          {
+            const double way = r[d][order[b]] - r[d][order[a]];
+            square += way * way;
+          }
+          if(square < distance * distance)
+            pairs.insert(pairs.end(), {order[a], order[b]});
+        }
+      return pairs;
     }
   } // namespace
 
   FieldWriter::FieldWriter(const std::string &directory, double start_time,
-                           double end_time, int frames)
+                           double end_time, int frames, double bond)
     : directory(directory)
     , start_time(start_time)
     , end_time(end_time)
     , frames(frames)
+    , bond(bond)
   {
     // Fields of an earlier run in the same directory would mix with this one's.
     for(const auto &entry : std::filesystem::directory_iterator(directory))
     {
       const std::string name = entry.path().filename().string();
-      if(name == "fields.pvd" || (name.starts_with("fields-") && name.ends_with(".vtu")))
-        std::filesystem::remove_all(entry.path());
+      for(const std::string collection : {"fields", "bonds"})
+        if(name == collection + ".pvd"
+           || (name.starts_with(collection + "-") && name.ends_with(".vtu")))
+          std::filesystem::remove_all(entry.path());
     }
   }
 
@@ -85,39 +185,36 @@ namespace meltfront::verification
       return;
     while(next_frame <= frames && wants(snapshot.step, snapshot.time))
       ++next_frame;
-    const std::string name = fmt::format("fields-{:04}.vtu", written.size());
-    const std::string path = directory + "/" + name;
-    std::ofstream out(path);
-    if(!out)
-      throw cases::OutputError(fmt::format("cannot write {}", path));
-    switch(snapshot.cells.empty() ? 0 : snapshot.dimension)
-    {
-    case 0:
-      write_frame<0>(snapshot, out);
-      break;
-    case 1:
-      write_frame<1>(snapshot, out);
-      break;
-    case 2:
-      write_frame<2>(snapshot, out);
-      break;
-    default:
-      write_frame<3>(snapshot, out);
-    }
-    if(!out.flush())
-      throw cases::OutputError(fmt::format("cannot write {}", path));
-    written.emplace_back(snapshot.time, name);
-    write_collection();
+    write("fields", written, snapshot.time,
+          [&](std::ostream &out) { write_sites(snapshot, out); });
+    if(bond > 0)
+      write("bonds", bonds_written, snapshot.time,
+            [&](std::ostream &out)
+            {
+              const std::vector<std::size_t> pairs = bonds_of(snapshot, bond);
+              write_frame<1>(snapshot, std::span(pairs), out);
+            });
   }
 
-  void FieldWriter::write_collection() const
+  template <typename Write>
+  void FieldWriter::write(const std::string &collection,
+                          std::vector<std::pair<double, std::string>> &list, double time,
+                          const Write &write_frame) const
   {
-    const std::string path = directory + "/fields.pvd";
-    std::ofstream out(path);
-    if(!out)
-      throw cases::OutputError(fmt::format("cannot write {}", path));
-    dealii::DataOutBase::write_pvd_record(out, written);
-    if(!out.flush())
-      throw cases::OutputError(fmt::format("cannot write {}", path));
+    const std::string name = fmt::format("{}-{:04}.vtu", collection, list.size());
+    list.emplace_back(time, name);
+    const auto to_file = [this](const std::string &file, const auto &content)
+    {
+      const std::string path = directory + "/" + file;
+      std::ofstream out(path);
+      if(!out)
+        throw cases::OutputError(fmt::format("cannot write {}", path));
+      content(out);
+      if(!out.flush())
+        throw cases::OutputError(fmt::format("cannot write {}", path));
+    };
+    to_file(name, write_frame);
+    to_file(collection + ".pvd", [&list](std::ostream &out)
+            { dealii::DataOutBase::write_pvd_record(out, list); });
   }
 } // namespace meltfront::verification

@@ -11,8 +11,11 @@ namespace meltfront::verification
 {
   /**
    * An observer that writes the fields of a run for ParaView: one `.vtu` file a frame
-   * (particles as points, meshes as cells) with temperature, solid fraction and volume,
-   * and `fields.pvd`, the collection over time.
+   * (particles as points, meshes as cells) with those of temperature, solid fraction,
+   * volume and velocity that the snapshot has, and `fields.pvd`, the collection over
+   * time. Where the front is carried along and no sites are shown, the points are those
+   * of the front, with its curvature. Bonds between solid particles are lines in files of
+   * their own, `bonds.pvd`, since a file holds cells of one dimension.
    */
   class FieldWriter : public cases::Observer
   {
@@ -20,9 +23,10 @@ namespace meltfront::verification
     /**
      * Write `frames` frames equidistant in time, and the initial state, into a directory
      * that exists; frames of an earlier run there are removed.
+     * @param bond solid particles nearer than this are joined by a line; 0: none
      */
     FieldWriter(const std::string &directory, double start_time, double end_time,
-                int frames);
+                int frames, double bond = 0);
 
     bool wants(long step, double time) override;
 
@@ -30,14 +34,19 @@ namespace meltfront::verification
     void observe(const cases::Snapshot &snapshot) override;
 
   private:
-    void write_collection() const;
+    /** Write one file of a collection; the collection is whole after each. */
+    template <typename Write>
+    void write(const std::string &collection,
+               std::vector<std::pair<double, std::string>> &list, double time,
+               const Write &write_frame) const;
 
     std::string directory;
     double start_time;
     double end_time;
     int frames;
+    double bond;
     int next_frame = 0;
-    std::vector<std::pair<double, std::string>> written;
+    std::vector<std::pair<double, std::string>> written, bonds_written;
   };
 } // namespace meltfront::verification
 

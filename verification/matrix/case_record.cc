@@ -317,6 +317,8 @@ namespace meltfront::verification
     record.material = scene.material;
     if(scene.alloy)
       record.alloy = make_alloy_record(scene);
+    if(!scene.conducts_heat())
+      record.moving = make_moving_record(c);
     record.initial_state = words(scene.initial);
     for(const cases::Side side : scene.sides())
       record.boundaries.push_back(
@@ -368,6 +370,8 @@ namespace meltfront::verification
     json["material"] = json_of(record.material);
     if(record.alloy)
       json["alloy"] = *record.alloy;
+    if(record.moving)
+      json["moving"] = *record.moving;
     json["start_time"] = json_of(record.start_time);
     json["end_time"] = json_of(record.end_time);
     json["front_exact_end"] = json_of(record.front_exact_end);
@@ -409,6 +413,8 @@ namespace meltfront::verification
     record.material = material_in(json.at("material"));
     if(json.contains("alloy"))
       record.alloy = json.at("alloy").get<AlloyRecord>();
+    if(json.contains("moving"))
+      record.moving = json.at("moving").get<MovingRecord>();
     record.start_time = number_in(json.at("start_time"));
     record.end_time = number_in(json.at("end_time"));
     record.front_exact_end = number_in(json.at("front_exact_end"));

@@ -3,6 +3,7 @@
 
 #include <cases/case.h>
 #include <verification/matrix/alloy_record.h>
+#include <verification/matrix/moving_record.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -34,6 +35,7 @@ namespace meltfront::verification
     double reference_length = 0;
     cases::Material material;
     std::optional<AlloyRecord> alloy;
+    std::optional<MovingRecord> moving;  ///< where no heat is conducted
     std::string initial_state;           ///< in words and numbers
     std::vector<std::string> boundaries; ///< `x_min: fixed temperature -10`
     std::vector<cases::Position> source_positions;

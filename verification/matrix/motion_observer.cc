@@ -16,14 +16,72 @@ namespace meltfront::verification
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr int samples_of_every_step = 200;
 
-    std::vector<double> copy(std::span<const double> values)
+    constexpr int pictures_before_mark = 12, most_pictures = 60;
+    constexpr std::size_t most_animated = 2000;
+
+    constexpr const char *interface_names[]
+        = {"volume_error", "front_l1",   "shape_mismatch", "shape_missing",
+           "shape_extra",  "normal_rms", "curvature_rms"};
+
+    std::array<double, std::size(interface_names)>
+    values_of(const InterfaceErrors &errors)
     {
-      return {values.begin(), values.end()};
+      return {errors.volume, errors.front,  errors.mismatch, errors.missing,
+              errors.extra,  errors.normal, errors.curvature};
+    }
+
+    /** Values for pictures: five digits of the largest, so that records stay small. */
+    std::vector<double> rounded(std::span<const double> values)
+    {
+      double largest = 0;
+      for(const double value : values)
+        largest = std::max(largest, std::abs(value));
+      std::vector<double> result(values.begin(), values.end());
+      if(largest > 1e-100) // else there is nothing to see
+      {
+        double scale = 1;
+        while(scale * largest < 1e4)
+          scale *= 10;
+        while(scale * largest >= 1e5)
+          scale /= 10;
+        for(double &value : result)
+          value = std::round(value * scale) / scale;
+      }
+      return result;
+    }
+
+    ParticleFrame frame_of(const cases::Snapshot &snapshot)
+    {
+      return {snapshot.time,
+              snapshot.step,
+              rounded(snapshot.positions[0]),
+              rounded(snapshot.positions[1]),
+              rounded(snapshot.velocity[0]),
+              rounded(snapshot.velocity[1]),
+              {snapshot.solid_fraction.begin(), snapshot.solid_fraction.end()}};
+    }
+
+    /** Equidistant from the start to the first mark, and from there to the end. */
+    std::vector<double> times_of_pictures(const cases::Scene &scene,
+                                          const std::vector<double> &marks)
+    {
+      std::vector<double> times;
+      const bool marked = !marks.empty() && marks.front() > scene.start_time
+                          && marks.front() < scene.end_time;
+      const double turn = marked ? marks.front() : scene.start_time;
+      const int before = marked ? pictures_before_mark : 0;
+      for(int i = 0; i < before; ++i)
+        times.push_back(scene.start_time + (turn - scene.start_time) * i / before);
+      const int after = most_pictures - before;
+      for(int i = 0; i <= after; ++i)
+        times.push_back(turn + (scene.end_time - turn) * i / after);
+      return times;
     }
   } // namespace
 
   MotionObserver::MotionObserver(const cases::Case &c, const cases::Scene &simulated,
-                                 const std::string &method, cases::Observer *second)
+                                 const std::string &method, cases::Observer *second,
+                                 bool animated)
     : the_case(c)
     , scene(simulated)
     , method(method)
@@ -32,11 +90,15 @@ namespace meltfront::verification
     , samples(c.measurement.samples == 0 ? samples_of_every_step : c.measurement.samples)
     , last_time(nan)
   {
+    if(animated && simulated.particle_solid)
+      picture_times = times_of_pictures(simulated, c.measurement.marks);
   }
 
   void MotionObserver::begin(const cases::RunDescription &description)
   {
     run_description = description;
+    if(scene.interface)
+      comparison.emplace(scene, description.spacing);
     if(second)
       second->begin(description);
   }
@@ -59,10 +121,17 @@ namespace meltfront::verification
     return next_mark < marks.size() && time >= marks[next_mark] - tolerance;
   }
 
+  bool MotionObserver::picture_is_due(double time) const
+  {
+    return next_picture < picture_times.size()
+           && time >= picture_times[next_picture] - tolerance;
+  }
+
   bool MotionObserver::wants(long step, double time)
   {
     const bool second_wants = second && second->wants(step, time);
-    return sample_is_due(step, time) || mark_is_due(time) || second_wants;
+    return sample_is_due(step, time) || mark_is_due(time) || picture_is_due(time)
+           || second_wants;
   }
 
   void MotionObserver::judge(const cases::Snapshot &snapshot) const
@@ -90,6 +159,7 @@ namespace meltfront::verification
     }
     if(snapshot.step == 0)
       keep_frame(snapshot);
+    keep_picture(snapshot);
     if(at_the_end(snapshot.time))
     {
       measure(snapshot, "_end");
@@ -110,8 +180,13 @@ namespace meltfront::verification
                          / (scene.end_time - scene.start_time);
     next_sample = static_cast<int>(samples * share) + 1;
     run_series.time.push_back(snapshot.time);
-    run_series.solid_volume.push_back(std::accumulate(snapshot.solid_fraction.begin(),
-                                                      snapshot.solid_fraction.end(), 0.));
+    if(scene.particle_solid)
+      run_series.solid_volume.push_back(std::accumulate(
+          snapshot.solid_fraction.begin(), snapshot.solid_fraction.end(), 0.));
+    else if(snapshot.level_set && scene.domain.dimension == 2)
+      run_series.solid_volume.push_back(comparison->volume(snapshot));
+    else
+      run_series.solid_volume.push_back(nan);
   }
 
   void MotionObserver::measure(const cases::Snapshot &snapshot, const std::string &suffix)
@@ -119,6 +194,11 @@ namespace meltfront::verification
     if(scene.particle_solid)
       values["solid" + suffix] = std::accumulate(snapshot.solid_fraction.begin(),
                                                  snapshot.solid_fraction.end(), 0.);
+    if(!comparison || !snapshot.level_set)
+      return;
+    const auto errors = values_of(comparison->errors(snapshot));
+    for(std::size_t i = 0; i < errors.size(); ++i)
+      values[interface_names[i] + suffix] = errors[i];
   }
 
   void MotionObserver::keep_frame(const cases::Snapshot &snapshot)
@@ -131,15 +211,19 @@ namespace meltfront::verification
     }
     if(snapshot.dimension != 2)
       return;
-    ParticleFrame frame;
-    frame.time = snapshot.time;
-    frame.step = snapshot.step;
-    frame.x = copy(snapshot.positions[0]);
-    frame.y = copy(snapshot.positions[1]);
-    frame.velocity_x = copy(snapshot.velocity[0]);
-    frame.velocity_y = copy(snapshot.velocity[1]);
-    frame.solid = copy(snapshot.solid_fraction);
-    particle_frames.push_back(frame);
+    if(!particle_frames.empty() && particle_frames.back().step == snapshot.step)
+      return; // a mark at the end
+    particle_frames.push_back(frame_of(snapshot));
+  }
+
+  void MotionObserver::keep_picture(const cases::Snapshot &snapshot)
+  {
+    if(!picture_is_due(snapshot.time))
+      return;
+    while(picture_is_due(snapshot.time))
+      ++next_picture;
+    if(snapshot.dimension == 2 && snapshot.positions[0].size() <= most_animated)
+      animation.push_back(frame_of(snapshot));
   }
 
   void MotionObserver::note(double time, const std::string &event)
@@ -175,6 +259,7 @@ namespace meltfront::verification
   {
     record.frames = front_frames;
     record.particle_frames = particle_frames;
+    record.animation = animation;
     record.quantities = values;
   }
 
@@ -185,9 +270,16 @@ namespace meltfront::verification
       std::vector<std::string> list;
       for(const cases::Outcome &outcome : cases::outcomes())
         list.push_back(outcome.name);
+      std::vector<std::string> suffixes;
       for(int mark = 1; mark <= cases::most_marks; ++mark)
-        list.push_back(fmt::format("solid_{}", mark));
-      list.emplace_back("solid_end");
+        suffixes.push_back(fmt::format("_{}", mark));
+      suffixes.emplace_back("_end");
+      for(const std::string &suffix : suffixes)
+      {
+        list.push_back("solid" + suffix);
+        for(const char *name : interface_names)
+          list.push_back(name + suffix);
+      }
       return list;
     }();
     return names;

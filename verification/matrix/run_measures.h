@@ -29,11 +29,11 @@ namespace meltfront::verification
    * @param simulated the case's scene as it is handed to the method, outlives them too
    * @param method its name, for messages
    * @param second receives what it wants of the same run, or null
+   * @param animated whether frames are to be kept throughout the run too
    */
-  std::unique_ptr<RunMeasures> measures_of(const cases::Case &c,
-                                           const cases::Scene &simulated,
-                                           const std::string &method,
-                                           cases::Observer *second);
+  std::unique_ptr<RunMeasures>
+  measures_of(const cases::Case &c, const cases::Scene &simulated,
+              const std::string &method, cases::Observer *second, bool animated = false);
 } // namespace meltfront::verification
 
 #endif

@@ -79,7 +79,8 @@ namespace meltfront::verification
       cases::require_problem(method, c.scene);
       cases::require_effects(method, effects);
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
-      const auto measures = measures_of(c, scene, method.name(), second);
+      const auto measures
+          = measures_of(c, scene, method.name(), second, resolution.seed == 1);
       const auto keep_course = [&]
       {
         measures->keep_course(record);

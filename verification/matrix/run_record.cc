@@ -283,6 +283,8 @@ namespace meltfront::verification
     json["frames"] = json_of(record.frames);
     if(!record.particle_frames.empty())
       json["particle_frames"] = json_of(record.particle_frames);
+    if(!record.animation.empty())
+      json["animation"] = json_of(record.animation);
     json["events"] = json_of(record.events);
     json["provenance"] = record.provenance;
   }
@@ -312,6 +314,7 @@ namespace meltfront::verification
       record.mark_profiles.push_back(profile_in(profile));
     record.frames = frames_in(list_in(json, "frames"));
     record.particle_frames = particle_frames_in(list_in(json, "particle_frames"));
+    record.animation = particle_frames_in(list_in(json, "animation"));
     record.events = events_in(list_in(json, "events"));
     json.at("provenance").get_to(record.provenance);
   }

@@ -105,6 +105,7 @@ namespace meltfront::verification
     std::vector<RunProfile> mark_profiles;      ///< at Measurement::marks or some
     std::vector<FrontFrame> frames;             ///< at Measurement::marks and at the end
     std::vector<ParticleFrame> particle_frames; ///< at the start, the marks and the end
+    std::vector<ParticleFrame> animation;       ///< of the first seed: throughout the run
     std::vector<RunEvent> events;
 
     /** case_text, case_hash, program_version, compiler, flags, cpu, packages, date,

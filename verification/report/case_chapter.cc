@@ -1,5 +1,5 @@
+#include <verification/report/case_parts.h>
 #include <verification/report/case_plots.h>
-#include <verification/report/chapters.h>
 #include <verification/report/convergence_table.h>
 #include <verification/report/equations.h>
 #include <verification/report/scene_picture.h>
@@ -16,17 +16,6 @@ namespace meltfront::verification
 {
   namespace
   {
-    Markup pair(const Markup &left, const Markup &right, const std::string &kind = "pair")
-    {
-      return element("div", {{"class", kind}}, left + right);
-    }
-
-    Markup folded(const std::string &summary, const Markup &content)
-    {
-      return content.empty() ? Markup()
-                             : element("details", element("summary", summary) + content);
-    }
-
     Markup picture(const ReportContext &context, const CaseRuns &runs)
     {
       const CaseRecord &record = *runs.record;
@@ -121,65 +110,6 @@ namespace meltfront::verification
                        "There is no exact solution: errors against one cannot be given.");
     }
 
-    Markup convergence(const ReportContext &context, const CaseRuns &runs)
-    {
-      const CaseRecord &record = *runs.record;
-      const Table table = convergence_table(runs);
-      const auto key
-          = [&context](const std::string &label) { return context.styles.key(label); };
-      if(table.empty())
-        return element("p", "No run of this case is in the matrix.");
-      const Table rates = pairwise_table(runs), orders = orders_table(runs);
-      const bool several = orders.groups.size() > 1;
-      return element(
-                 "p", {{"class", "nothing"}},
-                 text(
-                     "Orders are fitted by least squares over at least four levels, with "
-                     "their standard error: in h, or in dt where only the time step was "
-                     "refined. Levels whose error is at round-off (10⁻¹³ of the domain's "
-                     "side, 10⁻¹³ where relative) are left out of the fit. "
-                     + std::string(record.changes_phase
-                                       ? "Errors of the front are root mean squares over "
-                                         "the run; bold"
-                                       : "Bold")
-                     + " is the least of a column."))
-             + (several ? table_markup(orders, key) : Markup()) + table_markup(table, key)
-             + linked_csv(context, record.name, convergence_csv(runs))
-             + (rates.empty() ? Markup()
-                              : folded("Rates between neighbouring resolutions",
-                                       table_markup(rates, key)));
-    }
-
-    Markup error_plots(const ReportContext &context, const CaseRuns &runs)
-    {
-      const std::string &name = runs.record->name;
-      const Plot cost = error_against_cost(runs, context.styles);
-      const std::string note
-          = cost.failed.empty() ? "" : " A cross marks a run that failed or was refused.";
-      std::vector<Markup> figures;
-      if(const Plot plot = error_against_spacing(runs, context.styles);
-         !plot.curves.empty())
-        figures.push_back(context.plots.figure(
-            name + "-error-spacing", plot,
-            text("Error against spacing, with fitted orders; grey: reference slopes."
-                 + note)));
-      if(const Plot plot = error_against_time_step(runs, context.styles);
-         !plot.curves.empty())
-        figures.push_back(context.plots.figure(
-            name + "-error-time-step", plot,
-            text("Error against time step at one spacing, with fitted orders; grey: "
-                 "reference slopes."
-                 + note)));
-      figures.push_back(context.plots.figure(
-          name + "-error-cost", cost,
-          text("Error against CPU time: left and low is better; grey: reference slopes."
-               + note)));
-      Markup content;
-      for(std::size_t i = 0; i < figures.size(); i += 2)
-        content += pair(figures[i], i + 1 < figures.size() ? figures[i + 1] : Markup());
-      return content;
-    }
-
     Markup front_plots(const ReportContext &context, const CaseRuns &runs)
     {
       return pair(context.plots.figure(
@@ -244,106 +174,26 @@ namespace meltfront::verification
       return content.empty() ? content : element("h3", "Temperature") + content;
     }
 
-    Markup parameters(const CaseRuns &runs)
-    {
-      Table table;
-      table.columns
-          = {{"parameter", "", false}, {"value", "", false}, {"unit", "", false}};
-      for(const LabelRuns &label : runs.labels)
-        if(const RunRecord *run = label.finest())
-        {
-          RowGroup &group = table.groups.emplace_back();
-          group.label = fmt::format("{}, n = {}", label.label, run->n);
-          const auto add = [&group](const std::string &name, const std::string &value,
-                                    const std::string &unit) {
-            group.rows.push_back({{name}, {value}, {unit}});
-          };
-          add("dimension", std::to_string(run->description.dimension), "");
-          if(run->description.time_step > 0)
-            add("time step", plain_number(run->description.time_step, 4), "s");
-          if(run->description.smoothing_length > 0)
-            add("smoothing length", plain_number(run->description.smoothing_length, 4),
-                "m");
-          for(const cases::Parameter &parameter : run->description.parameters)
-            add(parameter.name, parameter.value, parameter.unit);
-          for(const auto &[key, value] : run->options)
-            add("option " + key, value, "");
-          for(const RunEvent &event : run->events)
-            add(fmt::format("event at t = {}", plain_number(event.time, 6)), event.what,
-                "");
-        }
-      return table.empty() ? Markup() : table_markup(table);
-    }
-
-    Markup printed(const ReportContext &context, const CaseRuns &runs)
-    {
-      const Table table = printed_table(runs);
-      if(table.empty())
-        return {};
-      return element("h3", "Printed in papers, beside ours")
-             + element(
-                 "p", {{"class", "nothing"}},
-                 text("Orders are in n, the number along a side, fitted to the printed "
-                      "and to the measured numbers in the same way."))
-             + table_markup(table)
-             + linked_csv(context, runs.record->name + "-printed", printed_csv(runs));
-    }
-
-    Markup criteria(const ReportContext &context, const CaseRecord &record)
-    {
-      std::vector<CriterionResult> own;
-      for(const CriterionResult &criterion : context.result.criteria)
-        if(criterion.case_name == record.name)
-          own.push_back(criterion);
-      return own.empty()
-                 ? Markup()
-                 : element("h3", "Acceptance criteria") + criteria_table(own, false);
-    }
-
-    Markup limits(const CaseRuns &runs)
-    {
-      std::vector<Markup> items;
-      for(const std::string &limit : runs.record->limits)
-        items.push_back(text(limit));
-      for(const LabelRuns &label : runs.labels)
-        for(const Level &level : label.levels)
-          for(const RunRecord *run : level.runs)
-            if(run->status != RunStatus::finished)
-              items.push_back(text(fmt::format("{}, n = {}: ", run->label, run->n))
-                              + (run->status == RunStatus::refused
-                                     ? badge("fair", "refused")
-                                     : badge("bad", "failed"))
-                              + text(" "
-                                     + (run->message.empty() ? "no reason was given"
-                                                             : run->message)));
-      return element("h3", "Limits and omissions")
-             + (items.empty() ? element("p", "None are known; every run finished.")
-                              : list("ul", items));
-    }
   } // namespace
 
   Markup case_chapter(const ReportContext &context, const CaseRuns &runs)
   {
     const CaseRecord &record = *runs.record;
-    std::string tags = record.name;
-    for(const std::string &tag : record.tags)
-      tags += " · " + tag;
-    Markup content = element("p", {{"class", "tags"}}, text(tags))
-                     + element("h2", record.title.empty() ? record.name : record.title);
-    if(!record.description.empty())
-      content += element("p", record.description);
+    if(moves_particles(record))
+      return solid_chapter(context, runs);
+    if(carries_front(record))
+      return carried_chapter(context, runs);
+    Markup content = chapter_head(record);
     content += pair(picture(context, runs),
                     element("div", element("h3", "Equations") + equations(record)),
                     "pair scene");
     content += folded("Material", material_table(record));
-    if(const Markup effects = effects_of_case(context, runs); !effects.empty())
-      content += folded("Effects: on or off, because, share of time, memory", effects);
-    content += folded("Schemes and their parameters", parameters(runs))
-               + yardstick(context, runs) + element("h3", "Convergence")
-               + convergence(context, runs) + error_plots(context, runs)
+    content += effects_and_parameters(context, runs) + yardstick(context, runs)
+               + element("h3", "Convergence") + convergence(context, runs)
+               + error_plots(context, runs)
                + (record.changes_phase ? front_and_heat(context, runs)
                                        : temperature_alone(context, runs))
                + printed(context, runs) + criteria(context, record) + limits(runs);
-    return element("section", {{"id", case_anchor(record.name)}}, content) + Markup("\n");
+    return chapter_of(record, content);
   }
 } // namespace meltfront::verification

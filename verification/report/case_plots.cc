@@ -56,6 +56,8 @@ namespace meltfront::verification
 
     std::string error_label(const CaseRecord &record, const std::string &error)
     {
+      if(error.starts_with("shape"))
+        return "mismatch of the region, relative";
       const std::string unit = error.starts_with("front") ? "m" : volume_unit(record);
       if(error.starts_with("temperature"))
         return "temperature error, RMS over the largest";

@@ -122,6 +122,7 @@ namespace meltfront::verification
       for(const auto &[name, list] : samples)
       {
         SeedMean &result = level.values[name];
+        result.count = static_cast<int>(list.size());
         for(const double value : list)
           result.mean += value / list.size();
         double squares = 0;
@@ -186,8 +187,20 @@ namespace meltfront::verification
     return record.symmetry != "planar";
   }
 
+  bool moves_particles(const CaseRecord &record)
+  {
+    return record.moving && record.moving->solid;
+  }
+
+  bool carries_front(const CaseRecord &record)
+  {
+    return record.moving && !record.moving->solid;
+  }
+
   std::string main_error(const CaseRecord &record)
   {
+    if(record.moving)
+      return carries_front(record) ? "shape_mismatch_end" : "energy_error";
     if(!record.changes_phase)
       return "temperature_rmse";
     return record.exact.empty() ? "solid_volume_end_error" : "front_rms";
@@ -195,8 +208,10 @@ namespace meltfront::verification
 
   double main_error_scale(const CaseRuns &runs)
   {
+    if(moves_particles(*runs.record))
+      return std::nan(""); // nothing is known that it could be relative to
     if(!runs.record->changes_phase)
-      return 1; // temperature errors are relative
+      return 1; // errors of temperatures and shapes are relative
     if(!runs.record->exact.empty())
       return std::abs(runs.record->front_exact_end);
     for(const LabelRuns &label : runs.labels)

@@ -15,6 +15,7 @@ namespace meltfront::verification
   {
     double mean = 0;
     double spread = 0; ///< sample standard deviation; 0 for a single seed
+    int count = 0;     ///< finished runs that have the quantity
   };
 
   /** The runs of one case, label and n: one per seed. */
@@ -65,8 +66,15 @@ namespace meltfront::verification
     bool has(const std::string &quantity) const;
   };
 
-  /** The error that diagrams of a case show: `front_rms`, or where there is no exact
-   * solution `solid_volume_end_error`. */
+  /** Whether a case is about a particle solid. */
+  bool moves_particles(const CaseRecord &record);
+
+  /** Whether a case is about a front that a velocity carries along. */
+  bool carries_front(const CaseRecord &record);
+
+  /** The error that diagrams of a case show: `front_rms`; where there is no exact
+   * solution `solid_volume_end_error`; of a front that is carried along
+   * `shape_mismatch_end`; of a particle solid `energy_error`. */
   std::string main_error(const CaseRecord &record);
 
   /** What it is relative to: the exact front at the end (m), or the reference's solid

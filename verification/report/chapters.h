@@ -43,7 +43,15 @@ namespace meltfront::verification
   /** Case by effect: on or off, and its share of the time. */
   Markup effects_chapter(const ReportContext &context);
 
+  /** The chapter of a case, whatever its kind of problem. */
   Markup case_chapter(const ReportContext &context, const CaseRuns &runs);
+
+  /** Of a particle solid: frames, what many runs say together, solid particles over time,
+   * energy over the time step. */
+  Markup solid_chapter(const ReportContext &context, const CaseRuns &runs);
+
+  /** Of a front that is carried along: fronts over the exact ones, errors, orders. */
+  Markup carried_chapter(const ReportContext &context, const CaseRuns &runs);
 
   Markup provenance_chapter(const ReportContext &context);
 
@@ -53,6 +61,9 @@ namespace meltfront::verification
   /** The acceptance criteria that were held against runs: of one case, or of all if the
    * name is empty. */
   Markup criteria_table(const std::vector<CriterionResult> &criteria, bool with_case);
+
+  /** The bounds of a criterion: `19.7 to 20.7`, `≥ 0.09`. */
+  Markup bound_of(const CriterionResult &criterion, int digits = 3);
 
   /** Where a case's section is in the page: `case-NAME`. */
   std::string case_anchor(const std::string &name);

@@ -101,6 +101,46 @@ namespace meltfront::verification
       }
     }
 
+    /** Steps and time of runs that no error belongs to: particle solids. */
+    Markup step_costs(const ReportContext &context)
+    {
+      Table table;
+      table.group_heading = "case";
+      table.columns = {{"particles", "", true},   {"steps", "", true},
+                       {"runs", "", true},        {"CPU of the first", "s", true},
+                       {"CPU of all", "s", true}, {"per particle and step", "ns", true}};
+      for(const CaseRuns &runs : context.runs)
+      {
+        if(!moves_particles(*runs.record))
+          continue;
+        RowGroup group;
+        for(const LabelRuns &label : runs.labels)
+          for(const Level &level : label.levels)
+          {
+            if(!level.finished)
+              continue;
+            const cases::Cost &cost = level.finished->cost;
+            group.label = fmt::format("{}, {}", runs.record->name, label.label);
+            group.rows.push_back(
+                {{NumberText{grouped(cost.steps > 0 ? cost.work / cost.steps : 0), {}}},
+                 {NumberText{grouped(cost.steps), {}}},
+                 {NumberText{grouped(level.finished_count), {}}},
+                 {prose_number(cpu_seconds(*level.finished), 3)},
+                 {prose_number(level.value("cpu_seconds") * level.finished_count, 3)},
+                 {prose_number(1e9 * cost.stepping_cpu / static_cast<double>(cost.work),
+                               3)}});
+            table.groups.push_back(group);
+            group.rows.clear();
+          }
+      }
+      return table.empty()
+                 ? Markup()
+                 : element("p",
+                           "What the runs of particle solids took: no exact solution "
+                           "tells an error that a cost could be held against.")
+                       + table_markup(table);
+    }
+
     Markup small_multiples(const ReportContext &context)
     {
       std::vector<Plot> plots;
@@ -118,10 +158,19 @@ namespace meltfront::verification
 
   Markup cost_chapter(const ReportContext &context)
   {
-    Markup content = element("h2", "What accuracy costs");
-    if(std::none_of(context.runs.begin(), context.runs.end(), has_relative_error))
-      content += element(
-          "p", "No finished run can be compared with an exact solution or a reference.");
+    const Markup solids = step_costs(context);
+    const bool compared
+        = std::any_of(context.runs.begin(), context.runs.end(), has_relative_error);
+    Markup content = element("h2", compared || solids.empty() ? "What accuracy costs"
+                                                              : "What the runs cost");
+    if(!compared)
+    {
+      if(solids.empty())
+        content += element(
+            "p",
+            "No finished run can be compared with an exact solution or a reference.");
+      content += solids;
+    }
     else
     {
       content
@@ -132,7 +181,9 @@ namespace meltfront::verification
                  "divided by the exact front at the end; where there is no exact "
                  "solution, the error of the solid's volume at the end, divided by the "
                  "reference's volume; where nothing changes its phase, the "
-                 "temperature's root mean square over its largest value. Times are "
+                 "temperature's root mean square over its largest value; of a front "
+                 "that is carried along, the part of the region that is wrong at the "
+                 "end. Times are "
                  "interpolated "
                  "between measured resolutions, never extrapolated; ≤ marks a "
                  "method whose coarsest run is already better.")
@@ -142,7 +193,8 @@ namespace meltfront::verification
              + element(
                  "p", {{"class", "nothing"}},
                  text("All diagrams share their axes. A cross at the upper edge is a "
-                      "run that failed or was refused."));
+                      "run that failed or was refused."))
+             + solids;
     }
     return element("section", {{"id", "cost"}}, content);
   }

@@ -107,17 +107,37 @@ namespace meltfront::verification
     }
   } // namespace
 
+  namespace
+  {
+    /** Effects that some case of the page decides on: the others belong to other kinds
+     * of problem. */
+    std::vector<Effect> decided_effects(const ReportContext &context)
+    {
+      std::vector<Effect> effects;
+      for(const Effect effect : cases::all_effects())
+        if(std::any_of(context.runs.begin(), context.runs.end(),
+                       [effect](const CaseRuns &runs)
+                       {
+                         const auto *decisions = decisions_of(runs);
+                         return decisions && decision_on(*decisions, effect);
+                       }))
+          effects.push_back(effect);
+      return effects;
+    }
+  } // namespace
+
   Markup effects_chapter(const ReportContext &context)
   {
+    const std::vector<Effect> effects = decided_effects(context);
     Markup head = element("th", std::string("case"));
-    for(const Effect effect : cases::all_effects())
+    for(const Effect effect : effects)
       head += element("th", {{"title", description(effect)}}, text(words(effect)));
     Markup rows;
     for(const CaseRuns &runs : context.runs)
-      if(const auto *decisions = decisions_of(runs))
+      if(const auto *decisions = decisions_of(runs); decisions && !decisions->empty())
       {
         Markup row = element("td", case_link(runs.record->name));
-        for(const Effect effect : cases::all_effects())
+        for(const Effect effect : effects)
           row += effect_cell(runs, decision_on(*decisions, effect));
         rows += element("tr", row) + Markup("\n");
       }
@@ -139,7 +159,7 @@ namespace meltfront::verification
   Markup effects_of_case(const ReportContext &context, const CaseRuns &runs)
   {
     const auto *decisions = decisions_of(runs);
-    if(!decisions)
+    if(!decisions || decisions->empty())
       return {};
     Markup head = element("th", std::string("effect")) + element("th", std::string())
                   + element("th", std::string("because"));

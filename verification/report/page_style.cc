@@ -2,6 +2,7 @@
 
 #include <verification/report/gnuplot.h>
 #include <verification/report/method_styles.h>
+#include <verification/report/particle_frames.h>
 
 #include <fmt/format.h>
 
@@ -113,6 +114,7 @@ figcaption{color:var(--muted);font-size:.84rem;line-height:1.45;max-width:70ch;m
 .pair{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:1.2rem 2rem;align-items:start}
 .multiples{display:grid;grid-template-columns:repeat(auto-fill,minmax(250px,1fr));gap:.6rem 1rem}
 .multiples figure{margin:0}
+.multiples.wide{grid-template-columns:repeat(auto-fill,minmax(330px,1fr))}
 .nothing{color:var(--muted);font-size:.88rem}
 .equations{overflow-x:auto;padding:.4rem 0}
 .equation{display:flex;align-items:baseline;gap:1rem;margin:.55rem 0 .9rem;white-space:nowrap;
@@ -157,6 +159,6 @@ ul,ol{padding-left:1.25rem;max-width:82ch} li{margin:.22rem 0}
     return fmt::format(":root{{{}}}\n@media screen and "
                        "(prefers-color-scheme:dark){{:root{{{}}}}}\n",
                        variables(false), variables(true))
-           + rules;
+           + rules + frame_style();
   }
 } // namespace meltfront::verification

@@ -166,6 +166,11 @@ namespace meltfront::verification
       else
         command += curve.line ? "lines" + line : "points" + marks;
       command += fmt::format(" lc rgb '{}' notitle", colour);
+      if(curve.band)
+        return fmt::format("$data{} using 1:3:4 with filledcurves fs transparent solid "
+                           "0.2 noborder lc rgb '{}' notitle, \\\n     ",
+                           c, colour)
+               + command;
       if(!curve.spread.empty())
         command
             += fmt::format(", $data{} using 1:3:(0):($4-$3) with vectors nohead lw 1.4 "

@@ -26,6 +26,7 @@ namespace meltfront::verification
     LineStyle style;
     std::vector<double> x, y;   ///< NaN breaks the line
     std::vector<double> spread; ///< error bars, as long as y, or empty
+    bool band = false;          ///< the spread is drawn as an area instead
     bool line = true;
     bool markers = true;
   };

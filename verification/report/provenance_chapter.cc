@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 namespace meltfront::verification
@@ -39,6 +40,25 @@ namespace meltfront::verification
       return result;
     }
 
+    /** The same with runs of three and more neighbours as `1 to 200`. */
+    std::string ranges(const std::set<std::uint64_t> &values)
+    {
+      std::string result;
+      for(auto first = values.begin(); first != values.end();)
+      {
+        auto last = first;
+        while(std::next(last) != values.end() && *std::next(last) == *last + 1)
+          ++last;
+        if(*last - *first < 2)
+          last = first;
+        result += fmt::format("{}{}", result.empty() ? "" : ", ", *first);
+        if(last != first)
+          result += fmt::format(" to {}", *last);
+        first = std::next(last);
+      }
+      return result;
+    }
+
     Markup environment(const MatrixResult &result)
     {
       std::set<int> threads, repeats;
@@ -67,7 +87,7 @@ namespace meltfront::verification
       add("packages", joined(values_of(result, "packages")));
       add("threads per run", numbers(threads));
       add("times are the least of", repeats.empty() ? "" : numbers(repeats) + " runs");
-      add("seeds", numbers(seeds));
+      add("seeds", ranges(seeds));
       add("command line", joined(values_of(result, "command_line")));
       return element("div", {{"class", "scroll plain"}},
                      element("table", element("tbody", rows)));

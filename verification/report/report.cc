@@ -2,6 +2,7 @@
 
 #include <verification/report/chapters.h>
 #include <verification/report/convergence_table.h>
+#include <verification/report/ensemble_table.h>
 #include <verification/report/gnuplot.h>
 #include <verification/report/page_style.h>
 
@@ -45,7 +46,11 @@ namespace meltfront::verification
       {
         const std::string file
             = context.directory + "/tables/" + plain_name(runs.record->name);
-        const Table table = convergence_table(runs), printed = printed_table(runs);
+        const bool solid = moves_particles(*runs.record);
+        const std::vector<EnsembleGroup> groups
+            = solid ? ensemble(context.result, runs) : std::vector<EnsembleGroup>();
+        const Table table = solid ? ensemble_table(groups) : convergence_table(runs);
+        const Table printed = solid ? Table() : printed_table(runs);
         std::string markdown = table_markdown(table), tex = table_tex(table);
         if(!printed.empty())
         {
@@ -54,7 +59,7 @@ namespace meltfront::verification
           tex += '\n';
           tex += table_tex(printed);
         }
-        write_file(file + ".csv", convergence_csv(runs));
+        write_file(file + ".csv", solid ? ensemble_csv(groups) : convergence_csv(runs));
         write_file(file + ".md", markdown);
         write_file(file + ".tex", tex);
       }

@@ -1,4 +1,7 @@
+#include <verification/report/carried_picture.h>
+#include <verification/report/case_runs.h>
 #include <verification/report/gnuplot.h>
+#include <verification/report/particle_frames.h>
 #include <verification/report/plot_folder.h>
 #include <verification/report/profile_plots.h>
 #include <verification/report/report.h>
@@ -44,8 +47,16 @@ namespace meltfront::verification
   {
     make_directory(directory);
     write_file(directory + "/front.csv", front_csv(run.series));
+    if(moves_particles(record) && !run.particle_frames.empty())
+    {
+      write_file(directory + "/picture.svg",
+                 frames_as_file(record, {run.particle_frames.back()}));
+      return;
+    }
     std::string script;
-    if(fills_a_plane(run, record))
+    if(carries_front(record) && record.dimension == 2)
+      script = carried_front_script(record, run.frames);
+    else if(fills_a_plane(run, record))
     {
       SceneContent content{&run, {}, {}};
       content.front = run.series.front.empty() ? std::nan("") : run.series.front.back();

@@ -49,20 +49,20 @@ namespace meltfront::verification
                        + element("a", {{"href", file}}, text(file)) + text(")"));
   }
 
+  Markup bound_of(const CriterionResult &criterion, int digits)
+  {
+    const bool below = std::isfinite(criterion.upper);
+    const bool above = std::isfinite(criterion.lower);
+    const auto number = [digits](double value) { return number_markup(value, digits); };
+    if(below && above)
+      return number(criterion.lower) + text(" to ") + number(criterion.upper);
+    if(below)
+      return text("≤ ") + number(criterion.upper);
+    return above ? text("≥ ") + number(criterion.lower) : text("none");
+  }
+
   namespace
   {
-    Markup bound(const CriterionResult &criterion)
-    {
-      const bool below = std::isfinite(criterion.upper);
-      const bool above = std::isfinite(criterion.lower);
-      if(below && above)
-        return number_markup(criterion.lower) + text(" to ")
-               + number_markup(criterion.upper);
-      if(below)
-        return text("≤ ") + number_markup(criterion.upper);
-      return above ? text("≥ ") + number_markup(criterion.lower) : text("none");
-    }
-
     Markup verdict_line(const MatrixResult &result)
     {
       const auto held = std::count_if(result.criteria.begin(), result.criteria.end(),
@@ -160,7 +160,7 @@ namespace meltfront::verification
         row += element("td", case_link(criterion.case_name));
       row += element("td", criterion.method) + element("td", criterion.quantity)
              + element("td", {{"class", "number"}}, number_markup(criterion.value))
-             + element("td", {{"class", "number"}}, bound(criterion))
+             + element("td", {{"class", "number"}}, bound_of(criterion))
              + element("td", criterion.known_shortfall.empty()
                                  ? ""
                                  : "known shortfall: " + criterion.known_shortfall);
