@@ -167,7 +167,4 @@ TEST(InterfaceCase, SaysWhatIsWrong)
                    "radius");
   expect_complaint(replaced(interface_scene, "kind = ball", "kind = slotted disk"),
                    "slot width");
-  expect_complaint(replaced(interface_scene, "problem = interface advection",
-                            "problem = stefan\n  set symmetry = none"),
-                   "has no meaning");
 }
