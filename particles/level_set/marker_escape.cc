@@ -62,17 +62,13 @@ namespace meltfront::particles::level_set
         escaped.push_back(static_cast<std::uint32_t>(p));
   }
 
-  void EscapeCorrection::touch(const std::size_t node, const std::span<const double> phi)
+  bool EscapeCorrection::first_touch(const std::size_t node)
   {
     if(touched[node])
-      return;
+      return false;
     touched[node] = 1;
     nodes.push_back(static_cast<std::uint32_t>(node));
-    if(parameters.rule == EscapeRule::spheres)
-      said[0][node] = said[1][node] = phi[node];
-    else
-      for(int sign = 0; sign < 2; ++sign)
-        said[sign][node] = offset[sign][node] = infinity;
+    return true;
   }
 
   void EscapeCorrection::add_spheres(const Markers &markers, const std::size_t marker,
@@ -84,7 +80,8 @@ namespace meltfront::particles::level_set
     for(int corner = 0; corner < 1 << grid.dimension(); ++corner)
     {
       const std::size_t node = corner_node(grid, cell, corner);
-      touch(node, phi);
+      if(first_touch(node))
+        said[0][node] = said[1][node] = phi[node];
       const Position there = grid.position(node);
       const double away = length({there[0] - at[0], there[1] - at[1], there[2] - at[2]});
       if(radius > 0)
@@ -118,16 +115,23 @@ namespace meltfront::particles::level_set
               = scale * (way[0] * slope[0] + way[1] * slope[1] + way[2] * slope[2]);
           if(std::abs(along) < parameters.alignment * away)
             continue;
-          const std::size_t node = grid.node(index);
-          touch(node, phi);
-          const double aside = std::sqrt(std::max(0., away * away - along * along));
-          const int sign = radius > 0;
-          if(aside < offset[sign][node])
-          {
-            offset[sign][node] = aside;
-            said[sign][node] = radius + side * std::copysign(away, along);
-          }
+          add_by_offset(grid.node(index), radius > 0,
+                        radius + side * std::copysign(away, along),
+                        std::sqrt(std::max(0., away * away - along * along)));
         }
+  }
+
+  void EscapeCorrection::add_by_offset(const std::size_t node, const bool positive,
+                                       const double value, const double aside)
+  {
+    if(first_touch(node))
+      for(const int sign : {0, 1})
+        said[sign][node] = offset[sign][node] = infinity;
+    if(aside < offset[positive][node])
+    {
+      offset[positive][node] = aside;
+      said[positive][node] = value;
+    }
   }
 
   void EscapeCorrection::merge(const std::span<double> phi)

@@ -64,7 +64,8 @@ namespace meltfront::particles::level_set
                      std::span<const double> phi);
     void add_normals(const Markers &markers, std::size_t marker,
                      std::span<const double> phi);
-    void touch(std::size_t node, std::span<const double> phi);
+    void add_by_offset(std::size_t node, bool positive, double value, double aside);
+    bool first_touch(std::size_t node);
     void merge(std::span<double> phi);
 
     const Grid grid;

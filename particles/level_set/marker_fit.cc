@@ -146,7 +146,7 @@ namespace meltfront::particles::level_set
     }
 
     /** Sets nodes one by one; one per thread. */
-    template <int dim>
+    template <int dim, bool clustered>
     class NodeFit
     {
     public:
@@ -167,7 +167,7 @@ namespace meltfront::particles::level_set
         gather(node);
         std::optional<double> value;
         if(total >= parameters.weight && nearest <= parameters.nearest)
-          value = parameters.clustered ? clustered() : polynomial();
+          value = value_at_node();
         if(value)
           phi = *value * grid.spacing();
         else
@@ -203,7 +203,7 @@ namespace meltfront::particles::level_set
             }
             cloud.weight[at] = weight;
             cloud.distance[at] = distance;
-            if(parameters.clustered)
+            if constexpr(clustered)
               gather_plane(p, at);
             total += weight;
             nearest = std::min(nearest, std::abs(distance));
@@ -237,7 +237,15 @@ namespace meltfront::particles::level_set
         return fit<dim, true>(cloud, parameters.pivot);
       }
 
-      std::optional<double> polynomial()
+      std::optional<double> value_at_node()
+      {
+        if constexpr(clustered)
+          return value_of_nearest_front();
+        else
+          return value_of_all();
+      }
+
+      std::optional<double> value_of_all()
       {
         if(const std::optional<double> value = quadratic())
         {
@@ -251,7 +259,7 @@ namespace meltfront::particles::level_set
         return value;
       }
 
-      std::optional<double> clustered()
+      std::optional<double> value_of_nearest_front()
       {
         keep_nearest_front();
         double sum = 0, weights = 0;
@@ -318,7 +326,7 @@ namespace meltfront::particles::level_set
       double total = 0, nearest = 0;
     };
 
-    template <int dim>
+    template <int dim, bool clustered>
     FitCounts fit_nodes(const Grid &grid, const Markers &markers,
                         const MarkerCells &cells, const FitParameters &parameters,
                         std::span<double> phi, int threads)
@@ -327,7 +335,7 @@ namespace meltfront::particles::level_set
       const std::vector<std::uint32_t> &nodes = cells.nodes();
 #pragma omp parallel num_threads(threads)
       {
-        NodeFit<dim> node_fit(grid, markers, cells, parameters);
+        NodeFit<dim, clustered> node_fit(grid, markers, cells, parameters);
 #pragma omp for schedule(static)
         for(std::size_t n = 0; n < nodes.size(); ++n)
           node_fit.set(nodes[n], phi[nodes[n]]);
@@ -360,8 +368,11 @@ namespace meltfront::particles::level_set
   {
     if(parameters.clustered && !markers.with_normals() && markers.size() > 0)
       throw cases::InputError("fits by clusters need markers with normals");
-    return grid.dimension() == 2
-               ? fit_nodes<2>(grid, markers, cells, parameters, phi, threads)
-               : fit_nodes<3>(grid, markers, cells, parameters, phi, threads);
+    const bool plane = grid.dimension() == 2;
+    const auto fit = parameters.clustered
+                         ? plane ? fit_nodes<2, true> : fit_nodes<3, true>
+                     : plane ? fit_nodes<2, false>
+                             : fit_nodes<3, false>;
+    return fit(grid, markers, cells, parameters, phi, threads);
   }
 } // namespace meltfront::particles::level_set
