@@ -83,8 +83,16 @@ namespace meltfront::particles::level_set
     }
   }
 
+  void LevelSet::follow(const double spacings)
+  {
+    moved += spacings;
+    if(moved + spacings > 1)
+      rebuild_band();
+  }
+
   void LevelSet::rebuild_band()
   {
+    moved = 0;
     if(settings.band_layers == 0)
       return fill_ghosts();
     lay_band(nodes_at_front(computed));

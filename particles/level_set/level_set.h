@@ -118,6 +118,10 @@ namespace meltfront::particles::level_set
      */
     void rebuild_band();
 
+    /** Tell that the front moved by up to so many spacings; the band is rebuilt before
+     * that sums up to more than one. */
+    void follow(double spacings);
+
     /** phi at all nodes: within the band as it is, beyond it by fast marching (m). */
     std::vector<double> distances_everywhere() const;
 
@@ -145,6 +149,7 @@ namespace meltfront::particles::level_set
     std::array<std::vector<double>, 3> positions; ///< of the band's nodes
     std::vector<GhostLine> ghost_lines;
     FastMarching marching;
+    double moved = 0; ///< since the band was laid, in spacings
   };
 } // namespace meltfront::particles::level_set
 
