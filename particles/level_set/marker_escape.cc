@@ -138,9 +138,12 @@ namespace meltfront::particles::level_set
   {
     const bool with_grid = parameters.rule == EscapeRule::normals
                            && parameters.merge == EscapeMerge::smaller_magnitude;
+    const double furthest = parameters.band * grid.spacing();
     for(const std::size_t node : nodes)
     {
       touched[node] = 0;
+      if(!(std::abs(phi[node]) <= furthest))
+        continue;
       const double negative = said[0][node], positive = said[1][node];
       const double nearer
           = std::abs(positive) <= std::abs(negative) ? positive : negative;

@@ -27,6 +27,7 @@ namespace meltfront::particles::level_set
   {
     EscapeRule rule = EscapeRule::spheres;
     EscapeMerge merge = EscapeMerge::smaller_magnitude; ///< only of rule normals
+    double band = 5;        ///< nodes further from the grid's front are left (spacings)
     double alignment = 0.9; ///< least cosine between the normal and the way to the node
   };
 

@@ -176,11 +176,11 @@ namespace meltfront::particles::level_set
     : grid(grid)
     , parameters(parameters)
   {
-    if(parameters.per_cell < 1 || parameters.most < parameters.per_cell)
+    if(parameters.seeding.per_cell < 1 || parameters.most < parameters.seeding.per_cell)
       throw cases::InputError(fmt::format(
           "cells are filled up to {} markers and thinned out to {}: both must be above "
           "zero, the second no less than the first",
-          parameters.per_cell, parameters.most));
+          parameters.seeding.per_cell, parameters.most));
   }
 
   void MarkerReseeding::apply(Markers &markers, MarkerCells &cells,
@@ -197,7 +197,7 @@ namespace meltfront::particles::level_set
     {
       if(!markers.with_normals() && markers.size() > 0)
         throw cases::InputError("reseeding at midpoints needs markers with normals");
-      GapSearch search(grid, markers, cells, parameters.per_cell);
+      GapSearch search(grid, markers, cells, parameters.seeding.per_cell);
       for(const Birth &birth : search.births())
         markers.add(birth.place, birth.distance, birth.normal, true, next_birth++);
     }
@@ -210,15 +210,19 @@ namespace meltfront::particles::level_set
   {
     const double far = 3 * grid.spacing(), near = grid.spacing();
     const auto most = static_cast<std::size_t>(parameters.most);
+    const bool knows_distance = markers.with_normals(); // or else a radius
     std::vector<std::uint32_t> kept, of_cell;
     for(std::size_t cell = 0; cell < cells.size(); ++cell)
     {
       of_cell.clear();
       for(std::size_t p = cells.first(cell); p < cells.first(cell + 1); ++p)
       {
-        const double away = std::abs(markers.distance[p]);
-        const double value = interpolate(grid, phi.data(), grid.locate(markers.point(p)));
-        if(away <= far && (away <= near || std::abs(value) <= far))
+        const double distance = markers.distance[p];
+        const double value
+            = interpolate(grid, phi.data(), grid.locate(markers.point(p)));
+        const bool trusted = knows_distance ? std::abs(distance) <= near
+                                            : value * distance < 0;
+        if(std::abs(distance) <= far && (trusted || std::abs(value) <= far))
           of_cell.push_back(static_cast<std::uint32_t>(p));
       }
       if(of_cell.size() > most)
@@ -238,19 +242,16 @@ namespace meltfront::particles::level_set
   void MarkerReseeding::add_from_grid(Markers &markers, MarkerCells &cells,
                                       const std::span<const double> phi)
   {
-    SeedingParameters seeding;
-    seeding.per_cell = parameters.per_cell;
-    seeding.normals = markers.with_normals();
-    seeding.seed = parameters.seed;
+    const SeedingParameters &seeding = parameters.seeding;
     std::vector<std::uint32_t> keys, how_many;
     for(const std::uint32_t key : cells.nodes())
     {
       const auto [begin, end] = cells.markers_of(key);
       const auto count = static_cast<int>(end - begin);
-      if(count >= parameters.per_cell)
+      if(count >= seeding.per_cell)
         continue;
       keys.push_back(key);
-      how_many.push_back(static_cast<std::uint32_t>(parameters.per_cell - count));
+      how_many.push_back(static_cast<std::uint32_t>(seeding.per_cell - count));
     }
     const auto distance = [&](const Position &at)
     { return interpolate(grid, phi.data(), grid.locate(at)); };

@@ -16,9 +16,10 @@ namespace meltfront::particles::level_set
   struct ReseedingParameters
   {
     ReseedingRule rule = ReseedingRule::midpoint;
-    int per_cell = 12;      ///< cells that hold as many are left alone
-    int most = 48;          ///< markers of a cell beyond it go, the youngest first
-    std::uint64_t seed = 1; ///< of rule grid
+    /** How the first markers were strewn: cells that hold as many are left alone, and
+     * rule `grid` draws alike. */
+    SeedingParameters seeding;
+    int most = 48; ///< markers of a cell beyond it go, the youngest first
   };
 
   /**
