@@ -46,7 +46,8 @@ namespace meltfront::particles::level_set
 
   double LevelSet::far_value() const
   {
-    return (settings.band_layers + Grid::ghost_layers) * lattice.spacing();
+    return (settings.band_layers + Grid::ghost_layers) * std::sqrt(lattice.dimension())
+           * lattice.spacing();
   }
 
   void LevelSet::values_at(const cases::PointArrays &points,
@@ -72,12 +73,14 @@ namespace meltfront::particles::level_set
     }
   }
 
-  void LevelSet::fill_ghosts()
+  void LevelSet::fill_ghosts(const double level_beyond)
   {
     for(const GhostLine &line : ghost_lines)
     {
       double *border = &phi[line.node];
-      const double slope = border[0] - border[-line.outwards];
+      double slope = border[0] - border[-line.outwards];
+      if(std::abs(border[0]) > level_beyond && slope * border[0] < 0)
+        slope = 0;
       for(int layer = 1; layer <= Grid::ghost_layers; ++layer)
         border[layer * line.outwards] = border[0] + layer * slope;
     }

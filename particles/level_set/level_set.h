@@ -5,6 +5,7 @@
 #include <particles/level_set/fast_marching.h>
 
 #include <functional>
+#include <limits>
 
 namespace meltfront::particles::level_set
 {
@@ -84,7 +85,8 @@ namespace meltfront::particles::level_set
     /** Where the band's nodes are, in its order. */
     cases::PointArrays band_positions() const;
 
-    /** |phi| of nodes beyond the halo (m). */
+    /** |phi| of nodes beyond the halo, the diagonal of the band's and the halo's layers
+     * (m). */
     double far_value() const;
 
     /** phi at a point, bilinear or trilinear (m); beyond the grid extrapolated. */
@@ -107,9 +109,14 @@ namespace meltfront::particles::level_set
     void gradients_at(const cases::PointArrays &points,
                       const std::array<std::span<double>, 3> &result) const;
 
-    /** Values at the ghost nodes near the band: along each coordinate the straight line
-     * through the last two nodes. */
-    void fill_ghosts();
+    /**
+     * Values at the ghost nodes near the band: along each coordinate the straight line
+     * through the last two nodes.
+     * @param level_beyond where |phi| is larger than this on the border it does not fall
+     * outwards (m): a line that led to zero out there would be a front that no one put
+     * there
+     */
+    void fill_ghosts(double level_beyond = std::numeric_limits<double>::infinity());
 
     /**
      * Lay the band anew about the front, which must still be within the old one; after

@@ -37,7 +37,7 @@ namespace meltfront::particles::level_set
       {
         // those nearer than the least radius would be spheres that cross the front
         seeding.nearest = 0.1;
-        seeding.furthest = 3;
+        seeding.band = seeding.furthest = 3;
       }
       return seeding;
     }

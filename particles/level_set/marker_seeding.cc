@@ -105,7 +105,7 @@ namespace meltfront::particles::level_set
 
     /** Cells that a front may be near enough to: by the distance at their corners. */
     std::vector<std::uint32_t>
-    cells_near(const Grid &grid, const DistanceFunction &distance, double furthest)
+    cells_near(const Grid &grid, const DistanceFunction &distance, double band)
     {
       std::vector<double> at_node(grid.size());
       for_each_cell(grid, 1,
@@ -124,7 +124,7 @@ namespace meltfront::particles::level_set
                         high = std::max(high, value);
                         least = std::min(least, std::abs(value));
                       }
-                      if(least <= furthest * grid.spacing() || (low <= 0 && high > 0))
+                      if(least <= band * grid.spacing() || (low <= 0 && high > 0))
                         result.push_back(static_cast<std::uint32_t>(key));
                     });
       return result;
@@ -174,7 +174,7 @@ namespace meltfront::particles::level_set
     markers.dimension = grid.dimension();
     std::uint32_t births = 0;
     const std::vector<std::uint32_t> keys
-        = cells_near(grid, distance, parameters.furthest);
+        = cells_near(grid, distance, parameters.band);
     const std::vector<std::uint32_t> how_many(
         keys.size(), static_cast<std::uint32_t>(parameters.per_cell));
     seed_in_cells(grid, distance, parameters, keys, how_many, 0, markers, births);

@@ -15,8 +15,9 @@ namespace meltfront::particles::level_set
   struct SeedingParameters
   {
     int per_cell = 12;      ///< drawn in each cell near the front
+    double band = 1;        ///< such cells have a corner as near to it (spacings)
     double nearest = 0;     ///< none nearer to the front (spacings)
-    double furthest = 1;    ///< none further from it (spacings)
+    double furthest = 1.5;  ///< none further from it (spacings)
     bool normals = true;    ///< whether markers carry them
     std::uint64_t seed = 1; ///< other seeds draw other places
   };

@@ -6,6 +6,8 @@ namespace meltfront::particles::level_set
 {
   namespace
   {
+    constexpr double near_front = 3; ///< spacings
+
     /** Add Godunov's (dphi/dx_d)^2 dx^2 along a run. */
     void add_slope(const double *phi, const std::ptrdiff_t step, const double *sign,
                    const int length, double *result)
@@ -45,10 +47,12 @@ namespace meltfront::particles::level_set
       for(int n = 0; n < run.length; ++n)
         result[n] = -side[n] * (std::sqrt(result[n]) / spacing - 1);
     };
-    level_set.fill_ghosts();
+    // distances come from the front alone, nothing far from it comes in from outside
+    const double level_beyond = near_front * spacing;
+    level_set.fill_ghosts(level_beyond);
     for(int iteration = 0; iteration < iterations; ++iteration)
       if(!runge_kutta.step(
-             level_set, spacing / 2, [](int) {}, rate))
+             level_set, spacing / 2, [](int) {}, rate, level_beyond))
         throw cases::NumericalError("level set", iteration, 0, "phi",
                                     "is not finite in its reinitialisation");
     level_set.rebuild_band();

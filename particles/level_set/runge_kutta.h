@@ -21,13 +21,15 @@ namespace meltfront::particles::level_set
      * @param prepare what to do before a stage: prepare(stage)
      * @param rate rates of phi along one run: rate(run, result), called for several runs
      * at once
+     * @param level_beyond see LevelSet::fill_ghosts
      * @return whether all new values are numbers
      */
     template <typename Prepare, typename Rate>
     bool step(LevelSet &level_set, double length, const Prepare &prepare,
-              const Rate &rate)
+              const Rate &rate,
+              double level_beyond = std::numeric_limits<double>::infinity())
     {
-      constexpr std::array<double, 3> kept{0, 0.75, 1. / 3};
+      constexpr std::array<double, 3> share{1, 0.25, 2. / 3};
       const auto runs = level_set.band().runs();
       double *phi = level_set.values().data();
       start.resize(level_set.band().size());
@@ -36,7 +38,7 @@ namespace meltfront::particles::level_set
       for(int stage = 0; stage < 3; ++stage)
       {
         prepare(stage);
-        const double old = kept[stage], fresh = 1 - old;
+        const double fresh = share[stage];
 #pragma omp parallel num_threads(level_set.parameters().threads)
         {
 #pragma omp for schedule(static)
@@ -53,12 +55,13 @@ namespace meltfront::particles::level_set
             const double *first = &start[runs[r].first], *change = &rates[runs[r].first];
             for(int n = 0; n < runs[r].length; ++n)
             {
-              value[n] = old * first[n] + fresh * (value[n] + length * change[n]);
+              // in this form what has no rate stays as it is to the bit
+              value[n] = first[n] + fresh * (value[n] - first[n] + length * change[n]);
               good = good && std::abs(value[n]) < 1e300;
             }
           }
         }
-        level_set.fill_ghosts();
+        level_set.fill_ghosts(level_beyond);
       }
       return good;
     }

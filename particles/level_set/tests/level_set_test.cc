@@ -1,5 +1,5 @@
 #include <cases/error.h>
-#include <particles/level_set/level_set.h>
+#include <particles/level_set/tests/shapes.h>
 
 #include <gtest/gtest.h>
 
@@ -9,21 +9,6 @@ namespace meltfront::particles::level_set
 {
   namespace
   {
-    Grid unit_grid(int cells, int dimension = 2)
-    {
-      return {dimension, {0, 0, 0}, 1. / cells, {cells, cells, cells}};
-    }
-
-    double circle(const Position &p)
-    {
-      return 0.15 - std::hypot(p[0] - 0.5, p[1] - 0.75);
-    }
-
-    double ball(const Position &p)
-    {
-      return 0.15 - std::hypot(p[0] - 0.35, p[1] - 0.35, p[2] - 0.35);
-    }
-
     TEST(Grid, NumbersAndPlacesBelongTogether)
     {
       for(const int dimension : {2, 3})
@@ -123,13 +108,13 @@ namespace meltfront::particles::level_set
       std::vector<double> sizes;
       for(const int cells : {40, 80, 160, 320})
       {
-        const LevelSet front(unit_grid(cells), circle);
+        const LevelSet front(unit_grid(cells), distance_from(disk));
         sizes.push_back(double(front.band().size()));
         for(const NodeRun &run : front.band().runs())
           for(int n = 0; n < run.length; ++n)
-            EXPECT_DOUBLE_EQ(
-                front.values()[run.node + n],
-                circle(front.grid().position({run.index[0] + n, run.index[1], 0})));
+            EXPECT_DOUBLE_EQ(front.values()[run.node + n],
+                             disk.distance(front.grid().position(
+                                 {run.index[0] + n, run.index[1], 0})));
       }
       EXPECT_NEAR(std::log2(sizes[3] / sizes[2]), 1, 0.1);
     }
@@ -138,7 +123,7 @@ namespace meltfront::particles::level_set
     {
       for(const int dimension : {2, 3})
       {
-        const ScalarFunction shape = dimension == 2 ? circle : ball;
+        const ScalarFunction shape = distance_from(dimension == 2 ? disk : ball);
         const LevelSet front(unit_grid(40, dimension), shape);
         const Band all(front.grid(), whole_grid(front.grid()));
         for(const NodeRun &run : all.runs())
@@ -154,7 +139,7 @@ namespace meltfront::particles::level_set
     /** Mean error of distances marched from within a tenth of the front. */
     double marching_error(int cells, int dimension)
     {
-      const ScalarFunction shape = dimension == 2 ? circle : ball;
+      const ScalarFunction shape = distance_from(dimension == 2 ? disk : ball);
       const LevelSet front(unit_grid(cells, dimension), shape, {cells / 10, 1});
       const std::vector<double> distance = front.distances_everywhere();
       double sum = 0, count = 0;
@@ -187,7 +172,7 @@ namespace meltfront::particles::level_set
 
     TEST(LevelSet, RebuildingFollowsAFrontThatMoved)
     {
-      LevelSet front(unit_grid(80), circle);
+      LevelSet front(unit_grid(80), distance_from(disk));
       const double spacing = front.grid().spacing();
       for(int step = 1; step <= 20; ++step)
       {
@@ -196,7 +181,7 @@ namespace meltfront::particles::level_set
           {
             Position p = front.grid().position({run.index[0] + n, run.index[1], 0});
             p[0] -= 0.9 * spacing * step;
-            front.values()[run.node + n] = circle(p);
+            front.values()[run.node + n] = disk.distance(p);
           }
         front.rebuild_band();
       }
@@ -223,8 +208,10 @@ namespace meltfront::particles::level_set
     {
       EXPECT_THROW(LevelSet(unit_grid(8), [](const Position &p) { return 1 / p[0] - 1; }),
                    cases::InputError);
-      EXPECT_THROW(LevelSet(unit_grid(8), circle, {2, 1}), cases::InputError);
-      EXPECT_THROW(LevelSet(unit_grid(8), circle, {6, 0}), cases::InputError);
+      EXPECT_THROW(LevelSet(unit_grid(8), distance_from(disk), {2, 1}),
+                   cases::InputError);
+      EXPECT_THROW(LevelSet(unit_grid(8), distance_from(disk), {6, 0}),
+                   cases::InputError);
     }
   } // namespace
 } // namespace meltfront::particles::level_set

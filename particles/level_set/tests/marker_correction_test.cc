@@ -54,7 +54,7 @@ namespace meltfront::particles::level_set
       if(!parameters.interpolative)
       {
         seeding.nearest = 0.1;
-        seeding.furthest = 3;
+        seeding.band = seeding.furthest = 3;
       }
       Markers markers = seed_markers(grid, plane, seeding);
       MarkerCells cells(grid);

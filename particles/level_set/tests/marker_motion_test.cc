@@ -23,6 +23,22 @@ namespace meltfront::particles::level_set
                     end / double(steps), carried, n + 1);
     }
 
+    /** From the polygon through points of a closed curve. */
+    double distance_from_curve(const std::vector<Position> &points, const Position &at)
+    {
+      double nearest = std::numeric_limits<double>::infinity();
+      for(std::size_t n = 0; n < points.size(); ++n)
+      {
+        const Position &a = points[n], &b = points[(n + 1) % points.size()];
+        const double x = b[0] - a[0], y = b[1] - a[1];
+        const double along = std::clamp(
+            ((at[0] - a[0]) * x + (at[1] - a[1]) * y) / (x * x + y * y), 0., 1.);
+        nearest = std::min(
+            nearest, std::hypot(at[0] - a[0] - along * x, at[1] - a[1] - along * y));
+      }
+      return nearest;
+    }
+
     TEST(MarkerMotion, PlacesConvergeWithThirdOrder)
     {
       const cases::SingleVortex vortex(4);
@@ -151,16 +167,13 @@ namespace meltfront::particles::level_set
         double worst = 0;
         for(std::size_t p = 0; p < markers.size(); ++p)
         {
-          double nearest = 1;
-          for(const Position &point : front)
-            nearest = std::min(nearest, std::hypot(point[0] - markers.position[0][p],
-                                                   point[1] - markers.position[1][p]));
+          const double nearest = distance_from_curve(front, markers.point(p));
           worst = std::max(worst, std::abs(nearest - markers.distance[p]));
         }
         return worst;
       };
-      const double coarse = worst_error(0.004), fine = worst_error(0.002);
-      EXPECT_LT(coarse, 0.0015);
+      const double coarse = worst_error(0.002), fine = worst_error(0.001);
+      EXPECT_LT(coarse, 0.0008);
       EXPECT_GT(coarse / fine, 3.3);
     }
 
