@@ -14,8 +14,7 @@ namespace meltfront::particles::front_tracking
     LineInterval result;
     result.lower_front = number > 0;
     result.upper_front = number < state.fronts.size();
-    result.lower
-        = result.lower_front ? state.fronts[number - 1] : problem.nodes.front();
+    result.lower = result.lower_front ? state.fronts[number - 1] : problem.nodes.front();
     result.upper = result.upper_front ? state.fronts[number] : problem.nodes.back();
     result.solid = state.solid(number);
     return result;
@@ -39,14 +38,12 @@ namespace meltfront::particles::front_tracking
   {
     const std::vector<double> &x = problem.nodes;
     const double near = coincidence * problem.spacing;
-    const auto begin
-        = interval.lower_front
-              ? std::upper_bound(x.begin(), x.end(), interval.lower + near)
-              : x.begin();
-    const auto past
-        = interval.upper_front
-              ? std::lower_bound(begin, x.end(), interval.upper - near)
-              : x.end();
+    const auto begin = interval.lower_front
+                           ? std::upper_bound(x.begin(), x.end(), interval.lower + near)
+                           : x.begin();
+    const auto past = interval.upper_front
+                          ? std::lower_bound(begin, x.end(), interval.upper - near)
+                          : x.end();
     return {static_cast<std::size_t>(begin - x.begin()),
             static_cast<std::size_t>(past - x.begin())};
   }
@@ -263,8 +260,8 @@ namespace meltfront::particles::front_tracking
     for(std::size_t p = 0; p < cloud.size(); ++p)
     {
       const bool node = p >= offset && first + p - offset < end;
-      right_side[p] = node ? temperature[first + p - offset]
-                           : problem.material.melting_temperature;
+      right_side[p]
+          = node ? temperature[first + p - offset] : problem.material.melting_temperature;
     }
     stencil(0);
     stencil(cloud.size() - 1);

@@ -75,12 +75,12 @@ namespace meltfront::particles::front_tracking
     const LineProblem &problem;
     double absorption; ///< m
     LineStencils stencils;
-    std::vector<LineStencil> regular; ///< of each node among all nodes
+    std::vector<LineStencil> regular;       ///< of each node among all nodes
     std::size_t all_first = 0, all_end = 0; ///< nodes of the interval
     std::size_t first = 0, end = 0;         ///< those that are collocated
     std::size_t offset = 0;                 ///< of node `first` in the cloud
     ParticleStorage cloud;
-    std::vector<LineStencil> rows;      ///< of the cloud's points
+    std::vector<LineStencil> rows; ///< of the cloud's points
     std::vector<std::vector<double>> coefficients;
     std::vector<double> right_side;
     BandMatrix matrix;

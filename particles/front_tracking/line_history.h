@@ -72,8 +72,8 @@ namespace meltfront::particles::front_tracking
                      double place) const;
 
     const LineProblem &problem;
-    std::size_t order;  ///< of time
-    std::size_t degree; ///< of extensions
+    std::size_t order;            ///< of time
+    std::size_t degree;           ///< of extensions
     std::deque<LineState> levels; ///< the newest first
   };
 } // namespace meltfront::particles::front_tracking

@@ -81,10 +81,10 @@ namespace meltfront::particles::front_tracking
   struct LineState
   {
     double time = 0;
-    bool solid_first = true;         ///< phase at the lower end
-    std::vector<double> fronts;      ///< ascending (m)
-    std::vector<double> speed;       ///< of the fronts (m/s)
-    std::vector<double> temperature; ///< at the nodes
+    bool solid_first = true;           ///< phase at the lower end
+    std::vector<double> fronts;        ///< ascending (m)
+    std::vector<double> speed;         ///< of the fronts (m/s)
+    std::vector<double> temperature;   ///< at the nodes
     std::array<double, 2> wall_flux{}; ///< heat that comes in through the walls (W/m^2)
 
     /** Phases lie between fronts and walls, in this order. */

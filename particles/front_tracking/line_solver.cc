@@ -1,7 +1,5 @@
 #include <particles/front_tracking/line_solver.h>
 
-#include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,7 +46,8 @@ namespace meltfront::particles::front_tracking
 
     bool finite(const std::vector<double> &values)
     {
-      return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+      return std::ranges::all_of(values,
+                                 [](double value) { return std::isfinite(value); });
     }
   } // namespace
 
@@ -79,8 +78,8 @@ namespace meltfront::particles::front_tracking
                                const std::vector<EndSlopes> &slopes) const
   {
     const double released = problem.front_density() * problem.material.latent_heat;
-    const auto conductivity = [&](std::size_t p)
-    { return problem.phase(state.solid(p)).conductivity; };
+    const auto conductivity
+        = [&](std::size_t p) { return problem.phase(state.solid(p)).conductivity; };
     state.speed.resize(state.fronts.size());
     for(std::size_t j = 0; j < state.fronts.size(); ++j)
     {
@@ -102,8 +101,7 @@ namespace meltfront::particles::front_tracking
     const double s = (interval.upper - interval.lower) * growth / (2 * diffusivity);
     if(!(s > 1e-12))
       return;
-    const double at_wall
-        = 2 * std::sqrt(s / std::numbers::pi) / std::erf(std::sqrt(s));
+    const double at_wall = 2 * std::sqrt(s / std::numbers::pi) / std::erf(std::sqrt(s));
     slopes[interval.lower_front ? 1 : 0] *= at_wall;
     slopes[interval.lower_front ? 0 : 1] *= at_wall * std::exp(-s);
   }
@@ -215,8 +213,8 @@ namespace meltfront::particles::front_tracking
       Trial moved = base;
       const LineInterval below = interval(problem, base.state, j);
       const LineInterval above = interval(problem, base.state, j + 1);
-      const double room = std::min({problem.spacing, below.upper - below.lower,
-                                    above.upper - above.lower});
+      const double room = std::min(
+          {problem.spacing, below.upper - below.lower, above.upper - above.lower});
       moved.state.fronts[j] += difference * room;
       evaluate(moved);
       for(std::size_t i = 0; i < n; ++i)
@@ -228,21 +226,24 @@ namespace meltfront::particles::front_tracking
 
   std::vector<double> LineSolver::correction(const std::vector<double> &defect) const
   {
-    const auto n = static_cast<Eigen::Index>(defect.size());
-    Eigen::MatrixXd matrix(n, n);
-    Eigen::VectorXd right(n);
-    for(Eigen::Index i = 0; i < n; ++i)
+    const std::size_t n = defect.size();
+    std::vector<double> change(n);
+    BandMatrix matrix;
+    matrix.reset(n, n - 1, n - 1);
+    for(std::size_t i = 0; i < n; ++i)
     {
-      for(Eigen::Index j = 0; j < n; ++j)
-        matrix(i, j) = slope[static_cast<std::size_t>(i * n + j)];
+      for(std::size_t j = 0; j < n; ++j)
+        matrix(i, j) = slope[i * n + j];
       matrix(i, i) -= weights[0];
-      right[i] = -defect[static_cast<std::size_t>(i)];
+      change[i] = -defect[i];
     }
     // One front: a defect that grows with the front is no slope to follow.
     if(n == 1 && matrix(0, 0) >= 0)
       matrix(0, 0) = -weights[0];
-    const Eigen::VectorXd change = matrix.partialPivLu().solve(right);
-    return {change.begin(), change.end()};
+    if(!matrix.solve(change))
+      for(std::size_t i = 0; i < n; ++i)
+        change[i] = defect[i] / weights[0];
+    return change;
   }
 
   void LineSolver::update_slope(const std::vector<double> &change,
@@ -297,7 +298,7 @@ namespace meltfront::particles::front_tracking
       for(std::size_t j = 0; j < fronts.size(); ++j)
         change[j] = proposed[j] - fronts[j];
       if(largest(change) <= tolerance)
-        return closing               ? StepOutcome::closing
+        return closing              ? StepOutcome::closing
                : proposed == wanted ? StepOutcome::accepted
                                     : StepOutcome::too_far;
       const std::vector<double> before = trial.defect;
@@ -308,13 +309,14 @@ namespace meltfront::particles::front_tracking
     return closing ? StepOutcome::closing : StepOutcome::not_converged;
   }
 
-  StepOutcome LineSolver::step(double time_step)
+  StepOutcome LineSolver::step_to(double time)
   {
     const long evaluations = counted.evaluations;
     Trial trial;
     trial.state = history.newest();
-    trial.state.time += time_step;
-    times = history.times(trial.state.time);
+    const double time_step = time - trial.state.time;
+    trial.state.time = time;
+    times = history.times(time);
     weights = differentiation_weights(times);
     trial.state.fronts = predicted_fronts(time_step);
     const StepOutcome outcome = iterate(trial);

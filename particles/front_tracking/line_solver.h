@@ -33,7 +33,8 @@ namespace meltfront::particles::front_tracking
   public:
     LineSolver(const LineProblem &problem, const LineSettings &settings);
 
-    /** Begin, or begin again after an event, from a state whose speeds need not be set. */
+    /** Begin, or begin again after an event, from a state whose speeds need not be set.
+     */
     void restart(LineState state);
 
     /** Add what was before the state that the solver was started from, newest first. */
@@ -42,8 +43,8 @@ namespace meltfront::particles::front_tracking
       history.add_older(std::move(state));
     }
 
-    /** Advance by a time step; the state is left alone unless the step is accepted. */
-    StepOutcome step(double time_step);
+    /** Advance to a time; the state is left alone unless the step is accepted. */
+    StepOutcome step_to(double time);
 
     const LineState &state() const
     {
@@ -92,15 +93,16 @@ namespace meltfront::particles::front_tracking
     bool limit(std::vector<double> &fronts) const;
     void find_slope(const Trial &base);
     std::vector<double> correction(const std::vector<double> &defect) const;
-    void update_slope(const std::vector<double> &change, const std::vector<double> &before,
+    void update_slope(const std::vector<double> &change,
+                      const std::vector<double> &before,
                       const std::vector<double> &after);
     StepOutcome iterate(Trial &trial);
 
     const LineProblem &problem;
     LineCollocation collocation;
     LineHistory history;
-    std::vector<double> times;   ///< of the step in hand, its end first
-    std::vector<double> weights; ///< of backward differentiation
+    std::vector<double> times;        ///< of the step in hand, its end first
+    std::vector<double> weights;      ///< of backward differentiation
     std::vector<double> rate_history; ///< of each node (K/s)
     /** Derivatives of the fronts' speeds with respect to the fronts, by rows (1/s). */
     std::vector<double> slope;

@@ -37,8 +37,7 @@ namespace meltfront::particles::front_tracking
                               LineStencil &stencil)
   {
     const std::vector<double> &x = cloud.position[0];
-    const std::size_t wanted
-        = std::min(x.size(), static_cast<std::size_t>(order) + 2);
+    const std::size_t wanted = std::min(x.size(), static_cast<std::size_t>(order) + 2);
     double reach = radius;
     do
       find_window(place, reach, x);
@@ -57,8 +56,8 @@ namespace meltfront::particles::front_tracking
       stencil.second.assign(second.begin(), second.end());
       return;
     }
-    throw cases::InputError(fmt::format(
-        "rkpm-tracked: the {} points about x = {:.6g} determine no slope", x.size(),
-        place));
+    throw cases::InputError(
+        fmt::format("rkpm-tracked: the {} points about x = {:.6g} determine no slope",
+                    x.size(), place));
   }
 } // namespace meltfront::particles::front_tracking

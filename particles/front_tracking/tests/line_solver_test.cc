@@ -25,7 +25,7 @@ TEST(Proto, Neumann)
     auto at=[&](double t){LineState st; st.time=t; st.solid_first=false; st.fronts={ex.front(t)}; for(double x:p.nodes) st.temperature.push_back(ex.temperature(x,t)); return st;};
     solver.restart(at(t0));
     for(int k=1;k<scheme;++k) if(t0-k*dt>0) solver.add_older(at(t0-k*dt));
-    for(int k=0;k<steps;++k) { auto o=solver.step(dt); if(o!=StepOutcome::accepted){std::printf("outcome %d at %d\n",int(o),k);break;} }
+    for(int k=0;k<steps;++k) { auto o=solver.step_to(t0+(k+1)*dt); if(o!=StepOutcome::accepted){std::printf("outcome %d at %d\n",int(o),k);break;} }
     const auto &st=solver.state();
     double e=0; for(int i=0;i<=n;++i) e=std::max(e,std::abs(st.temperature[i]-ex.temperature(p.nodes[i],st.time)));
     std::printf("order %d bdf %d n %d eX %.3e eT %.3e evals/step %.2f\n",order,scheme,n,st.fronts[0]-ex.front(st.time),e,double(solver.counters().evaluations)/steps);
