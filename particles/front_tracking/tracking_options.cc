@@ -4,12 +4,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace meltfront::particles::front_tracking
 {
   namespace
   {
     /** The kernel reaches this much farther than the order, in spacings. */
     constexpr double reach_beyond_order = 0.6;
+    /** From 4.3 spacings on the fourth order has growing modes beside fronts and walls.
+     */
+    constexpr double widest_default = 3.6;
 
     Clock choose_clock(const cases::Scene &scene, const std::string &word)
     {
@@ -31,7 +36,8 @@ namespace meltfront::particles::front_tracking
          "Dimension in which a symmetric scene is simulated; 0: the lowest.", 0, 2},
         {"basis_order", "1", 2L, "Order of the polynomials that are reproduced.", 2, 4},
         {"dilation", "1", 0.,
-         "Radius of the kernel (a cubic spline) over the spacing; 0: basis_order + 0.6.",
+         "Radius of the kernel (a cubic spline) over the spacing; 0: basis_order + "
+         "0.6, at most 3.6.",
          0, 20},
         {"scheme",
          "",
@@ -146,7 +152,7 @@ namespace meltfront::particles::front_tracking
     result.basis_order = static_cast<int>(options.get_integer("basis_order"));
     result.dilation = options.get_double("dilation");
     if(result.dilation == 0)
-      result.dilation = result.basis_order + reach_beyond_order;
+      result.dilation = std::min(result.basis_order + reach_beyond_order, widest_default);
     const std::string &scheme = options.get_string("scheme");
     result.scheme = scheme == "backward-euler" ? TimeScheme::backward_euler
                     : scheme == "bdf2"         ? TimeScheme::bdf2

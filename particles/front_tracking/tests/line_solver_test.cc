@@ -1,33 +1,216 @@
-#include <cases/exact/planar_neumann.h>
-#include <particles/front_tracking/line_solver.h>
+#include <particles/front_tracking/tests/line_cases.h>
+
 #include <gtest/gtest.h>
-#include <cstdio>
-using namespace meltfront;
-using namespace meltfront::particles::front_tracking;
-TEST(Proto, Neumann)
+
+#include <cmath>
+
+namespace meltfront::particles::front_tracking
 {
-  cases::Material m; m.latent_heat=110; m.melting_temperature=430; m.solid.conductivity=2; m.liquid.conductivity=1;
-  cases::PlanarNeumann ex(m,500,380);
-  double a=ex.lambda();
-  auto time_of=[&](double X){return X*X/(4*a*a);};
-  double t0=time_of(.06), t1=time_of(.18);
-  std::printf("lam %.10f t0 %.7f t1 %.7f\n",a,t0,t1);
-  for(int order: {2,3,4}) for(int scheme:{1,2,3})
-  for(int n: {40,80,160,320})
+  namespace
   {
-    LineProblem p; p.material=m; p.spacing=1./n;
-    for(int i=0;i<=n;++i) p.nodes.push_back(double(i)/n);
-    p.walls[0]={cases::BoundaryKind::fixed_temperature,[](double){return 500.;},0};
-    p.walls[1]={cases::BoundaryKind::fixed_temperature,[&](double t){return ex.temperature(1.,t);},0};
-    LineSettings s; s.basis_order=order; s.dilation=order+.6; s.time_order=scheme;
-    LineSolver solver(p,s);
-    int steps=n/2; double dt=(t1-t0)/steps;
-    auto at=[&](double t){LineState st; st.time=t; st.solid_first=false; st.fronts={ex.front(t)}; for(double x:p.nodes) st.temperature.push_back(ex.temperature(x,t)); return st;};
-    solver.restart(at(t0));
-    for(int k=1;k<scheme;++k) if(t0-k*dt>0) solver.add_older(at(t0-k*dt));
-    for(int k=0;k<steps;++k) { auto o=solver.step_to(t0+(k+1)*dt); if(o!=StepOutcome::accepted){std::printf("outcome %d at %d\n",int(o),k);break;} }
-    const auto &st=solver.state();
-    double e=0; for(int i=0;i<=n;++i) e=std::max(e,std::abs(st.temperature[i]-ex.temperature(p.nodes[i],st.time)));
-    std::printf("order %d bdf %d n %d eX %.3e eT %.3e evals/step %.2f\n",order,scheme,n,st.fronts[0]-ex.front(st.time),e,double(solver.counters().evaluations)/steps);
-  }
-}
+    /** Front errors of n = 40, 80, 160, 320 with n/2 steps. */
+    std::vector<MeltingResult> joint_refinement(MeltingRun run,
+                                                double steps_per_node = 0.5)
+    {
+      std::vector<MeltingResult> results;
+      for(const int n : {40, 80, 160, 320})
+      {
+        run.n = n;
+        run.steps = static_cast<int>(steps_per_node * n);
+        results.push_back(melt(run));
+      }
+      return results;
+    }
+
+    std::vector<double> front_errors(const std::vector<MeltingResult> &results)
+    {
+      std::vector<double> errors;
+      for(const MeltingResult &result : results)
+        errors.push_back(result.front_error);
+      return errors;
+    }
+
+    std::vector<double> temperature_errors(const std::vector<MeltingResult> &results)
+    {
+      std::vector<double> errors;
+      for(const MeltingResult &result : results)
+        errors.push_back(result.temperature_error);
+      return errors;
+    }
+
+    MeltingRun standard_run()
+    {
+      MeltingRun run;
+      run.exact = neumann(run.material);
+      return run;
+    }
+
+    // Figures of an independent program with the same scheme.
+    TEST(Melting, SpaceAndTimeTogetherBdf2)
+    {
+      const std::vector<MeltingResult> results = joint_refinement(standard_run());
+      const double printed[] = {2.4e-4, 2.3e-5, 4.8e-6, 9.5e-7};
+      for(std::size_t i = 0; i < results.size(); ++i)
+        EXPECT_LT(std::abs(results[i].front_error), 2 * printed[i]);
+      EXPECT_GT(std::abs(results[0].front_error), printed[0] / 2);
+      EXPECT_GE(fitted_order(front_errors(results)), 2.);
+      EXPECT_GE(fitted_order(temperature_errors(results)), 2.);
+      EXPECT_LE(results[0].temperature_error, 2 * 8.5e-2);
+      EXPECT_LE(results[3].temperature_error, 2 * 3.4e-4);
+    }
+
+    TEST(Melting, SpaceAndTimeTogetherBackwardEuler)
+    {
+      MeltingRun run = standard_run();
+      run.time_order = 1;
+      const double order = fitted_order(front_errors(joint_refinement(run)));
+      EXPECT_GE(order, 0.95);
+      EXPECT_LE(order, 1.1);
+    }
+
+    TEST(Melting, SpaceAndTimeTogetherBdf3)
+    {
+      for(const int basis : {2, 3})
+      {
+        MeltingRun run = standard_run();
+        run.time_order = 3;
+        run.basis_order = basis;
+        const std::vector<MeltingResult> results = joint_refinement(run);
+        EXPECT_GE(fitted_order(front_errors(results)), 2.);
+        EXPECT_LE(std::abs(results[3].front_error), 2 * 5.9e-6);
+      }
+    }
+
+    /** Order in time: 20 to 160 steps against 640. */
+    double order_in_time(int time_order)
+    {
+      MeltingRun run = standard_run();
+      run.n = 80;
+      run.time_order = time_order;
+      run.steps = 640;
+      const double reference = melt(run).front;
+      std::vector<double> errors;
+      for(const int steps : {20, 40, 80, 160})
+      {
+        run.steps = steps;
+        errors.push_back(melt(run).front - reference);
+      }
+      return fitted_order(errors);
+    }
+
+    TEST(Melting, OrdersInTime)
+    {
+      const double euler = order_in_time(1), bdf2 = order_in_time(2),
+                   bdf3 = order_in_time(3);
+      EXPECT_GE(euler, 0.9);
+      EXPECT_LE(euler, 1.3);
+      EXPECT_GE(bdf2, 1.9);
+      EXPECT_LE(bdf2, 2.4);
+      EXPECT_GE(bdf3, 2.8);
+    }
+
+    /** Order in space: 10 to 80 intervals with many steps of BDF3. */
+    double order_in_space(int basis_order, double jitter)
+    {
+      MeltingRun run = standard_run();
+      run.time_order = 3;
+      run.steps = 1000;
+      run.basis_order = basis_order;
+      run.jitter = jitter;
+      std::vector<double> errors;
+      for(const int n : {20, 40, 80, 160})
+      {
+        run.n = n;
+        errors.push_back(melt(run).front_error);
+      }
+      return fitted_order(errors);
+    }
+
+    TEST(Melting, OrdersInSpace)
+    {
+      EXPECT_GE(order_in_space(2, 0), 1.7);
+      EXPECT_GE(order_in_space(3, 0), 1.7);
+      EXPECT_GE(order_in_space(4, 0), 3.5);
+    }
+
+    TEST(Melting, OrdersInSpaceOnPerturbedNodes)
+    {
+      EXPECT_GE(order_in_space(2, 0.2), 1.5);
+      EXPECT_GE(order_in_space(3, 0.2), 1.5);
+      EXPECT_GE(order_in_space(4, 0.2), 3.);
+    }
+
+    TEST(Melting, OpenWallSolutionHasThePrintedConstants)
+    {
+      const double ratio[] = {0.5, 0.9, 1, 1.04, 1.1, 1.5, 2};
+      const double lambda[] = {0.5140508258, 0.3745126550, 0.3543133690, 0.3471021412,
+                               0.3370661955, 0.2869387599, 0.2474969765};
+      for(int i = 0; i < 7; ++i)
+        EXPECT_NEAR(neumann_with_open_wall(bar_material(2, 110, ratio[i])).front(1.) / 2,
+                    lambda[i], 1e-10);
+    }
+
+    TEST(Melting, DensityJumpWithMovingLiquid)
+    {
+      const double ratio[] = {0.5, 0.9, 1.04, 1.1, 1.5, 2};
+      // At n = 40 and 160, n steps; nothing is known of 2.
+      const double coarse[] = {7.3e-4, 2.5e-4, 1.8e-4, 1.6e-4, 5e-5, 1};
+      const double fine[] = {5.4e-5, 2e-5, 1.5e-5, 1.3e-5, 5.1e-6, 1};
+      for(int i = 0; i < 6; ++i)
+      {
+        MeltingRun run;
+        run.material = bar_material(2, 110, ratio[i]);
+        run.exact = neumann_with_open_wall(run.material);
+        const std::vector<MeltingResult> results = joint_refinement(run, 1);
+        EXPECT_GE(fitted_order(front_errors(results)), 1.8) << ratio[i];
+        EXPECT_LE(std::abs(results[0].front_error), 2 * coarse[i]) << ratio[i];
+        EXPECT_LE(std::abs(results[2].front_error), 2 * fine[i]) << ratio[i];
+        RecordProperty("density_ratio_" + std::to_string(ratio[i]),
+                       std::to_string(results[3].front_error * 1e6) + "e-6");
+      }
+    }
+
+    TEST(Melting, DensityJumpWithASolidThatIsPushed)
+    {
+      for(const double ratio : {0.5, 0.9, 1.1, 1.5, 2.})
+      {
+        MeltingRun run;
+        run.material = bar_material(2, 110, ratio);
+        run.exact = neumann(run.material);
+        run.displaced = Displaced::solid;
+        const std::vector<MeltingResult> results = joint_refinement(run, 1);
+        EXPECT_GE(fitted_order(front_errors(results)), 1.8) << ratio;
+        EXPECT_LE(std::abs(results[2].front_error), 1e-4) << ratio;
+      }
+    }
+
+    TEST(Melting, NodesNearTheFrontDoNoHarm)
+    {
+      // From none absorbed to all nearer than half a spacing.
+      for(const double absorption : {0., 0.05, 0.1, 0.25, 0.5})
+      {
+        MeltingRun run = standard_run();
+        run.n = 80;
+        run.steps = 80;
+        run.absorption = absorption;
+        EXPECT_LE(std::abs(melt(run).front_error), 1.3e-4) << absorption;
+      }
+    }
+
+    TEST(Melting, StefanNumbersAndConductivityRatios)
+    {
+      for(const double ratio : {1., 1e3})
+        for(const double stefan : {0.01, 0.1, 1., 10.})
+        {
+          MeltingRun run;
+          run.material = bar_material(ratio, 70 / stefan);
+          run.exact = neumann(run.material);
+          run.n = 80;
+          run.steps = 80;
+          EXPECT_LE(std::abs(melt(run).front_error), 3.2e-4) << ratio << ' ' << stefan;
+          run.time_order = 1;
+          EXPECT_LE(std::abs(melt(run).front_error), 1.6e-3) << ratio << ' ' << stefan;
+        }
+    }
+  } // namespace
+} // namespace meltfront::particles::front_tracking
