@@ -1,4 +1,5 @@
 #include <cases/exact/oracle.h>
+#include <cases/exact/planar_neumann.h>
 #include <particles/front_tracking/line_sites.h>
 #include <particles/front_tracking/tests/line_cases.h>
 
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace meltfront::particles::front_tracking
 {
@@ -166,12 +168,34 @@ namespace meltfront::particles::front_tracking
 
     TEST(Front, OnANodeOrBesideOne)
     {
-      const double between = front_from(0.1 + 1e-6);
-      for(const double offset : {0., 1e-12, -1e-12, 1e-12 / 40, 1e-9, -1e-9, 1e-4, -1e-4})
-        for(const double absorption : {0., 0.1})
-          EXPECT_NEAR(front_from(0.1 + offset, {2, 2.6, absorption, 2}), between,
-                      2 * std::abs(offset) + 2e-4)
-              << offset << ' ' << absorption;
+      for(const double absorption : {0., 0.1})
+      {
+        const LineSettings settings{2, 2.6, absorption, 2};
+        const double on_node = front_from(0.1, settings);
+        for(const double offset : {1e-12, 1e-12 / 40, 1e-9, 1e-7, 1e-5, 1e-4})
+          for(const double sign : {-1., 1.})
+            EXPECT_NEAR(front_from(0.1 + sign * offset, settings), on_node,
+                        1e-9 + 1.5 * offset)
+                << sign * offset << ' ' << absorption;
+      }
+    }
+
+    TEST(Front, PassesByNodesAsCloseAsRoundOff)
+    {
+      // Steps that end 1e-12 spacings before, on, and behind nodes.
+      const LineProblem problem = held_slab(bar_material(), 40);
+      for(const double absorption : {0., 0.1})
+        for(const double offset : {-1e-12, 0., 1e-12})
+        {
+          LineSolver solver(problem, {2, 2.6, absorption, 2});
+          LineState state = straight_state(problem, 0.1 + offset * problem.spacing);
+          solver.restart(state);
+          for(int k = 1; k <= 40; ++k)
+            ASSERT_EQ(solver.step_to(1e-4 * k), StepOutcome::accepted);
+          for(const double value : solver.state().temperature)
+            EXPECT_TRUE(value <= hot + 1e-6 && value >= cold - 1e-6);
+          EXPECT_NEAR(solver.state().fronts[0], 0.1206, 2e-3);
+        }
     }
 
     TEST(Front, StepsThatWouldPassTwoNodesAreCutShort)
@@ -188,13 +212,14 @@ namespace meltfront::particles::front_tracking
       fine.advance(0.02);
       EXPECT_GT(coarse.stepper.shortened(), 0);
       EXPECT_GT(coarse.stepper.state().fronts[0], 0.06 + 2 * problem.spacing);
-      EXPECT_NEAR(coarse.stepper.state().fronts[0], fine.stepper.state().fronts[0], 5e-3);
+      // Steps of a whole spacing from profiles that do not move with the front.
+      EXPECT_NEAR(coarse.stepper.state().fronts[0], fine.stepper.state().fronts[0], 3e-2);
     }
 
     /** A wall that is cold, then warm: the front goes out and comes back. */
     TEST(Front, TurnsBackAsTheOracleDoes)
     {
-      cases::Material material;
+      const cases::Material material;
       const auto wall
           = [](double t) { return -1 + 0.49 * (1 + std::tanh((t - 0.03) / 0.0015)); };
       cases::OracleProblem exact;
@@ -202,32 +227,38 @@ namespace meltfront::particles::front_tracking
       exact.inner_wall = {cases::BoundaryKind::fixed_temperature, wall};
       exact.outer_wall
           = {cases::BoundaryKind::fixed_temperature, [](double) { return 1.; }};
+      exact.start_time = 0.005;
       exact.end_time = 0.09;
-      exact.initial_front = 0.06;
-      exact.initial_temperature
-          = [](double x) { return x < 0.06 ? x / 0.06 - 1 : (x - 0.06) / 0.94; };
+      exact.start = std::make_shared<const cases::PlanarNeumann>(material, -1., 1.);
       const cases::SpectralOracle oracle(exact);
       std::vector<double> errors;
-      for(const int n : {40, 80, 160})
+      for(const int n : {40, 80, 160, 320})
       {
         const LineProblem problem
             = unit_slab(material, n, wall, [](double) { return 1.; });
-        Watched run(problem, {}, 2, 1e-7);
+        Watched run(problem, {}, 2, 1e-6);
         LineState state;
         state.solid_first = true;
-        state.fronts = {0.06};
+        state.time = exact.start_time;
+        state.fronts = {oracle.front(state.time)};
         for(const double x : problem.nodes)
-          state.temperature.push_back(exact.initial_temperature(x));
+          state.temperature.push_back(oracle.temperature(x, state.time));
         run.stepper.start(state, {});
-        for(int k = 1; k <= n; ++k)
-          run.advance(0.09 * k / n);
+        double squares = 0;
+        for(int k = 1; k <= 2 * n; ++k)
+        {
+          const double time = 0.005 + 0.085 * k / (2 * n);
+          run.advance(time);
+          const double error = run.stepper.state().fronts[0] - oracle.front(time);
+          squares += error * error;
+        }
         EXPECT_EQ(run.reversals(), 1);
-        errors.push_back(run.stepper.state().fronts[0] - oracle.front(0.09));
+        errors.push_back(std::sqrt(squares / (2 * n)));
         RecordProperty("reversal_error_" + std::to_string(n),
                        std::to_string(errors.back() * 1e6) + "e-6");
       }
-      EXPECT_LE(std::abs(errors[2]), 1e-4);
-      EXPECT_GE(fitted_order(errors), 1.5);
+      EXPECT_LE(errors[2], 1e-4);
+      EXPECT_GE(fitted_order(errors), 1.8);
     }
 
     TEST(Phase, AppearsAtAHotWall)
@@ -252,8 +283,8 @@ namespace meltfront::particles::front_tracking
         RecordProperty("start_error_" + std::to_string(n),
                        std::to_string(errors.back() * 1e6) + "e-6");
       }
-      EXPECT_GE(fitted_order(errors), 0.9);
-      EXPECT_LE(std::abs(errors[0]), 3e-3);
+      EXPECT_GE(fitted_order(errors), 1.5);
+      EXPECT_LE(std::abs(errors[0]), 2.7e-3);
     }
 
     TEST(Phase, VanishesAtAnInsulatedWall)
@@ -266,22 +297,19 @@ namespace meltfront::particles::front_tracking
       for(std::size_t i = 0; problem.nodes[i] < 0.06; ++i)
         state.temperature[i] = 431;
       run.stepper.start(state, {});
-      run.advance(20.);
+      for(int k = 1; k <= 60; ++k)
+        run.advance(k);
       EXPECT_TRUE(run.stepper.state().fronts.empty());
       EXPECT_TRUE(run.stepper.state().solid_first);
       EXPECT_TRUE(run.noted("liquid vanished"));
       EXPECT_NEAR(run.stepper.state().temperature[0], cold, 1e-6);
     }
 
-    /** Heat in the slab at the end, and what came in on the way. */
-    struct Balance
+    /** Liquid between two solids that freezes: what heat is missing at the end, over the
+     * latent heat. */
+    double freeze_between(Watched &run)
     {
-      double defect = 0, latent = 0;
-    };
-
-    Balance thin_liquid(int n, Watched *&run, const LineProblem &problem)
-    {
-      static_cast<void>(n);
+      const LineProblem &problem = run.problem;
       LineState state;
       state.solid_first = true;
       state.fronts = {0.4, 0.6};
@@ -289,47 +317,43 @@ namespace meltfront::particles::front_tracking
         state.temperature.push_back(x < 0.4   ? -0.5 * (0.4 - x) / 0.4
                                     : x > 0.6 ? -0.5 * (x - 0.6) / 0.4
                                               : 0.4 * (x - 0.4) * (0.6 - x));
-      run->stepper.start(state, {});
-      const double before = heat_of(problem, state).total();
-      Balance result;
-      result.latent = heat_of(problem, state).latent;
-      double in = 0, last = wall_heat(problem, run->stepper.state()), time = 0;
-      run->stepper.advance(0.6,
-                           [&]
-                           {
-                             const LineState &now = run->stepper.state();
-                             const double heat = wall_heat(problem, now);
-                             in += (now.time - time) * (heat + last) / 2;
-                             last = heat;
-                             time = now.time;
-                             for(const double value : now.temperature)
-                               ASSERT_TRUE(std::isfinite(value));
-                           });
-      result.defect = heat_of(problem, run->stepper.state()).total() - before - in;
-      return result;
+      run.stepper.start(state, {});
+      const LineHeat before = heat_of(problem, state);
+      double in = 0, last = wall_heat(problem, run.stepper.state()), time = 0;
+      for(int k = 1; k <= 100; ++k)
+        run.stepper.advance(0.006 * k,
+                            [&]
+                            {
+                              const LineState &now = run.stepper.state();
+                              const double heat = wall_heat(problem, now);
+                              in += (now.time - time) * (heat + last) / 2;
+                              last = heat;
+                              time = now.time;
+                            });
+      return (heat_of(problem, run.stepper.state()).total() - before.total() - in)
+             / before.latent;
     }
 
     TEST(Fronts, TwoThatMeetLeaveOnePhase)
     {
-      for(const int n : {40, 80})
+      for(const int n : {39, 40, 80})
       {
         cases::Material material;
         material.solid.conductivity = 2;
         const auto wall = [](double) { return -0.5; };
         const LineProblem problem = unit_slab(material, n, wall, wall);
-        Watched watched(problem, {}, 1, 1e-6);
-        Watched *run = &watched;
-        const Balance balance = thin_liquid(n, run, problem);
-        EXPECT_TRUE(watched.stepper.state().fronts.empty());
-        EXPECT_TRUE(watched.noted("liquid between two fronts that met vanished at 0.5"));
-        EXPECT_LE(std::abs(balance.defect), 5e-3 * balance.latent);
+        Watched run(problem, {}, 1, 1e-6);
+        const double missing = freeze_between(run);
+        EXPECT_TRUE(run.stepper.state().fronts.empty());
+        EXPECT_TRUE(run.noted("liquid between two fronts that met vanished at 0.5 m"));
+        EXPECT_LE(std::abs(missing), 1e-3) << n;
         // Both halves alike.
-        const LineState &state = watched.stepper.state();
+        const LineState &state = run.stepper.state();
         for(std::size_t i = 0; i < state.temperature.size(); ++i)
           EXPECT_NEAR(state.temperature[i],
                       state.temperature[state.temperature.size() - 1 - i], 1e-8);
-        RecordProperty("merging_defect_" + std::to_string(n),
-                       std::to_string(balance.defect / balance.latent));
+        RecordProperty("merging_missing_heat_" + std::to_string(n),
+                       std::to_string(missing * 1e6) + "e-6");
       }
     }
 
@@ -351,9 +375,15 @@ namespace meltfront::particles::front_tracking
 
     TEST(Warning, TellsOfALayerThatIsNotResolved)
     {
-      for(const double stefan : {0.01, 10.})
+      struct Expectation
       {
-        const cases::Material material = bar_material(1e-3, 70 / stefan);
+        double ratio, stefan;
+        bool warned;
+      };
+      for(const auto &[ratio, stefan, warned] :
+          {Expectation{1e-3, 0.01, true}, {1e-3, 10, true}, {2, 0.636, false}})
+      {
+        const cases::Material material = bar_material(ratio, 70 / stefan);
         const ExactLine exact = neumann(material);
         const LineProblem problem = unit_slab(
             material, 80, [](double) { return hot; },
@@ -361,12 +391,11 @@ namespace meltfront::particles::front_tracking
         Watched run(problem, {}, 120, 1e-4);
         run.stepper.start(state_of(exact, problem, exact.time_of(0.06)), {});
         run.advance(exact.time_of(0.18));
-        // V h/alpha of the solid is 0.05 at the start for the small Stefan number.
         EXPECT_EQ(
             run.noted("thermal layer of the solid beside the front is not resolved"),
-            stefan > 1)
-            << stefan;
-        EXPECT_EQ(run.noted("V h/alpha = "), stefan > 1) << stefan;
+            warned)
+            << ratio << ' ' << stefan;
+        EXPECT_EQ(run.noted("V h/alpha = "), warned) << ratio << ' ' << stefan;
         EXPECT_FALSE(run.noted("of the liquid"));
       }
     }
