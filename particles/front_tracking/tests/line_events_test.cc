@@ -194,7 +194,7 @@ namespace meltfront::particles::front_tracking
             ASSERT_EQ(solver.step_to(1e-4 * k), StepOutcome::accepted);
           for(const double value : solver.state().temperature)
             EXPECT_TRUE(value <= hot + 1e-6 && value >= cold - 1e-6);
-          EXPECT_NEAR(solver.state().fronts[0], 0.1206, 2e-3);
+          EXPECT_NEAR(solver.state().fronts[0], 0.1159, 2e-4);
         }
     }
 
@@ -320,7 +320,7 @@ namespace meltfront::particles::front_tracking
       run.stepper.start(state, {});
       const LineHeat before = heat_of(problem, state);
       double in = 0, last = wall_heat(problem, run.stepper.state()), time = 0;
-      for(int k = 1; k <= 100; ++k)
+      for(int k = 1; k <= 10; ++k)
         run.stepper.advance(0.006 * k,
                             [&]
                             {
@@ -396,7 +396,7 @@ namespace meltfront::particles::front_tracking
             warned)
             << ratio << ' ' << stefan;
         EXPECT_EQ(run.noted("V h/alpha = "), warned) << ratio << ' ' << stefan;
-        EXPECT_FALSE(run.noted("of the liquid"));
+        EXPECT_EQ(run.noted("thermal layer of the liquid"), stefan > 1) << stefan;
       }
     }
   } // namespace

@@ -9,9 +9,8 @@ namespace meltfront::particles::front_tracking
   namespace
   {
     /** Runs of n = coarsest, twice, four and eight times that. */
-    std::vector<MeltingResult> joint_refinement(MeltingRun run,
-                                                double steps_per_node = 0.5,
-                                                int coarsest = 40)
+    std::vector<MeltingResult>
+    joint_refinement(MeltingRun run, double steps_per_node = 0.5, int coarsest = 40)
     {
       std::vector<MeltingResult> results;
       for(int n = coarsest; n <= 8 * coarsest; n *= 2)
