@@ -16,13 +16,15 @@ namespace meltfront::particles::greenspan
 
     /** The area goes to where the pressure is right within about this time... */
     constexpr double pressure_time = 1;
-    /** ... with about this compressibility (that of a solid is 2e-4). */
-    constexpr double compressibility = 2e-3;
+    /** ... with compressibilities above those of a solid (2e-4) and a liquid (up to
+     * 2e-2). */
+    constexpr double compressibility_of_solid = 1e-3, compressibility_of_liquid = 1e-2;
 
     constexpr double bath_rate = 0.5;
 
-    /** Share of the equilibration in which a liquid is melted. */
-    constexpr double melting_share = 0.3;
+    /** A liquid is melted at so many times its temperature and that much of the lattice's
+     * density, in this share of its equilibration. */
+    constexpr double melting_heat = 2, melting_density = 0.85, melting_share = 0.2;
 
     double area(const Motion &motion)
     {
@@ -36,31 +38,31 @@ namespace meltfront::particles::greenspan
     }
 
     /** Scale the area a little towards the pressure. @return the pressure before */
-    double relax_area(Motion &motion, double target)
+    double relax_area(Motion &motion, const BulkSettings &settings)
     {
+      const double compressibility
+          = settings.liquid ? compressibility_of_liquid : compressibility_of_solid;
       const double now = pressure(motion);
       const double interval
           = static_cast<double>(look_interval) * motion.parameters().time_step;
       const double change
-          = interval / pressure_time * compressibility * (now - target) / 2;
+          = interval / pressure_time * compressibility * (now - settings.pressure) / 2;
       motion.stretch(1 + std::clamp(change, -0.01, 0.01));
       return now;
     }
 
-    void hold(Motion &motion, const BulkSettings &settings, double temperature,
-              double duration)
+    void set_bath(Motion &motion, const BulkSettings &settings, double temperature)
     {
       Thermostat bath;
       bath.first_temperature = bath.last_temperature = temperature;
       bath.rate = bath_rate;
       bath.seed = settings.seed;
       motion.set_thermostat(bath);
-      const double end = motion.time() + duration;
-      while(motion.time() < end)
-      {
-        motion.advance(look_interval);
-        relax_area(motion, settings.pressure);
-      }
+    }
+
+    long steps(const BulkSettings &settings, double duration)
+    {
+      return std::lround(duration / settings.time_step);
     }
 
     Motion equilibrated(const BulkSettings &settings)
@@ -76,11 +78,17 @@ namespace meltfront::particles::greenspan
       double rest = settings.equilibration;
       if(settings.liquid)
       {
-        hold(motion, settings, 2 * settings.temperature,
-             melting_share * settings.equilibration);
+        motion.stretch(1 / std::sqrt(melting_density));
+        set_bath(motion, settings, melting_heat * settings.temperature);
+        motion.advance(steps(settings, melting_share * settings.equilibration));
         rest *= 1 - melting_share;
       }
-      hold(motion, settings, settings.temperature, rest);
+      set_bath(motion, settings, settings.temperature);
+      for(long step = 0; step < steps(settings, rest); step += look_interval)
+      {
+        motion.advance(look_interval);
+        relax_area(motion, settings);
+      }
       return motion;
     }
 
@@ -133,11 +141,10 @@ namespace meltfront::particles::greenspan
     Averages average(Motion &motion, const BulkSettings &settings)
     {
       Averages averages;
-      const double end = motion.time() + settings.duration;
-      while(motion.time() < end)
+      for(long step = 0; step < steps(settings, settings.duration); step += look_interval)
       {
         motion.advance(look_interval);
-        const double before = relax_area(motion, settings.pressure);
+        const double before = relax_area(motion, settings);
         averages.look(motion, before);
       }
       return averages;
