@@ -48,7 +48,8 @@ namespace meltfront::particles::front_tracking
          0,
          {"backward-euler", "bdf2", "bdf3"}},
         {"steps", "1", 0L,
-         "Time steps planned over the run; 0: three for two intervals, at least 60, or 640 "
+         "Time steps planned over the run; 0: three for two intervals, at least 60, or "
+         "640 "
          "where only space is refined.",
          0, 1e7},
         {"refine",
