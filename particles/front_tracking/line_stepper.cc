@@ -19,6 +19,9 @@ namespace meltfront::particles::front_tracking
     constexpr double event_tolerance = 1e-5;
     constexpr double least_excess = 1e-9;
     constexpr long most_events = 10000;
+    /** Phases beyond the melting temperature by more than this share of the span are
+     * spoken of; walls see to themselves. */
+    constexpr double spoken_of = 1e-3;
 
     const char *name_of(bool solid)
     {
@@ -192,6 +195,7 @@ namespace meltfront::particles::front_tracking
         continue;
       ++kept;
       warn_of_thin_layers();
+      warn_of_metastable_phases();
       after_step();
     }
   }
@@ -224,6 +228,27 @@ namespace meltfront::particles::front_tracking
                          now.speed[j], problem.spacing, diffusivity,
                          problem.spacing * 0.5 / peclet));
       }
+    }
+  }
+
+  void LineStepper::warn_of_metastable_phases()
+  {
+    if(problem.metastable)
+      return;
+    const LineState &now = state();
+    const double melting = problem.material.melting_temperature;
+    for(std::size_t i = 1; i + 1 < problem.nodes.size(); ++i)
+    {
+      const bool solid = now.solid(now.interval_of(problem.nodes[i]));
+      const double excess = (solid ? 1 : -1) * (now.temperature[i] - melting);
+      bool &warned_before = warned_metastable[solid ? 1 : 0];
+      if(warned_before || excess <= spoken_of * rules.temperature_span)
+        continue;
+      warned_before = true;
+      note(now.time,
+           fmt::format("{} by {:.3g} K at {:.6g} m; inside a phase none appears",
+                       solid ? "solid is superheated" : "liquid is undercooled", excess,
+                       problem.nodes[i]));
     }
   }
 } // namespace meltfront::particles::front_tracking

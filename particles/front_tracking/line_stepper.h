@@ -75,6 +75,7 @@ namespace meltfront::particles::front_tracking
     void remove(std::size_t number);
     void restart(LineState state);
     void warn_of_thin_layers();
+    void warn_of_metastable_phases();
 
     const LineProblem &problem;
     LineSolver solver;
@@ -86,6 +87,7 @@ namespace meltfront::particles::front_tracking
     long shortened_steps = 0;
     long events = 0;
     std::array<int, 2> warned{}; ///< of liquid and solid: how strongly
+    std::array<bool, 2> warned_metastable{};
   };
 } // namespace meltfront::particles::front_tracking
 

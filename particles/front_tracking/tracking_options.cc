@@ -48,8 +48,10 @@ namespace meltfront::particles::front_tracking
          0,
          {"backward-euler", "bdf2", "bdf3"}},
         {"steps", "1", 0L,
-         "Time steps planned over the run; 0: half as many as intervals, at least 20.", 0,
-         1e7},
+         "Time steps planned over the run; 0: three for two intervals, at least 60, or "
+         "640 "
+         "where only space is refined.",
+         0, 1e7},
         {"refine",
          "",
          std::string("both"),
@@ -136,7 +138,7 @@ namespace meltfront::particles::front_tracking
                                               const cases::Resolution &resolution)
   {
     const cases::Options &options = resolution.options;
-    constexpr int fewest_steps = 20;
+    constexpr int fewest_steps = 60;
     constexpr int steps_where_only_space_is_refined = 640;
     TrackingParameters result;
     const std::string &refine = options.get_string("refine");
@@ -148,7 +150,7 @@ namespace meltfront::particles::front_tracking
       result.steps = resolution.n;
     else if(result.steps == 0)
       result.steps = refine == "space" ? steps_where_only_space_is_refined
-                                       : std::max(fewest_steps, resolution.n / 2);
+                                       : std::max(fewest_steps, 3 * resolution.n / 2);
     result.basis_order = static_cast<int>(options.get_integer("basis_order"));
     result.dilation = options.get_double("dilation");
     if(result.dilation == 0)

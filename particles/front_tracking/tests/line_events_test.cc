@@ -373,6 +373,52 @@ namespace meltfront::particles::front_tracking
       EXPECT_TRUE(run.noted("liquid between two fronts that met vanished"));
     }
 
+    /** Where a front comes to rest. */
+    double resting_front(const LineProblem &problem)
+    {
+      Watched run(problem, {}, 120, 1e-5);
+      run.stepper.start(straight_state(problem, 0.3), {});
+      for(int k = 1; k <= 50; ++k)
+        run.advance(20. * k);
+      return run.stepper.state().fronts.at(0);
+    }
+
+    TEST(Walls, FluxAndExchangeOfHeatHoldTheFront)
+    {
+      // The solid lets q = 2 (430 - 380)/(1 - X) through; so must the wall.
+      LineProblem problem = held_slab(bar_material(), 30);
+      problem.walls[0] = {cases::BoundaryKind::flux, [](double) { return 160.; }, 0};
+      EXPECT_NEAR(resting_front(problem), 1 - 100. / 160, 1e-7);
+      problem.walls[0]
+          = {cases::BoundaryKind::heat_transfer, [](double) { return 550.; }, 2.};
+      // 2 (550 - T) = (T - 430)/X = 100/(1 - X).
+      const double front = resting_front(problem);
+      const double wall = 430 + 100 * front / (1 - front);
+      EXPECT_NEAR(2 * (550 - wall), 100 / (1 - front), 1e-5);
+    }
+
+    TEST(Walls, HeatReleasedInsideMovesTheRestingFront)
+    {
+      LineProblem problem = held_slab(bar_material(), 30);
+      constexpr double release = 60;
+      problem.heat_release = [](double, double) { return release; };
+      const double x = resting_front(problem);
+      const double liquid = -70 / x - release * x / 2;
+      const double solid = 2 * (-50 / (1 - x) + release * (1 - x) / 4);
+      EXPECT_NEAR(liquid, solid, 1e-5);
+    }
+
+    TEST(Warning, TellsOfAPhaseThatWouldAppearInside)
+    {
+      LineProblem problem = held_slab(bar_material(), 30);
+      // Solid that is heated beyond melting between its front and its cold wall.
+      problem.heat_release = [](double x, double) { return x > 0.5 ? 5e3 : 0.; };
+      Watched run(problem, {}, 120, 1e-5);
+      run.stepper.start(straight_state(problem, 0.2), {});
+      run.advance(0.05);
+      EXPECT_TRUE(run.noted("solid is superheated by"));
+    }
+
     TEST(Warning, TellsOfALayerThatIsNotResolved)
     {
       struct Expectation
