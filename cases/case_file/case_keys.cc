@@ -226,6 +226,12 @@ namespace meltfront::cases
                             .description = "Physics says that the front never turns "
                                            "back."});
       prm.declare(measure,
+                  number_key("front square from", "", "m",
+                             "Coordinate from which on the squares of the front's "
+                             "positions are held against a straight line over time; they "
+                             "are not where the key is not given.",
+                             0));
+      prm.declare(measure,
                   integer_key("front mode", "0", 0, 1000,
                               "m: the amplitude of cos(m phi) in a circular front is "
                               "measured; 0: none."));

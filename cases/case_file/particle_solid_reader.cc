@@ -141,8 +141,8 @@ namespace meltfront::cases
       solid.rows = static_cast<int>(prm.get_integer(solid_keys, "rows"));
       if(word != "table 2")
         prm.forbid(solid_keys, "errata", "only table 2 has any");
-      if(word != "rectangle")
-        prm.forbid(solid_keys, "rows", "the arrangement is no rectangle");
+      if(word != "rectangle" && word != "bar")
+        prm.forbid(solid_keys, "rows", "the arrangement is neither rectangle nor bar");
       if(word != "bar")
         prm.forbid(solid_keys, "pressure", "the arrangement is no bar");
       if((word == "bar") != (scene.problem == ProblemKind::stefan))
@@ -166,8 +166,8 @@ namespace meltfront::cases
                              .default_value = "false",
                              .unit = {},
                              .description = "The misprints of table 2 are put right."});
-    prm.declare(solid_keys,
-                integer_key("rows", "7", 2, 1e4, "Rows of particles of a rectangle."));
+    prm.declare(solid_keys, integer_key("rows", "7", 2, 1e4,
+                                        "Rows of particles of a rectangle or a bar."));
     declare_law(prm);
     prm.declare(solid_keys,
                 number_key("time step", "1e-4", "",

@@ -22,6 +22,9 @@ namespace meltfront::particles::benchmarks
   /** Energies of relaxations, and relaxations. */
   void register_relaxation_benchmarks();
 
+  /** Steps of level sets. */
+  void register_level_set_benchmarks();
+
   /** Whole runs. */
   void register_run_benchmarks();
 } // namespace meltfront::particles::benchmarks

@@ -2,6 +2,7 @@
 #include <cases/outcomes.h>
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
+#include <particles/greenspan/bar_run.h>
 #include <particles/greenspan/checkpoint.h>
 #include <particles/greenspan/greenspan.h>
 #include <particles/greenspan/scene_experiment.h>
@@ -256,13 +257,20 @@ namespace meltfront::particles
 
       bool solves(cases::ProblemKind problem) const override
       {
-        return problem == cases::ProblemKind::particle_solid;
+        return problem == cases::ProblemKind::particle_solid
+               || problem == cases::ProblemKind::stefan;
       }
 
       std::vector<cases::Effect> supported_effects() const override
       {
-        return {cases::Effect::gravity, cases::Effect::base, cases::Effect::hot_base,
-                cases::Effect::point_heating};
+        return {cases::Effect::gravity,
+                cases::Effect::base,
+                cases::Effect::hot_base,
+                cases::Effect::point_heating,
+                cases::Effect::phase_change,
+                cases::Effect::phase_conductivity,
+                cases::Effect::phase_heat_capacity,
+                cases::Effect::wall_temperature};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -296,6 +304,8 @@ namespace meltfront::particles
         cases::Resolution complete = resolution;
         if(complete.options.declarations().empty())
           complete.options = cases::Options(option_declarations());
+        if(scene.problem == cases::ProblemKind::stefan)
+          return run_bar_scene(scene, effects, complete, observer);
         return SolidRun(scene, effects, complete, observer).take();
       }
     };

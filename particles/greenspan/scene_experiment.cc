@@ -11,17 +11,6 @@ namespace meltfront::particles::greenspan
 {
   namespace
   {
-    PairForce force_of(const cases::PairLaw &law)
-    {
-      PairForce force;
-      force.attraction = law.attraction;
-      force.repulsion = law.repulsion;
-      force.attraction_exponent = law.attraction_exponent;
-      force.repulsion_exponent = law.repulsion_exponent;
-      force.cutoff = law.cutoff;
-      return force;
-    }
-
     Base base_of(const cases::SolidBase &given)
     {
       Base base;
@@ -106,6 +95,17 @@ namespace meltfront::particles::greenspan
       return state;
     }
   } // namespace
+
+  PairForce force_of(const cases::PairLaw &law)
+  {
+    PairForce force;
+    force.attraction = law.attraction;
+    force.repulsion = law.repulsion;
+    force.attraction_exponent = law.attraction_exponent;
+    force.repulsion_exponent = law.repulsion_exponent;
+    force.cutoff = law.cutoff;
+    return force;
+  }
 
   Experiment experiment_of(const cases::Scene &scene, const cases::Resolution &resolution)
   {

@@ -7,6 +7,9 @@
 
 namespace meltfront::particles::greenspan
 {
+  /** The force of a scene's particles. */
+  PairForce force_of(const cases::PairLaw &law);
+
   /**
    * The experiment that a scene of the kind `particle solid` describes.
    *

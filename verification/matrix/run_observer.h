@@ -89,6 +89,8 @@ namespace meltfront::verification
      * on its way (the exact front's, or without one its own net way);
      * front_mode_end: front_mode_amplitude() at the end of Measurement::front_mode;
      * front_floor: Measurement::front_floor, where it is not zero;
+     * front_square_slope, front_square_r2: SquareLaw from Measurement::front_square_from
+     * on (m^2/s), and how much of the variance it explains;
      * solid_volume_end: at the end (m, m^2, m^3 in the measure of the scene);
      * solid_volume_1 to _8: at Measurement::marks, interpolated() between steps;
      * solid_volume_backsteps: farthest that it fell back, over its net change;

@@ -147,10 +147,10 @@ namespace meltfront::verification
 
   TEST(InterfaceError, OfAPlaneIsItsShiftInSpacings)
   {
-    const auto plane = std::make_shared<cases::HalfSpace>(0.403);
+    const auto plane = std::make_shared<cases::HalfSpace>(0.402);
     const cases::Scene scene = scene_of(2, plane, at_rest());
     const cases::Snapshot snapshot
-        = snapshot_of(2, 0, [](const Position &p) { return 0.413 - p[0]; });
+        = snapshot_of(2, 0, [](const Position &p) { return 0.412 - p[0]; });
     const InterfaceErrors errors = InterfaceComparison(scene, 0.02).errors(snapshot);
     EXPECT_NEAR(errors.front, 0.5, 1e-9);
     EXPECT_EQ(errors.missing, 0);
