@@ -104,8 +104,8 @@ namespace meltfront::particles::level_set
     }
 
     /** Cells that a front may be near enough to: by the distance at their corners. */
-    std::vector<std::uint32_t>
-    cells_near(const Grid &grid, const DistanceFunction &distance, double band)
+    std::vector<std::uint32_t> cells_near(const Grid &grid,
+                                          const DistanceFunction &distance, double band)
     {
       std::vector<double> at_node(grid.size());
       for_each_cell(grid, 1,
@@ -173,8 +173,7 @@ namespace meltfront::particles::level_set
     Markers markers;
     markers.dimension = grid.dimension();
     std::uint32_t births = 0;
-    const std::vector<std::uint32_t> keys
-        = cells_near(grid, distance, parameters.band);
+    const std::vector<std::uint32_t> keys = cells_near(grid, distance, parameters.band);
     const std::vector<std::uint32_t> how_many(
         keys.size(), static_cast<std::uint32_t>(parameters.per_cell));
     seed_in_cells(grid, distance, parameters, keys, how_many, 0, markers, births);
