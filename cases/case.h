@@ -94,6 +94,10 @@ namespace meltfront::cases
      * the solid's moment of that angle.
      */
     int front_mode = 0;
+    /** The straight line through the squares of the front's positions over time is
+     * measured from the first time on at which the front has come so far (m). Absent: it
+     * is not. */
+    std::optional<double> front_square_from;
     /** Times at which the volume that is solid is measured, at most `most_marks` (s),
      * ascending; the end beside them. */
     std::vector<double> marks;

@@ -78,6 +78,8 @@ namespace meltfront::cases
       measurement.front_floor = prm.get_number(here, "front floor");
       measurement.monotone_front = prm.get_boolean(here, "monotone front");
       measurement.front_mode = static_cast<int>(prm.get_integer(here, "front mode"));
+      if(prm.given(here, "front square from"))
+        measurement.front_square_from = prm.get_number(here, "front square from");
       if(prm.given(here, "marks"))
         measurement.marks = prm.get_numbers(here, "marks");
       if(prm.given(here, "events"))

@@ -69,8 +69,9 @@ namespace meltfront::cases
         skip_blanks();
         double value = 0;
         const char *begin = text.data() + at;
-        const auto [end, error]
-            = std::from_chars(begin, text.data() + text.size(), value);
+        // The first point of `29..35` is not one of the number.
+        const std::size_t last = std::min(text.find("..", at), text.size());
+        const auto [end, error] = std::from_chars(begin, text.data() + last, value);
         if(error != std::errc() || !std::isfinite(value))
           fail("a number");
         at += end - begin;

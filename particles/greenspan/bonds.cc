@@ -10,6 +10,28 @@ namespace meltfront::particles::greenspan
   {
     /** Up to here looking at all pairs is faster than setting cells up. */
     constexpr std::size_t few_particles = 200;
+
+    /** psi_6 of each particle: exp(6 i angle) = ((x + i y) / r)^6, averaged. */
+    std::vector<std::complex<double>> sixfold_order(const ParticleState &state,
+                                                    const BondGraph &bonds)
+    {
+      const NearestImage along_x(state.period[0]), along_y(state.period[1]);
+      std::vector<std::complex<double>> result(bonds.size(), 0);
+      for(std::size_t a = 0; a < bonds.size(); ++a)
+      {
+        for(const std::uint32_t b : bonds[a])
+        {
+          const std::complex<double> way(
+              along_x(state.position[0][b] - state.position[0][a]),
+              along_y(state.position[1][b] - state.position[1][a]));
+          const std::complex<double> cube = way * way * way;
+          result[a] += cube * cube / std::norm(cube);
+        }
+        if(!bonds[a].empty())
+          result[a] /= static_cast<double>(bonds[a].size());
+      }
+      return result;
+    }
   } // namespace
 
   BondGraph::BondGraph(int dimension, const std::array<std::vector<double>, 3> &position,
@@ -17,6 +39,17 @@ namespace meltfront::particles::greenspan
     : found(position[0].size() > few_particles
                 ? find_in_cells(dimension, position, position[0].size(), length)
                 : find_among_all(dimension, position, position[0].size(), length))
+  {
+    for(std::size_t a = 0; a < size(); ++a)
+      std::sort(found[a].begin(), found[a].end());
+  }
+
+  BondGraph::BondGraph(const ParticleState &state, double length)
+    : found(repeats(state.period)
+                ? find_in_periodic_space(state.dimension, state.position, state.size(),
+                                         length, state.period,
+                                         state.size() <= few_particles)
+                : BondGraph(state.dimension, state.position, length).found)
   {
     for(std::size_t a = 0; a < size(); ++a)
       std::sort(found[a].begin(), found[a].end());
@@ -58,17 +91,16 @@ namespace meltfront::particles::greenspan
   double hexatic_order(const ParticleState &state, const BondGraph &bonds)
   {
     double sum = 0;
-    for(std::size_t a = 0; a < bonds.size(); ++a)
-    {
-      std::complex<double> psi = 0;
-      for(const std::uint32_t b : bonds[a])
-        psi += std::polar(1.,
-                          6
-                              * std::atan2(state.position[1][b] - state.position[1][a],
-                                           state.position[0][b] - state.position[0][a]));
-      if(!bonds[a].empty())
-        sum += std::abs(psi) / static_cast<double>(bonds[a].size());
-    }
+    for(const std::complex<double> &psi : sixfold_order(state, bonds))
+      sum += std::abs(psi);
     return sum / static_cast<double>(bonds.size());
+  }
+
+  std::vector<double> lattice_order(const ParticleState &state, const BondGraph &bonds)
+  {
+    std::vector<double> result;
+    for(const std::complex<double> &psi : sixfold_order(state, bonds))
+      result.push_back(psi.real());
+    return result;
   }
 } // namespace meltfront::particles::greenspan

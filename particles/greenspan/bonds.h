@@ -18,6 +18,9 @@ namespace meltfront::particles::greenspan
     BondGraph(int dimension, const std::array<std::vector<double>, 3> &position,
               double length = 1.5);
 
+    /** The same where space repeats itself as it does for the state. */
+    explicit BondGraph(const ParticleState &state, double length = 1.5);
+
     /** Number of particles. */
     std::size_t size() const
     {
@@ -63,6 +66,12 @@ namespace meltfront::particles::greenspan
    * orientation; particles without partners count as 0.
    */
   double hexatic_order(const ParticleState &state, const BondGraph &bonds);
+
+  /**
+   * Real part of psi_6 of each particle of the plane: 1 in a hexagonal crystal with rows
+   * along x, on average 0 in a liquid and in crystals that lie any way.
+   */
+  std::vector<double> lattice_order(const ParticleState &state, const BondGraph &bonds);
 } // namespace meltfront::particles::greenspan
 
 #endif

@@ -31,12 +31,47 @@ namespace meltfront::particles::greenspan
       Half first{}, second{};
     };
 
-    template <int dimension, typename Powers>
+    /** Space that does not repeat itself. */
+    struct OpenSpace
+    {
+      explicit OpenSpace(const Period &)
+      {
+      }
+
+      double operator()(int, double difference) const
+      {
+        return difference;
+      }
+    };
+
+    /** One that repeats itself along y only, or in any direction. */
+    template <bool along_y_only>
+    class RepeatedSpace
+    {
+    public:
+      explicit RepeatedSpace(const Period &period)
+        : nearest{NearestImage(period[0]), NearestImage(period[1]),
+                  NearestImage(period[2])}
+      {
+      }
+
+      double operator()(int direction, double difference) const
+      {
+        return !along_y_only || direction == 1 ? nearest[direction](difference)
+                                               : difference;
+      }
+
+    private:
+      std::array<NearestImage, 3> nearest;
+    };
+
+    template <int dimension, typename Powers, typename Space>
     class PairSweep : public ForceSweep
     {
     public:
-      explicit PairSweep(const PairForce &force)
+      PairSweep(const PairForce &force, const Period &period)
         : powers(force)
+        , space(period)
         , squared_cutoff(force.cutoff * force.cutoff)
       {
       }
@@ -63,6 +98,7 @@ namespace meltfront::particles::greenspan
                       const KickSize &size) const
       {
         const Powers pair = powers; // a copy's members stay in registers
+        const Space from = space;
         const double cutoff = squared_cutoff, time_step = size.time_step,
                      left = size.left;
         const std::size_t row = slice * lanes;
@@ -81,7 +117,7 @@ namespace meltfront::particles::greenspan
             double difference[dimension], squared = 0;
             for(int d = 0; d < dimension; ++d)
             {
-              difference[d] = x[d][row + lane] - x[d][neighbour[lane]];
+              difference[d] = from(d, x[d][row + lane] - x[d][neighbour[lane]]);
               squared += difference[d] * difference[d];
             }
             const double factor = squared <= cutoff ? pair(squared) : 0;
@@ -104,11 +140,12 @@ namespace meltfront::particles::greenspan
       }
 
       Powers powers;
+      Space space;
       double squared_cutoff;
     };
 
-    template <int dimension>
-    std::unique_ptr<ForceSweep> make(const PairForce &force)
+    template <int dimension, typename Space>
+    std::unique_ptr<ForceSweep> make(const PairForce &force, const Period &period)
     {
       const auto is = [&force](double alpha, double beta)
       {
@@ -116,17 +153,27 @@ namespace meltfront::particles::greenspan
                && force.attraction_exponent == beta;
       };
       if(is(6, 4))
-        return std::make_unique<PairSweep<dimension, CompiledPowers<6, 4>>>(force);
+        return std::make_unique<PairSweep<dimension, CompiledPowers<6, 4>, Space>>(
+            force, period);
       if(is(10, 7))
-        return std::make_unique<PairSweep<dimension, CompiledPowers<10, 7>>>(force);
+        return std::make_unique<PairSweep<dimension, CompiledPowers<10, 7>, Space>>(
+            force, period);
       if(is(13, 7)) // of Lennard and Jones
-        return std::make_unique<PairSweep<dimension, CompiledPowers<13, 7>>>(force);
-      return std::make_unique<PairSweep<dimension, GeneralPowers>>(force);
+        return std::make_unique<PairSweep<dimension, CompiledPowers<13, 7>, Space>>(
+            force, period);
+      return std::make_unique<PairSweep<dimension, GeneralPowers, Space>>(force, period);
     }
   } // namespace
 
-  std::unique_ptr<ForceSweep> make_force_sweep(const PairForce &force, int dimension)
+  std::unique_ptr<ForceSweep> make_force_sweep(const PairForce &force, int dimension,
+                                               const Period &period)
   {
-    return dimension == 2 ? make<2>(force) : make<3>(force);
+    if(dimension == 2 && period[0] == 0 && period[1] > 0)
+      return make<2, RepeatedSpace<true>>(force, period);
+    if(repeats(period))
+      return dimension == 2 ? make<2, RepeatedSpace<false>>(force, period)
+                            : make<3, RepeatedSpace<false>>(force, period);
+    return dimension == 2 ? make<2, OpenSpace>(force, period)
+                          : make<3, OpenSpace>(force, period);
   }
 } // namespace meltfront::particles::greenspan

@@ -33,8 +33,10 @@ namespace meltfront::particles::greenspan
                       Coordinates &velocity, const KickSize &size, int threads) const = 0;
   };
 
-  /** The sweep whose exponents are compiled in where there is one, and else any. */
-  std::unique_ptr<ForceSweep> make_force_sweep(const PairForce &force, int dimension);
+  /** The sweep whose exponents are compiled in where there is one, and else any; where
+   * space does not repeat itself nothing looks for nearest images. */
+  std::unique_ptr<ForceSweep> make_force_sweep(const PairForce &force, int dimension,
+                                               const Period &period = {});
 } // namespace meltfront::particles::greenspan
 
 #endif

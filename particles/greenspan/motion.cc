@@ -39,6 +39,7 @@ namespace meltfront::particles::greenspan
   Motion::Motion(const MotionParameters &parameters, const ParticleState &start)
     : given(parameters)
     , dimension(start.dimension)
+    , repetition(start.period)
     , steps_taken(start.step)
   {
     if(dimension != 2 && dimension != 3)
@@ -46,11 +47,13 @@ namespace meltfront::particles::greenspan
           fmt::format("particle solids live in 2 or 3 dimensions, not in {}", dimension));
     given.validate(dimension);
     check_start(start);
-    forces = make_force_sweep(given.force, dimension);
+    forces = make_force_sweep(given.force, dimension, repetition);
     furthest_in_a_step = longest_move * given.force.equilibrium_distance();
     all_bonds = (dimension == 3 ? 6. : 3.) * static_cast<double>(start.size())
                 * given.force.bond_work();
     load(start);
+    check_boundaries();
+    heat_of_zones.assign(given.zones.size(), 0);
     if(names.size() >= worth_sorting)
     {
       ParticleStorage storage{dimension, start.position};
@@ -58,9 +61,13 @@ namespace meltfront::particles::greenspan
     }
     build_lists();
     require_distinct_places();
+    find_pushed_particles();
     if(!start.staggered)
+    {
       forces->kick(rows, position, velocity, {given.time_step / 2, given.gravity, 1},
                    given.threads);
+      push(given.time_step / 2);
+    }
   }
 
   void Motion::check_start(const ParticleState &start) const
@@ -96,24 +103,27 @@ namespace meltfront::particles::greenspan
 
   void Motion::require_distinct_places() const
   {
+    const double least = same_place * given.force.equilibrium_distance();
+    const auto distance_to_source = [this](std::size_t i)
+    {
+      double squared = 0;
+      for(int d = 0; d < dimension; ++d)
+        squared += (position[d][i] - given.source->position[d])
+                   * (position[d][i] - given.source->position[d]);
+      return std::sqrt(squared);
+    };
     for(std::size_t i = 0; i < names.size(); ++i)
     {
-      const auto distance = [this, i](const auto &place)
-      {
-        double squared = 0;
-        for(int d = 0; d < dimension; ++d)
-          squared += (position[d][i] - place(d)) * (position[d][i] - place(d));
-        return std::sqrt(squared);
-      };
-      const double least = same_place * given.force.equilibrium_distance();
       for(const std::uint32_t j : rows.row(i))
-        if(distance([this, j](int d) { return position[d][j]; }) < least)
+      {
+        const std::array<double, 3> apart = way(i, j);
+        if(std::hypot(apart[0], apart[1], apart[2]) < least)
           throw cases::InputError(fmt::format(
               "particles {} and {} lie at the same place ({:.6g}, {:.6g})",
               std::min(names[i], names[j]) + 1, std::max(names[i], names[j]) + 1,
               position[0][i], position[1][i]));
-      if(given.source
-         && distance([this](int d) { return given.source->position[d]; }) < least)
+      }
+      if(given.source && distance_to_source(i) < least)
         throw cases::InputError(
             fmt::format("the heat source lies inside particle {}", names[i] + 1));
     }
@@ -170,7 +180,9 @@ namespace meltfront::particles::greenspan
     for(int d = 0; d < dimension; ++d)
       for(std::size_t i = n; i < position[d].size(); ++i)
         position[d][i] = lone_coordinate(i - n);
-    rows.build(dimension, position, names, given.force.cutoff + given.skin, given.search);
+    rows.build(dimension, position, names, given.force.cutoff + given.skin, given.search,
+               repetition);
+    find_pushed_particles();
     listed = position;
     travelled = 0;
     ++builds;
@@ -213,8 +225,10 @@ namespace meltfront::particles::greenspan
     const double left = std::exp(-given.drag * given.time_step);
     forces->kick(rows, position, velocity, {given.time_step, given.gravity, left},
                  given.threads);
+    push(given.time_step);
     if(given.thermostat)
       exchange_with_bath();
+    exchange_with_zones();
   }
 
   void Motion::set_thermostat(const std::optional<Thermostat> &thermostat)
@@ -223,12 +237,20 @@ namespace meltfront::particles::greenspan
     given.validate(dimension);
   }
 
+  void Motion::set_zones(const std::vector<BathZone> &zones)
+  {
+    given.zones = zones;
+    given.validate(dimension);
+    heat_of_zones.assign(zones.size(), 0);
+  }
+
   ParticleState Motion::state() const
   {
     ParticleState result;
     result.dimension = dimension;
     result.step = steps_taken;
     result.staggered = true;
+    result.period = repetition;
     const auto given_order = [this](const std::vector<double> &values)
     {
       std::vector<double> ordered(names.size());
@@ -252,6 +274,8 @@ namespace meltfront::particles::greenspan
     for(int d = 0; d < dimension; ++d)
       result[d].assign(position[d].size(), 0);
     forces->kick(rows, position, result, {1, given.gravity, 1}, given.threads);
+    for(const std::uint32_t i : pushed)
+      result[0][i] -= given.piston->force;
     return result;
   }
 

@@ -13,10 +13,11 @@ namespace meltfront::particles::greenspan
     double kinetic = 0;
     double bonds = 0;  ///< shifted potential, so that a pair that parts gives none away
     double height = 0; ///< in the field of gravity
+    double piston = 0; ///< work that pushing the piston back has taken since x = 0
 
     double total() const
     {
-      return kinetic + bonds + height;
+      return kinetic + bonds + height + piston;
     }
   };
 
@@ -53,6 +54,16 @@ namespace meltfront::particles::greenspan
      */
     void advance(long steps);
 
+    /**
+     * Scale all places and the period of space about the origin.
+     * @throws cases::InputError for a factor that is not near 1
+     */
+    void stretch(double factor);
+
+    /** Replace the baths over parts of space from now on; the heat that they have given
+     * is counted anew. */
+    void set_zones(const std::vector<BathZone> &zones);
+
     /** Replace the thermostat from now on. */
     void set_thermostat(const std::optional<Thermostat> &thermostat);
 
@@ -69,6 +80,11 @@ namespace meltfront::particles::greenspan
     double time() const
     {
       return static_cast<double>(steps_taken) * given.time_step;
+    }
+
+    const Period &period() const
+    {
+      return repetition;
     }
 
     std::size_t size() const
@@ -98,6 +114,18 @@ namespace meltfront::particles::greenspan
       return absorbed_energy;
     }
 
+    /** Kinetic energy that each zone's bath has given since it was set. */
+    const std::vector<double> &zone_heat() const
+    {
+      return heat_of_zones;
+    }
+
+    /**
+     * Sum over the particles of v_d^2 and over the pairs of r_d f_d, for each direction
+     * d: the pressure times area or volume (Clausius) where space repeats itself.
+     */
+    std::array<double, 3> virial() const;
+
     /** How often the lists of neighbours were made. */
     long list_builds() const
     {
@@ -106,6 +134,8 @@ namespace meltfront::particles::greenspan
 
   private:
     void check_start(const ParticleState &start) const;
+    void check_boundaries() const;
+    void find_pushed_particles();
     void require_distinct_places() const;
     void load(const ParticleState &start);
     void reorder(std::span<const std::uint32_t> order);
@@ -115,23 +145,30 @@ namespace meltfront::particles::greenspan
     void move();
     void move_block(std::size_t block, std::size_t begin, std::size_t end);
     void reflect(std::size_t begin, std::size_t end);
+    void reflect_at_wall(std::size_t begin, std::size_t end);
     void heat(std::size_t begin, std::size_t end);
     void add_temperatures(std::size_t begin, std::size_t end);
     void check_speeds();
     void irradiate();
     void exchange_with_bath();
+    void exchange_with_zones();
+    void push(double duration);
+    std::array<double, 3> way(std::size_t from, std::size_t to) const;
     Coordinates raw_accelerations() const;
     [[noreturn]] void fail(const std::string &quantity, const std::string &problem) const;
     [[noreturn]] void explain_broken_motion(double kinetic, double move) const;
 
     MotionParameters given;
     int dimension;
+    Period repetition; ///< of space
     std::unique_ptr<ForceSweep> forces;
     long steps_taken;
-    std::vector<std::uint32_t> names; ///< particle i of memory was given as names[i]
-    Coordinates position, velocity;   ///< padded
-    Coordinates listed;               ///< positions when the lists were made, padded
-    std::vector<double> kinetic_sum;  ///< padded; empty if not kept
+    std::vector<std::uint32_t> names;  ///< particle i of memory was given as names[i]
+    Coordinates position, velocity;    ///< padded
+    Coordinates listed;                ///< positions when the lists were made, padded
+    std::vector<double> kinetic_sum;   ///< padded; empty if not kept
+    std::vector<std::uint32_t> pushed; ///< places in memory of the piston's particles
+    std::vector<double> heat_of_zones;
     NeighbourRows rows;
     long builds = 0;
     double absorbed_energy = 0;

@@ -155,5 +155,14 @@ namespace meltfront::particles::greenspan
       greenspan::validate(*radiation, dimension);
     if(thermostat)
       greenspan::validate(*thermostat);
+    for(const BathZone &zone : zones)
+    {
+      require(zone.end > zone.begin, "the end of a bath's zone", zone.end,
+              "beyond its beginning");
+      greenspan::validate(zone.bath);
+    }
+    if(piston)
+      require(std::isfinite(piston->force), "the force of the piston on a particle",
+              piston->force, "finite");
   }
 } // namespace meltfront::particles::greenspan

@@ -90,6 +90,22 @@ namespace meltfront::particles::greenspan
     double temperature(long step) const;
   };
 
+  /** A bath over a part of space only: over the particles with begin <= x < end at the
+   * step, x within one period where space repeats itself. */
+  struct BathZone
+  {
+    double begin = 0;
+    double end = 0;
+    Thermostat bath;
+  };
+
+  /** Particles that are pushed against the direction of x by a constant force each. */
+  struct Piston
+  {
+    std::vector<std::uint32_t> particles;
+    double force = 0; ///< on each
+  };
+
   /** What moves the particles. */
   struct MotionParameters
   {
@@ -100,6 +116,9 @@ namespace meltfront::particles::greenspan
     std::optional<HeatSource> source;
     std::optional<Radiation> radiation;
     std::optional<Thermostat> thermostat;
+    std::vector<BathZone> zones;
+    std::optional<Piston> piston;
+    bool wall = false;         ///< x = 0 throws back what falls on it, without loss
     double drag = 0;           ///< velocities fade by exp(-drag time_step) in each step
     bool temperatures = false; ///< keep the sums of kinetic energy
 

@@ -111,6 +111,8 @@ namespace meltfront::particles::greenspan
                               : drift_block<3>(position, velocity, dt, begin, end);
     if(given.base)
       reflect(begin, end);
+    if(given.wall)
+      reflect_at_wall(begin, end);
     if(given.source)
       heat(begin, end);
     if(given.temperatures)
@@ -248,15 +250,13 @@ namespace meltfront::particles::greenspan
       result.height += given.gravity * position[1][i];
       for(const std::uint32_t j : rows.row(i))
       {
-        double squared = 0;
-        for(int d = 0; d < dimension; ++d)
-        {
-          const double apart = position[d][i] - position[d][j];
-          squared += apart * apart;
-        }
-        result.bonds += given.force.potential(std::sqrt(squared)) / 2;
+        const std::array<double, 3> apart = way(i, j);
+        result.bonds
+            += given.force.potential(std::hypot(apart[0], apart[1], apart[2])) / 2;
       }
     }
+    for(const std::uint32_t i : pushed)
+      result.piston += given.piston->force * position[0][i];
     return result;
   }
 

@@ -13,13 +13,16 @@ namespace meltfront::particles::greenspan
   void NeighbourRows::build(int dimension,
                             const std::array<std::vector<double>, 3> &position,
                             std::span<const std::uint32_t> names, double radius,
-                            Search search)
+                            Search search, const Period &period)
   {
     n = names.size();
     const bool all = search == Search::among_all
                      || (search == Search::automatic && n <= few_particles);
-    found = all ? find_among_all(dimension, position, n, radius)
-                : find_in_cells(dimension, position, n, radius);
+    if(repeats(period))
+      found = find_in_periodic_space(dimension, position, n, radius, period, all);
+    else
+      found = all ? find_among_all(dimension, position, n, radius)
+                  : find_in_cells(dimension, position, n, radius);
     order_by_name(names);
     fill_slices();
   }

@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_greenspan_neighbour_rows_h
 #define meltfront_particles_greenspan_neighbour_rows_h
 
-#include <particles/greenspan/sparse_cells.h>
+#include <particles/greenspan/periodic_space.h>
 
 #include <array>
 #include <cstddef>
@@ -26,7 +26,7 @@ namespace meltfront::particles::greenspan
    */
   inline double lone_coordinate(std::size_t number)
   {
-    return 1e9 * static_cast<double>(number + 1);
+    return 1e299 * static_cast<double>(number + 1);
   }
 
   /**
@@ -52,7 +52,8 @@ namespace meltfront::particles::greenspan
      * @param names of the particles, 0 to n - 1 in any order, not padded
      */
     void build(int dimension, const std::array<std::vector<double>, 3> &position,
-               std::span<const std::uint32_t> names, double radius, Search search);
+               std::span<const std::uint32_t> names, double radius, Search search,
+               const Period &period = {});
 
     std::size_t slices() const
     {

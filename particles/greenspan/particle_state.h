@@ -1,9 +1,7 @@
 #ifndef meltfront_particles_greenspan_particle_state_h
 #define meltfront_particles_greenspan_particle_state_h
 
-#include <array>
-#include <cstddef>
-#include <vector>
+#include <particles/greenspan/periodic_space.h>
 
 namespace meltfront::particles::greenspan
 {
@@ -26,6 +24,8 @@ namespace meltfront::particles::greenspan
     /** Sum of each particle's kinetic energy over the steps taken: `step` times its
      * temperature (section 5 of the report). Empty where it is not kept. */
     std::vector<double> kinetic_sum;
+
+    Period period{}; ///< of space
 
     std::size_t size() const
     {

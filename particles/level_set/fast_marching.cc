@@ -31,7 +31,14 @@ namespace meltfront::particles::level_set
                && (values[neighbour] > 0) == inside)
               nearest[d] = std::min(nearest[d], std::abs(values[neighbour]));
           }
-        std::ranges::sort(nearest);
+        for(const auto [a, b] : {std::pair{0, 1}, {1, 2}, {0, 1}})
+        {
+          const double lower = std::min(nearest[a], nearest[b]);
+          nearest[b] = std::max(nearest[a], nearest[b]);
+          nearest[a] = lower;
+        }
+        if(nearest[0] == infinity)
+          return infinity;
         double result = nearest[0] + grid.spacing();
         double sum = nearest[0], squares = nearest[0] * nearest[0];
         for(int used = 1; used < grid.dimension() && result > nearest[used]; ++used)

@@ -2,6 +2,7 @@
 #include <particles/level_set/front_geometry.h>
 #include <particles/level_set/front_measures.h>
 
+#include <exception>
 #include <numbers>
 
 namespace meltfront::particles::level_set
@@ -97,19 +98,31 @@ namespace meltfront::particles::level_set
       const auto rows = cells.runs();
       const int fine = samples * samples * (grid.dimension() == 3 ? samples : 1);
       long both = 0, missing = 0, extra = 0;
+      std::exception_ptr failure;
 #pragma omp parallel for num_threads(level_set.parameters().threads) schedule(dynamic)   \
     reduction(+ : both, missing, extra)
       for(std::size_t r = 0; r < rows.size(); ++r)
-        for(std::size_t node = rows[r].node; node < rows[r].node + rows[r].length; ++node)
+        try
         {
-          const bool near = flags[node] || is_cut(level_set, node);
-          const Counts counts
-              = count_in_cell(level_set, inside, node, near ? samples : 1);
-          const long weight = near ? 1 : fine;
-          both += weight * counts.both;
-          missing += weight * counts.missing;
-          extra += weight * counts.extra;
+          for(int n = 0; n < rows[r].length; ++n)
+          {
+            const std::size_t node = rows[r].node + n;
+            const bool near = flags[node] || is_cut(level_set, node);
+            const Counts counts
+                = count_in_cell(level_set, inside, node, near ? samples : 1);
+            const long weight = near ? 1 : fine;
+            both += weight * counts.both;
+            missing += weight * counts.missing;
+            extra += weight * counts.extra;
+          }
         }
+        catch(...)
+        {
+#pragma omp critical
+          failure = std::current_exception();
+        }
+      if(failure)
+        std::rethrow_exception(failure);
       double part = 1;
       for(int d = 0; d < grid.dimension(); ++d)
         part *= grid.spacing() / samples;

@@ -5,6 +5,11 @@
 
 namespace meltfront::particles::level_set
 {
+  namespace
+  {
+    constexpr double most_motion = 2; ///< in spacings, of the front in a band at rest
+  }                                   // namespace
+
   LevelSet::LevelSet(const Grid &grid, const ScalarFunction &initial,
                      const LevelSetParameters &parameters)
     : lattice(grid)
@@ -89,7 +94,7 @@ namespace meltfront::particles::level_set
   void LevelSet::follow(const double spacings)
   {
     moved += spacings;
-    if(moved + spacings > 1)
+    if(moved + spacings > settings.band_layers / 3.)
       rebuild_band();
   }
 

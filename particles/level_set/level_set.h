@@ -119,14 +119,14 @@ namespace meltfront::particles::level_set
     void fill_ghosts(double level_beyond = std::numeric_limits<double>::infinity());
 
     /**
-     * Lay the band anew about the front, which must still be within the old one; after
-     * each move by a spacing. Nodes that enter it get the distances that fast marching
+     * Lay the band anew about the front, which must still be well within the old
+     * one. Nodes that enter it get the distances that fast marching
      * finds; without a front nothing is left of the band.
      */
     void rebuild_band();
 
     /** Tell that the front moved by up to so many spacings; the band is rebuilt before
-     * that sums up to more than one. */
+     * that sums up to more than a third of its layers. */
     void follow(double spacings);
 
     /** phi at all nodes: within the band as it is, beyond it by fast marching (m). */

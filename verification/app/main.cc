@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <cases/options.h>
+#include <verification/app/calibrate.h>
 #include <verification/app/commands.h>
 #include <verification/app/list.h>
 
@@ -24,6 +25,7 @@ namespace
     VerifyArguments verify_arguments;
     RunArguments run_arguments;
     CompareArguments compare_arguments;
+    CalibrateArguments calibrate_arguments;
     std::string report_directory;
     std::string list_what;
     std::function<int()> action;
@@ -34,6 +36,7 @@ namespace
     void declare_verify();
     void declare_run();
     void declare_compare();
+    void declare_calibrate();
     void declare_others();
   };
 
@@ -46,6 +49,7 @@ namespace
     declare_verify();
     declare_run();
     declare_compare();
+    declare_calibrate();
     declare_others();
   }
 
@@ -108,6 +112,30 @@ namespace
     command->add_option("--jobs", a.jobs, "runs at once (one per core)")
         ->check(CLI::Range(0, 1024));
     command->callback([this] { action = [this] { return compare(compare_arguments); }; });
+  }
+
+  void CommandLine::declare_calibrate()
+  {
+    auto *command = app.add_subcommand(
+        "calibrate", "the continuum's properties of a particle solid, as a material");
+    CalibrateArguments &a = calibrate_arguments;
+    command->add_option("what", a.what, "greenspan")
+        ->required()
+        ->check(CLI::IsMember({"greenspan"}));
+    command->add_option("--substance", a.substance, "triangle or rectangle (triangle)")
+        ->check(CLI::IsMember({"triangle", "rectangle"}));
+    command->add_flag("--full", a.full, "minutes instead of one: smaller errors");
+    command->add_option("--pressure", a.pressure, "force per length")
+        ->check(CLI::Range(0., 1000.));
+    command->add_option("--hot", a.hot, "temperature of the wall that melts (60)");
+    command->add_option("--cold", a.cold, "temperature of the solid (30)");
+    command->add_option("--seeds", a.seeds, "independent runs of everything")
+        ->check(CLI::Range(2, 1000));
+    command->add_option("--jobs", a.jobs, "seeds at once (one per core)")
+        ->check(CLI::Range(0, 1024));
+    command->add_option("--out", a.output, "file (results/calibration-SUBSTANCE.prm)");
+    command->callback([this]
+                      { action = [this] { return calibrate(calibrate_arguments); }; });
   }
 
   void CommandLine::declare_others()

@@ -4,7 +4,7 @@
 #include <cases/case.h>
 #include <cases/method.h>
 #include <verification/matrix/alloy_measures.h>
-#include <verification/matrix/run_record.h>
+#include <verification/matrix/run_measures.h>
 #include <verification/matrix/run_statistics.h>
 #include <verification/measure/event_watch.h>
 #include <verification/measure/front_reader.h>
@@ -18,7 +18,7 @@
 namespace meltfront::verification
 {
   /**
-   * Measures a run while it goes on: reads fronts and budgets from each snapshot, holds
+   * Measures a run that conducts heat: reads fronts and budgets from each snapshot, holds
    * them against the case's exact solution, keeps the profile of the end.
    *
    * Snapshots are taken of the initial state, of the first step at or after each of
@@ -32,7 +32,7 @@ namespace meltfront::verification
    * temperature_overshoot tells by how much they did. Where no phase changes there is no
    * front and no volume that is solid: these quantities are NaN.
    */
-  class RunObserver : public cases::Observer
+  class RunObserver : public RunMeasures
   {
   public:
     /**
@@ -51,8 +51,9 @@ namespace meltfront::verification
     void observe(const cases::Snapshot &snapshot) override;
     void note(double time, const std::string &event) override;
 
-    /** @throws NumericalError if the method did not take the run to its end. */
-    void require_end() const;
+    void require_end() const override;
+    void keep_course(RunRecord &record) const override;
+    void keep_results(RunRecord &record) const override;
 
     const cases::RunDescription &description() const;
     const RunSeries &series() const;
@@ -88,6 +89,8 @@ namespace meltfront::verification
      * on its way (the exact front's, or without one its own net way);
      * front_mode_end: front_mode_amplitude() at the end of Measurement::front_mode;
      * front_floor: Measurement::front_floor, where it is not zero;
+     * front_square_slope, front_square_r2: SquareLaw from Measurement::front_square_from
+     * on (m^2/s), and how much of the variance it explains;
      * solid_volume_end: at the end (m, m^2, m^3 in the measure of the scene);
      * solid_volume_1 to _8: at Measurement::marks, interpolated() between steps;
      * solid_volume_backsteps: farthest that it fell back, over its net change;

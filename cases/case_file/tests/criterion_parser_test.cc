@@ -7,6 +7,13 @@
 
 using namespace meltfront::cases;
 
+TEST(Criterion, TakesBoundsThatAreWholeNumbers)
+{
+  const Criterion criterion = parse_criterion("sph: front_rms at n=46 in 29..35");
+  EXPECT_EQ(criterion.lower, 29);
+  EXPECT_EQ(criterion.upper, 35);
+}
+
 TEST(Criterion, BoundsAValueAtOneN)
 {
   const Criterion c = parse_criterion("sph: front_rms at n=40 <= 1.755e-3");

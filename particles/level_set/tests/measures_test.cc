@@ -148,6 +148,16 @@ namespace meltfront::particles::level_set
       EXPECT_EQ(content(one, 10), content(two, 10));
     }
 
+    TEST(ShapeDifference, HandsOnWhatAShapeThrows)
+    {
+      ReferenceShape shape = disk.shape();
+      shape.inside
+          = [](const Position &) -> bool { throw cases::InputError("no such shape"); };
+      EXPECT_THROW(
+          shape_difference(LevelSet(unit_grid(20), distance_from(disk)), shape, 2),
+          cases::InputError);
+    }
+
     TEST(FrontNoise, OfTheExactFrontsIsSmallAndOfNoneIsNothing)
     {
       const LevelSet front(unit_grid(80), distance_from(disk));

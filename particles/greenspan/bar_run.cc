@@ -1,0 +1,196 @@
+#include <cases/error.h>
+#include <cases/stopwatch.h>
+#include <particles/greenspan/bar.h>
+#include <particles/greenspan/bar_run.h>
+#include <particles/greenspan/scene_experiment.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::particles::greenspan
+{
+  namespace
+  {
+    /** By how much the bar's length may differ from the slab's, relative. */
+    constexpr double length_tolerance = 0.03;
+
+    /** Time between looks at the bar. */
+    constexpr double look_interval = 0.2;
+
+    double wall_temperature(const cases::Scene &scene, const cases::Side side)
+    {
+      const cases::Boundary &wall = scene.boundary(side);
+      if(wall.kind != cases::BoundaryKind::fixed_temperature || !wall.value.constant)
+        throw cases::Refusal(
+            fmt::format("a bar of particles needs a constant temperature "
+                        "at {}",
+                        cases::to_string(side)));
+      return wall.value({}, scene.start_time);
+    }
+
+    BarSettings settings_of(const cases::Scene &scene,
+                            const cases::Resolution &resolution)
+    {
+      const cases::ParticleSolid &solid = *scene.particle_solid;
+      BarSettings settings;
+      settings.force = force_of(solid.law);
+      settings.columns = resolution.n;
+      settings.rows = solid.rows;
+      settings.pressure = solid.pressure;
+      settings.hot_temperature = wall_temperature(scene, cases::Side::x_min);
+      settings.cold_temperature = wall_temperature(scene, cases::Side::x_max);
+      settings.time_step = solid.time_step;
+      settings.seed = resolution.seed;
+      settings.threads = resolution.threads;
+      if(!scene.initial.temperature.constant
+         || scene.initial.temperature({}, scene.start_time) != settings.cold_temperature)
+        throw cases::Refusal("a bar of particles starts at the temperature of x_max");
+      return settings;
+    }
+
+    /** A bar as the observer of a slab sees it. */
+    class BarShow
+    {
+    public:
+      BarShow(const cases::Scene &scene, cases::Observer &observer)
+        : scene(scene)
+        , observer(observer)
+        , density(scene.material.solid.density)
+      {
+      }
+
+      /** @throws Refusal if the bar does not fit the slab */
+      void require_length(const Bar &bar) const
+      {
+        const BarSettings &settings = bar.settings();
+        const BarLook look = bar.look();
+        double cold_edge = 0; // mass up to the cold bath
+        for(const BarLayer &layer : look.layers)
+          if(layer.position < look.length - settings.cold_length)
+            cold_edge = layer.mass;
+        const double length = (cold_edge - look.edge) / density;
+        const double wanted = scene.domain.side();
+        if(std::abs(length - wanted) <= length_tolerance * wanted)
+          return;
+        const double column = (cold_edge / density) / settings.columns;
+        throw cases::Refusal(fmt::format(
+            "{} columns of particles make a bar of length {:.4g} between its baths, the "
+            "slab's is {:.4g}: n must be about {:.0f}",
+            settings.columns, length, wanted,
+            settings.columns + (wanted - length) / column));
+      }
+
+      void operator()(const BarLook &look, const long step)
+      {
+        const double front = std::max(0., look.molten() / density);
+        for(auto *values : {&x, &weights, &temperature, &solid})
+          values->clear();
+        double before = look.edge;
+        for(std::size_t i = 0; i < look.layers.size(); ++i)
+        {
+          const BarLayer &layer = look.layers[i];
+          const double end = i + 1 < look.layers.size()
+                                 ? 0.5 * (layer.mass + look.layers[i + 1].mass)
+                                 : 2 * layer.mass - before;
+          const double left = (before - look.edge) / density;
+          const double right = std::min((end - look.edge) / density, scene.domain.side());
+          before = std::max(before, end);
+          if(layer.mass <= look.edge || right <= left)
+            continue;
+          x.push_back((left + right) / 2);
+          weights.push_back(right - left);
+          temperature.push_back(layer.temperature);
+          solid.push_back(std::clamp((right - front) / (right - left), 0., 1.));
+        }
+        cases::Snapshot snapshot;
+        snapshot.step = step;
+        snapshot.time = scene.start_time + look.time;
+        snapshot.dimension = 1;
+        snapshot.positions[0] = x;
+        snapshot.weights = weights;
+        snapshot.temperature = temperature;
+        snapshot.solid_fraction = solid;
+        snapshot.front[0] = {&front, 1};
+        snapshot.obeys_maximum_principle = false;
+        snapshot.heat.booked = false;
+        observer.observe(snapshot);
+      }
+
+    private:
+      const cases::Scene &scene;
+      cases::Observer &observer;
+      double density;
+      std::vector<double> x, weights, temperature, solid;
+    };
+
+    cases::RunDescription description_of(const Bar &bar, const cases::Scene &scene)
+    {
+      const BarSettings &settings = bar.settings();
+      cases::RunDescription result;
+      result.dimension = 2;
+      result.spacing = scene.domain.side() / settings.columns;
+      result.time_step = settings.time_step;
+      result.unknowns = static_cast<long>(4 * bar.particles().size());
+      const auto add = [&](const char *name, const double value) {
+        result.parameters.push_back({name, fmt::format("{:.6g}", value), ""});
+      };
+      add("particles", static_cast<double>(bar.particles().size()));
+      add("rows", settings.rows);
+      add("width", bar.width());
+      add("pressure", settings.pressure);
+      add("length of the hot bath", settings.hot_length);
+      add("length of the cold bath", settings.cold_length);
+      return result;
+    }
+  } // namespace
+
+  cases::Cost run_bar_scene(const cases::Scene &scene, const cases::EffectSet &effects,
+                            const cases::Resolution &resolution,
+                            cases::Observer &observer)
+  {
+    if(!scene.particle_solid || scene.domain.shape != cases::DomainShape::slab)
+      throw cases::Refusal(
+          "greenspan conducts heat only through a bar of particles, which "
+          "subsection 'Scene/Particle solid' of a slab describes");
+    cases::Stopwatch watch;
+    Bar bar(settings_of(scene, resolution));
+    BarShow show(scene, observer);
+    show.require_length(bar);
+    const cases::Stopwatch::Seconds setup = watch.elapsed();
+    observer.begin(description_of(bar, scene));
+    watch.restart();
+    const double duration = scene.end_time - scene.start_time;
+    const auto looks = static_cast<long>(std::ceil(duration / look_interval));
+    const double time_step = bar.settings().time_step;
+    cases::Cost cost;
+    for(long look = 0; look <= looks; ++look)
+    {
+      const double time = duration * static_cast<double>(look) / looks;
+      bar.advance_to(time);
+      cost.steps = std::lround(time / time_step);
+      watch.without(
+          [&]
+          {
+            if(look != 0 && look != looks
+               && !observer.wants(cost.steps, scene.start_time + time))
+              return;
+            BarLook seen = bar.look();
+            seen.time = time;
+            show(seen, cost.steps);
+          });
+    }
+    const cases::Stopwatch::Seconds stepping = watch.elapsed();
+    cost.setup_wall = setup.wall;
+    cost.setup_cpu = setup.cpu;
+    cost.stepping_wall = stepping.wall;
+    cost.stepping_cpu = stepping.cpu;
+    cost.unknowns = static_cast<long>(4 * bar.particles().size());
+    cost.work = cost.steps * static_cast<long>(bar.particles().size());
+    for(const cases::EffectDecision &decision : effects.decisions())
+      if(decision.on)
+        cost.effects.push_back({decision.effect, cost.steps, 0, 0});
+    return cost;
+  }
+} // namespace meltfront::particles::greenspan

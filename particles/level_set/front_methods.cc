@@ -1,0 +1,390 @@
+#include <cases/error.h>
+#include <cases/scene.h>
+#include <cases/shape.h>
+#include <cases/stopwatch.h>
+#include <particles/level_set/front_contour.h>
+#include <particles/level_set/front_geometry.h>
+#include <particles/level_set/front_methods.h>
+#include <particles/level_set/marker_run.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    using namespace level_set;
+
+    enum class Scheme
+    {
+      alone,
+      original,
+      corrected,
+      interpolative
+    };
+
+    struct Variant
+    {
+      Scheme scheme;
+      const char *name;
+      const char *summary;
+    };
+
+    constexpr Variant variants[] = {
+        {Scheme::alone, "level-set",
+         "A front as the zero contour of a distance on a grid: WENO differences of "
+         "fifth order, Runge-Kutta steps of third, made a distance again now and then."},
+        {Scheme::original, "level-set-particle",
+         "A level set that escaped markers correct (Enright, Fedkiw, Ferziger, "
+         "Mitchell 2002)."},
+        {Scheme::corrected, "level-set-particle-corrected",
+         "The same with markers' values signed by the side on which a node lies (after "
+         "Wang, Yang, Stern 2012, as far as it is known)."},
+        {Scheme::interpolative, "level-set-interpolative",
+         "A level set that all markers correct by fits of the distances that they carry "
+         "(Erickson et al. 2016)."}};
+
+    std::vector<cases::OptionDeclaration> grid_options()
+    {
+      return {
+          {"cfl", "1", 0.5,
+           "Part of a spacing that the fastest component of the velocity crosses in a "
+           "step.",
+           0.01, 1},
+          {"reinitialise_every", "1", 10L,
+           "Steps from one reinitialisation to the next; 0: never.", 0, 1e6},
+          {"iterations", "1", 10L, "Of one reinitialisation.", 1, 1000},
+          {"band_layers", "1", 6L,
+           "Layers of nodes beside the front that are computed; 0: the whole grid.", 0,
+           1000},
+          {"equal_parts", "1", 2L,
+           "Parts of the time whose ends fall on the ends of steps.", 1, 1000}};
+    }
+
+    std::vector<cases::OptionDeclaration> marker_options(const Scheme scheme)
+    {
+      const bool fits = scheme == Scheme::interpolative;
+      std::vector<cases::OptionDeclaration> list{
+          {"per_cell", "1", fits ? 12L : 64L, "Markers in each cell near the front.", 1,
+           1000},
+          {"correct_every", "1", 1L, "Steps from one correction to the next.", 1, 1000},
+          {"reseeding",
+           "",
+           std::string(fits ? "midpoint" : "none"),
+           "Where markers are added: nowhere, in cells near the front from the grid's "
+           "distance, or between markers that have moved apart (not where the motion is "
+           "rigid).",
+           {},
+           {},
+           {"none", "grid", "midpoint"}},
+          {"reseed_every", "1", 20L, "Steps from one reseeding to the next.", 1, 1e6},
+          {"offset_x", "1", 0.,
+           "By how many spacings the grid's front lies off at the start, which the "
+           "markers "
+           "know better: a test of corrections.",
+           -3, 3},
+          {"offset_y", "1", 0., "The same along y.", -3, 3},
+          {"steps_at_rest", "1", 5L, "Corrections where the velocity is zero.", 1, 1000}};
+      if(scheme == Scheme::corrected)
+        list.push_back({"merge",
+                        "",
+                        std::string("minabs"),
+                        "What a node takes: the value nearest to zero among the markers' "
+                        "and its own (4.15), or the markers' whatever its own.",
+                        {},
+                        {},
+                        {"minabs", "replace"}});
+      if(fits)
+      {
+        list.push_back(
+            {"fit",
+             "",
+             std::string("automatic"),
+             "One quadratic through all markers about a node, only through those "
+             "of the nearest front, or the one where the motion is rigid and "
+             "the other elsewhere.",
+             {},
+             {},
+             {"automatic", "single", "clustered"}});
+        list.push_back({"distances",
+                        "",
+                        std::string("carried"),
+                        "Whether markers' distances strain with the flow, or are kept as "
+                        "the report's are.",
+                        {},
+                        {},
+                        {"carried", "kept"}});
+      }
+      return list;
+    }
+
+    Grid grid_of(const cases::Domain &domain, const int n)
+    {
+      const double spacing = domain.side() / n;
+      std::array<int, 3> cells{};
+      for(int d = 0; d < domain.dimension; ++d)
+      {
+        const double length = domain.upper[d] - domain.lower[d];
+        cells[d] = static_cast<int>(std::lround(length / spacing));
+        if(std::abs(cells[d] * spacing - length) > 1e-9 * length)
+          throw cases::Refusal(
+              fmt::format("a grid of {} cells along x does not end on the "
+                          "domain's side along {}",
+                          n, "xyz"[d]));
+      }
+      return Grid(domain.dimension, domain.lower, spacing, cells);
+    }
+
+    MarkerParameters marker_parameters(const Scheme scheme, const cases::Scene &scene,
+                                       const cases::Resolution &resolution)
+    {
+      const cases::Options &options = resolution.options;
+      MarkerParameters markers;
+      if(scheme == Scheme::original)
+        markers = MarkerParameters::original();
+      else if(scheme == Scheme::corrected)
+        markers = MarkerParameters::corrected(options.get_string("merge") == "replace"
+                                                  ? EscapeMerge::replace
+                                                  : EscapeMerge::smaller_magnitude);
+      else
+      {
+        const std::string fit = options.get_string("fit");
+        const bool single = fit == "single"
+                            || (fit == "automatic" && scene.interface->velocity->rigid());
+        markers = MarkerParameters::interpolating(scene.domain.dimension, !single);
+        markers.carry_distance = options.get_string("distances") == "carried";
+      }
+      const std::string reseeding = options.get_string("reseeding");
+      markers.reseeding = reseeding == "none"   ? ReseedingRule::none
+                          : reseeding == "grid" ? ReseedingRule::grid
+                                                : ReseedingRule::midpoint;
+      markers.per_cell = static_cast<int>(options.get_integer("per_cell"));
+      markers.correct_every = static_cast<int>(options.get_integer("correct_every"));
+      markers.reseed_every = static_cast<int>(options.get_integer("reseed_every"));
+      markers.seed = resolution.seed;
+      markers.threads = resolution.threads;
+      return markers;
+    }
+
+    MarkerRunParameters run_parameters(const Scheme scheme, const cases::Scene &scene,
+                                       const cases::Resolution &resolution)
+    {
+      const cases::Options &options = resolution.options;
+      MarkerRunParameters parameters;
+      TransportParameters &transport = parameters.transport;
+      transport.end_time = scene.end_time - scene.start_time;
+      transport.courant_number = options.get_double("cfl");
+      transport.reinitialise_every
+          = static_cast<int>(options.get_integer("reinitialise_every"));
+      transport.iterations = static_cast<int>(options.get_integer("iterations"));
+      transport.equal_parts = options.get_integer("equal_parts");
+      transport.level_set.band_layers
+          = static_cast<int>(options.get_integer("band_layers"));
+      transport.level_set.threads = resolution.threads;
+      if(scheme == Scheme::alone)
+        return parameters;
+      parameters.markers = marker_parameters(scheme, scene, resolution);
+      parameters.grid_offset
+          = {options.get_double("offset_x"), options.get_double("offset_y"), 0};
+      parameters.steps_at_rest = options.get_integer("steps_at_rest");
+      return parameters;
+    }
+
+    /** Hands the states of a run to an observer. */
+    class FrontShow
+    {
+    public:
+      FrontShow(const cases::Scene &scene, cases::Observer &observer,
+                cases::Stopwatch &watch)
+        : scene(scene)
+        , observer(observer)
+        , watch(watch)
+      {
+      }
+
+      void operator()(const LevelSet &front, const long step, const double elapsed)
+      {
+        const double end = scene.end_time - scene.start_time;
+        const bool ended = elapsed >= end * (1 - 1e-12);
+        const double time = ended ? scene.end_time : scene.start_time + elapsed;
+        watch.without(
+            [&]
+            {
+              if(step == 0 || ended || observer.wants(step, time))
+                show(front, step, time);
+            });
+      }
+
+    private:
+      void show(const LevelSet &front, const long step, const double time)
+      {
+        const int dimension = scene.domain.dimension;
+        for(auto *arrays : {&points, &normals})
+          for(std::vector<double> &values : *arrays)
+            values.clear();
+        curvatures.clear();
+        for(const Position &point : front_points(front))
+        {
+          const Position normal = outward_normal(front, point);
+          for(int d = 0; d < dimension; ++d)
+          {
+            points[d].push_back(point[d]);
+            normals[d].push_back(normal[d]);
+          }
+          curvatures.push_back(curvature(front, point));
+        }
+        cases::Snapshot snapshot;
+        snapshot.step = step;
+        snapshot.time = time;
+        snapshot.dimension = dimension;
+        for(int d = 0; d < dimension; ++d)
+        {
+          snapshot.front[d] = points[d];
+          snapshot.front_normal[d] = normals[d];
+        }
+        snapshot.front_curvature = curvatures;
+        snapshot.level_set
+            = [&front](const Position &point) { return front.value(point); };
+        snapshot.heat.booked = false;
+        observer.observe(snapshot);
+      }
+
+      const cases::Scene &scene;
+      cases::Observer &observer;
+      cases::Stopwatch &watch;
+      std::array<std::vector<double>, 3> points, normals;
+      std::vector<double> curvatures;
+    };
+
+    class LevelSetMethod : public cases::Method
+    {
+    public:
+      explicit LevelSetMethod(const Variant &variant)
+        : variant(variant)
+      {
+      }
+
+      std::string name() const override
+      {
+        return variant.name;
+      }
+
+      std::string summary() const override
+      {
+        return variant.summary;
+      }
+
+      bool solves(cases::ProblemKind problem) const override
+      {
+        return problem == cases::ProblemKind::interface_advection;
+      }
+
+      std::vector<cases::Effect> supported_effects() const override
+      {
+        return {};
+      }
+
+      std::vector<cases::OptionDeclaration> option_declarations() const override
+      {
+        std::vector<cases::OptionDeclaration> list = grid_options();
+        if(variant.scheme != Scheme::alone)
+          for(cases::OptionDeclaration &option : marker_options(variant.scheme))
+            list.push_back(std::move(option));
+        return list;
+      }
+
+      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &,
+                        const cases::Resolution &resolution,
+                        cases::Observer &observer) const override
+      {
+        cases::Resolution complete = resolution;
+        if(complete.options.declarations().empty())
+          complete.options = cases::Options(option_declarations());
+        cases::Stopwatch watch;
+        const Grid grid = grid_of(scene.domain, complete.n);
+        const MarkerRunParameters parameters
+            = run_parameters(variant.scheme, scene, complete);
+        const cases::VelocityField &velocity = *scene.interface->velocity;
+        const cases::Shape &shape = *scene.interface->shape;
+        const auto distance
+            = [&shape](const Position &point) { return shape.signed_distance(point); };
+        const StepCount count = count_steps(grid, velocity, parameters.transport);
+        observer.begin(description(grid, count, parameters));
+        cases::Cost cost;
+        FrontShow show(scene, observer, watch);
+        const auto setup_ends = [&](long step)
+        {
+          if(step > 0)
+            return;
+          const cases::Stopwatch::Seconds setup = watch.elapsed();
+          cost.setup_wall = setup.wall;
+          cost.setup_cpu = setup.cpu;
+          watch.restart();
+        };
+        if(variant.scheme == Scheme::alone)
+        {
+          const TransportResult result
+              = run_level_set(grid, distance, velocity, parameters.transport,
+                              [&](const TransportStep &step)
+                              {
+                                setup_ends(step.step);
+                                show(step.front, step.step, step.time);
+                              });
+          cost.steps = result.steps.steps;
+          cost.unknowns = static_cast<long>(result.front.band().size());
+          cost.work = std::lround(result.node_steps);
+        }
+        else
+        {
+          const MarkerResult result
+              = run_markers(grid, distance, velocity, parameters,
+                            [&](const MarkerStep &step)
+                            {
+                              setup_ends(step.step);
+                              show(step.front, step.step, step.time);
+                            });
+          cost.steps = result.steps.steps;
+          cost.unknowns
+              = static_cast<long>(result.front.band().size() + result.markers.size());
+          cost.work = std::lround(result.node_steps + result.work.moved);
+        }
+        const cases::Stopwatch::Seconds stepping = watch.elapsed();
+        cost.stepping_wall = stepping.wall;
+        cost.stepping_cpu = stepping.cpu;
+        return cost;
+      }
+
+    private:
+      cases::RunDescription description(const Grid &grid, const StepCount &count,
+                                        const MarkerRunParameters &parameters) const
+      {
+        cases::RunDescription result;
+        result.dimension = grid.dimension();
+        result.spacing = grid.spacing();
+        result.time_step = count.length;
+        result.unknowns
+            = static_cast<long>(grid.nodes(0)) * grid.nodes(1) * grid.nodes(2);
+        result.parameters.push_back({"steps", std::to_string(count.steps), ""});
+        if(variant.scheme == Scheme::interpolative)
+          result.parameters.push_back({"fit",
+                                       parameters.markers.fit.clustered
+                                           ? "markers of the nearest front"
+                                           : "all markers about a node",
+                                       ""});
+        return result;
+      }
+
+      Variant variant;
+    };
+  } // namespace
+
+  std::vector<std::unique_ptr<cases::Method>> make_level_set_methods()
+  {
+    std::vector<std::unique_ptr<cases::Method>> list;
+    for(const Variant &variant : variants)
+      list.push_back(std::make_unique<LevelSetMethod>(variant));
+    return list;
+  }
+} // namespace meltfront::particles
