@@ -25,6 +25,9 @@ namespace meltfront::particles::benchmarks
   /** Steps of level sets. */
   void register_level_set_benchmarks();
 
+  /** Steps of level sets with markers. */
+  void register_marker_benchmarks();
+
   /** Whole runs. */
   void register_run_benchmarks();
 } // namespace meltfront::particles::benchmarks

@@ -25,6 +25,7 @@ int main(int argc, char **argv)
   register_solid_benchmarks();
   register_relaxation_benchmarks();
   register_level_set_benchmarks();
+  register_marker_benchmarks();
   register_run_benchmarks();
   Table table;
   return benchmark::RunSpecifiedBenchmarks(&table) > 0 ? 0 : 2;

@@ -48,18 +48,29 @@ namespace meltfront::particles::level_set
   void EscapeCorrection::find_escaped(const Markers &markers,
                                       const std::span<const double> phi)
   {
-    has_escaped.resize(markers.size());
+    find_depths(markers, phi);
+    escaped.clear();
+    for(std::size_t p = 0; p < markers.size(); ++p)
+      if(depth[p] < -std::abs(markers.distance[p]))
+        escaped.push_back(static_cast<std::uint32_t>(p));
+  }
+
+  void EscapeCorrection::find_depths(const Markers &markers,
+                                     const std::span<const double> phi)
+  {
+    depth.resize(markers.size());
+    const Grid lattice = grid; // a copy that no store can change
+    const bool solid = lattice.dimension() == 3;
+    const double *x = markers.position[0].data(), *y = markers.position[1].data(),
+                 *z = markers.position[2].data(), *radius = markers.distance.data();
+    double *result = depth.data();
 #pragma omp parallel for schedule(static) num_threads(threads)
     for(std::size_t p = 0; p < markers.size(); ++p)
     {
-      const double here = interpolate(grid, phi.data(), grid.locate(markers.point(p)));
-      const double side = std::copysign(1., markers.distance[p]);
-      has_escaped[p] = side * here < -std::abs(markers.distance[p]);
+      const Position at{x[p], y[p], solid ? z[p] : 0};
+      result[p] = std::copysign(1., radius[p])
+                  * interpolate(lattice, phi.data(), lattice.locate(at));
     }
-    escaped.clear();
-    for(std::size_t p = 0; p < markers.size(); ++p)
-      if(has_escaped[p])
-        escaped.push_back(static_cast<std::uint32_t>(p));
   }
 
   bool EscapeCorrection::first_touch(const std::size_t node)
@@ -152,19 +163,15 @@ namespace meltfront::particles::level_set
     }
   }
 
-  void EscapeCorrection::reset_radii(Markers &markers,
-                                     const std::span<const double> phi) const
+  void EscapeCorrection::reset_radii(Markers &markers, const std::span<const double> phi)
   {
+    find_depths(markers, phi);
     const double least = 0.1 * grid.spacing(), most = 0.5 * grid.spacing();
-#pragma omp parallel for schedule(static) num_threads(threads)
     for(std::size_t p = 0; p < markers.size(); ++p)
     {
-      const double radius = std::abs(markers.distance[p]),
-                   side = std::copysign(1., markers.distance[p]);
-      const double inside
-          = side * interpolate(grid, phi.data(), grid.locate(markers.point(p)));
-      if(inside >= -radius)
-        markers.distance[p] = side * std::clamp(inside, least, most);
+      double &radius = markers.distance[p];
+      if(depth[p] >= -std::abs(radius))
+        radius = std::copysign(std::clamp(depth[p], least, most), radius);
     }
   }
 } // namespace meltfront::particles::level_set

@@ -57,9 +57,10 @@ namespace meltfront::particles::level_set
     std::size_t correct(const Markers &markers, std::span<double> phi);
 
     /** Take the radii of markers that have not escaped from the level set. */
-    void reset_radii(Markers &markers, std::span<const double> phi) const;
+    void reset_radii(Markers &markers, std::span<const double> phi);
 
   private:
+    void find_depths(const Markers &markers, std::span<const double> phi);
     void find_escaped(const Markers &markers, std::span<const double> phi);
     void add_spheres(const Markers &markers, std::size_t marker,
                      std::span<const double> phi);
@@ -72,7 +73,7 @@ namespace meltfront::particles::level_set
     const Grid grid;
     const EscapeParameters parameters;
     const int threads;
-    std::vector<std::uint8_t> has_escaped; ///< by marker
+    std::vector<double> depth; ///< s phi(x_p) by marker (m)
     std::vector<std::uint32_t> escaped;
     std::vector<std::uint8_t> touched; ///< by node
     std::vector<std::uint32_t> nodes;  ///< that escaped markers speak about

@@ -190,10 +190,10 @@ namespace meltfront::particles::level_set
           const auto [begin, end] = cells.markers_of(lower_cell(node, corner));
           for(std::size_t p = begin; p < end; ++p)
           {
+            // taken over without a branch: the next one overwrites what does not count
             const double distance = scale * markers.distance[p];
-            if(!(std::abs(distance) <= parameters.furthest))
-              continue;
-            const std::size_t at = cloud.size++;
+            const bool counts = std::abs(distance) <= parameters.furthest;
+            const std::size_t at = cloud.size;
             double weight = 1;
             for(int d = 0; d < dim; ++d)
             {
@@ -205,7 +205,8 @@ namespace meltfront::particles::level_set
             cloud.distance[at] = distance;
             if constexpr(clustered)
               gather_plane(p, at);
-            total += weight;
+            cloud.size += counts;
+            total += counts ? weight : 0;
             nearest = std::min(nearest, std::abs(distance));
           }
         }
@@ -294,9 +295,9 @@ namespace meltfront::particles::level_set
           double cosine = 0;
           for(int d = 0; d < dim; ++d)
             cosine += normal[d] * cloud.normal[d][p];
-          if(cosine > parameters.alignment
-             && std::abs(cloud.candidate[p] - candidate) < parameters.window)
-            cloud.move(p, kept++);
+          const bool close = std::abs(cloud.candidate[p] - candidate) < parameters.window;
+          cloud.move(p, kept);
+          kept += close & (cosine > parameters.alignment);
         }
         cloud.size = kept;
       }

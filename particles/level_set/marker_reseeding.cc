@@ -218,10 +218,9 @@ namespace meltfront::particles::level_set
       for(std::size_t p = cells.first(cell); p < cells.first(cell + 1); ++p)
       {
         const double distance = markers.distance[p];
-        const double value
-            = interpolate(grid, phi.data(), grid.locate(markers.point(p)));
-        const bool trusted = knows_distance ? std::abs(distance) <= near
-                                            : value * distance < 0;
+        const double value = interpolate(grid, phi.data(), grid.locate(markers.point(p)));
+        const bool trusted
+            = knows_distance ? std::abs(distance) <= near : value * distance < 0;
         if(std::abs(distance) <= far && (trusted || std::abs(value) <= far))
           of_cell.push_back(static_cast<std::uint32_t>(p));
       }

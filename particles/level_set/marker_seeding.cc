@@ -92,6 +92,36 @@ namespace meltfront::particles::level_set
       return normal;
     }
 
+    /** Markers believe what the function says: it must rise by a metre per metre. */
+    void require_distance(const Grid &grid, const DistanceFunction &distance,
+                          const Markers &markers)
+    {
+      constexpr double tolerance = 0.1;
+      const double step = 1e-4 * grid.spacing();
+      std::size_t wrong = 0;
+      double slope = 1;
+      for(std::size_t p = 0; p < markers.size(); ++p)
+      {
+        Position low = markers.point(p), high = low;
+        for(int d = 0; d < grid.dimension(); ++d)
+        {
+          low[d] -= step * markers.normal[d][p];
+          high[d] += step * markers.normal[d][p];
+        }
+        const double here = (distance(high) - distance(low)) / (2 * step);
+        if(std::abs(here - 1) <= tolerance)
+          continue;
+        ++wrong;
+        slope = here;
+      }
+      // a few lie on ridges, as next to corners
+      if(wrong > markers.size() / 2)
+        throw cases::InputError(fmt::format(
+            "markers need the distance from the front, whose slope is 1: the function "
+            "given has slopes like {:.3g} next to it",
+            slope));
+    }
+
     /** Cells of the grid and the layer around it, by key. */
     template <class Function>
     void for_each_cell(const Grid &grid, int beyond, const Function &function)
@@ -104,8 +134,8 @@ namespace meltfront::particles::level_set
     }
 
     /** Cells that a front may be near enough to: by the distance at their corners. */
-    std::vector<std::uint32_t>
-    cells_near(const Grid &grid, const DistanceFunction &distance, double band)
+    std::vector<std::uint32_t> cells_near(const Grid &grid,
+                                          const DistanceFunction &distance, double band)
     {
       std::vector<double> at_node(grid.size());
       for_each_cell(grid, 1,
@@ -173,11 +203,12 @@ namespace meltfront::particles::level_set
     Markers markers;
     markers.dimension = grid.dimension();
     std::uint32_t births = 0;
-    const std::vector<std::uint32_t> keys
-        = cells_near(grid, distance, parameters.band);
+    const std::vector<std::uint32_t> keys = cells_near(grid, distance, parameters.band);
     const std::vector<std::uint32_t> how_many(
         keys.size(), static_cast<std::uint32_t>(parameters.per_cell));
     seed_in_cells(grid, distance, parameters, keys, how_many, 0, markers, births);
+    if(markers.with_normals())
+      require_distance(grid, distance, markers);
     return markers;
   }
 } // namespace meltfront::particles::level_set

@@ -40,14 +40,6 @@ namespace meltfront::particles::level_set
     }
   } // namespace
 
-  Position Markers::point(const std::size_t marker) const
-  {
-    Position result{};
-    for(int i = 0; i < dimension; ++i)
-      result[i] = position[i][marker];
-    return result;
-  }
-
   void Markers::add(const Position &point, const double its_distance,
                     const Position &its_normal, const bool keep_normal,
                     const std::uint32_t born)

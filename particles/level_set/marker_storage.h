@@ -36,7 +36,11 @@ namespace meltfront::particles::level_set
       return !normal[0].empty();
     }
 
-    Position point(std::size_t marker) const;
+    Position point(std::size_t marker) const
+    {
+      return {position[0][marker], position[1][marker],
+              dimension == 3 ? position[2][marker] : 0};
+    }
 
     /** Add one; the normal only counts if normals are kept. */
     void add(const Position &point, double distance, const Position &normal,

@@ -175,12 +175,27 @@ namespace meltfront::particles::level_set
     }
 
     /** Random markers whose distances are any function's; the grid holds zero. */
-    Markers strewn(const Grid &grid, const DistanceFunction &function, int per_cell)
+    Markers strewn(const Grid &grid, const DistanceFunction &function,
+                   std::uint32_t per_cell)
     {
       SeedingParameters seeding;
       seeding.per_cell = per_cell;
-      Markers markers = seed_markers(
-          grid, [](const Position &) { return 0.; }, seeding);
+      std::vector<std::uint32_t> keys;
+      for(std::size_t node = 0; node < grid.size(); ++node)
+      {
+        const std::array<int, 3> cell = grid.indices(node);
+        bool inside = true;
+        for(int d = 0; d < grid.dimension(); ++d)
+          inside = inside && cell[d] >= -1 && cell[d] <= grid.cells(d);
+        if(inside)
+          keys.push_back(static_cast<std::uint32_t>(node));
+      }
+      Markers markers;
+      markers.dimension = grid.dimension();
+      std::uint32_t births = 0;
+      seed_in_cells(
+          grid, [](const Position &) { return 0.; }, seeding, keys,
+          std::vector<std::uint32_t>(keys.size(), per_cell), 0, markers, births);
       for(std::size_t p = 0; p < markers.size(); ++p)
         markers.distance[p] = function(markers.point(p));
       return markers;

@@ -145,6 +145,8 @@ namespace meltfront::particles::level_set
       parameters = {};
       parameters.nearest = 2;
       EXPECT_THROW(seed_markers(grid, circle, parameters), cases::InputError);
+      const auto steep = [](const Position &p) { return 3 * circle(p); };
+      EXPECT_THROW(seed_markers(grid, steep, SeedingParameters{}), cases::InputError);
       const auto wild = [](const Position &p)
       { return p[0] > 0.5 ? std::numeric_limits<double>::quiet_NaN() : 1; };
       EXPECT_THROW(seed_markers(grid, wild, SeedingParameters{}), cases::InputError);
