@@ -155,32 +155,36 @@ namespace meltfront::particles::front_tracking
     }
   }
 
-  EndSlopes LineCollocation::solve(const LineInterval &interval, const StepTerms &terms,
-                                   std::span<double> temperature)
+  void LineCollocation::make_rows(const LineInterval &interval, const StepTerms &terms)
   {
-    gather(interval);
     const std::size_t points = cloud.size();
-    const double melting = problem.material.melting_temperature;
-    if(points < 2)
-      throw cases::InputError("rkpm-tracked: a phase needs two points at least");
     right_side.resize(points);
-    std::size_t below = 0, above = 0;
     for(std::size_t p = 0; p < points; ++p)
     {
       const LineStencil &row = stencil(p);
-      below = std::max(below, p - std::min(p, row.first));
-      above = std::max(above, row.end() - 1 - std::min(row.end() - 1, p));
       const bool lower_end = p == 0, upper_end = p + 1 == points;
       if((lower_end && interval.lower_front) || (upper_end && interval.upper_front))
       {
         coefficients[p].assign(row.size(), 0.);
         coefficients[p][p - row.first] = 1;
-        right_side[p] = melting;
+        right_side[p] = problem.material.melting_temperature;
       }
       else if(lower_end || upper_end)
         add_wall_row(p, upper_end ? 1 : 0, interval, terms.time);
       else
         add_row(p, interval, terms);
+      entries += static_cast<long>(row.size());
+    }
+  }
+
+  void LineCollocation::fill_matrix()
+  {
+    const std::size_t points = cloud.size();
+    std::size_t below = 0, above = 0;
+    for(std::size_t p = 0; p < points; ++p)
+    {
+      below = std::max(below, p - std::min(p, rows[p].first));
+      above = std::max(above, rows[p].end() - 1 - std::min(rows[p].end() - 1, p));
     }
     matrix.reset(points, below, above);
     for(std::size_t p = 0; p < points; ++p)
@@ -192,8 +196,17 @@ namespace meltfront::particles::front_tracking
       for(std::size_t j = 0; j < rows[p].size(); ++j)
         matrix(p, rows[p].first + j) = coefficients[p][j] / largest;
       right_side[p] /= largest;
-      entries += static_cast<long>(rows[p].size());
     }
+  }
+
+  EndSlopes LineCollocation::solve(const LineInterval &interval, const StepTerms &terms,
+                                   std::span<double> temperature)
+  {
+    gather(interval);
+    if(cloud.size() < 2)
+      throw cases::InputError("rkpm-tracked: a phase needs two points at least");
+    make_rows(interval, terms);
+    fill_matrix();
     if(!matrix.solve(right_side))
       throw cases::InputError("rkpm-tracked: the equations of a phase are singular");
     for(std::size_t i = first; i < end; ++i)

@@ -68,6 +68,8 @@ namespace meltfront::particles::front_tracking
     void add_row(std::size_t point, const LineInterval &interval, const StepTerms &terms);
     void add_wall_row(std::size_t point, int side, const LineInterval &interval,
                       double time);
+    void make_rows(const LineInterval &interval, const StepTerms &terms);
+    void fill_matrix();
     void interpolate_absorbed(const LineInterval &interval,
                               std::span<double> temperature) const;
     EndSlopes end_slopes() const;

@@ -1,7 +1,6 @@
 #include <particles/front_tracking/line_history.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace meltfront::particles::front_tracking
@@ -11,7 +10,6 @@ namespace meltfront::particles::front_tracking
     /** Nodes nearer to a front than this, over the spacing, do not shape its extension:
      * their weights would be large. */
     constexpr double least_distance = 0.3;
-    constexpr std::size_t highest_degree = 4;
   } // namespace
 
   std::vector<double> differentiation_weights(std::span<const double> times)
@@ -75,54 +73,51 @@ namespace meltfront::particles::front_tracking
     return extension(state, interval(problem, state, number), place);
   }
 
-  double LineHistory::extension(const LineState &state, const LineInterval &interval,
-                                double place) const
+  LineHistory::Support LineHistory::support(const LineState &state,
+                                            const LineInterval &interval,
+                                            bool below) const
   {
     const std::vector<double> &x = problem.nodes;
     const double melting = problem.material.melting_temperature;
-    const bool below = place < interval.lower;
+    const double apart = least_distance * problem.spacing;
     const double front = below ? interval.lower : interval.upper;
     const double far_end = below ? interval.upper : interval.lower;
     const bool far_front = below ? interval.upper_front : interval.lower_front;
-    std::array<double, highest_degree + 1> at{}, value{};
-    std::size_t count = 0;
-    at[count] = front;
-    value[count++] = melting;
-    const double apart = least_distance * problem.spacing;
-    // From the front into the phase; a wall's node counts at any distance if it is the
-    // only one.
-    const auto begin = std::lower_bound(x.begin(), x.end(), interval.lower);
-    const auto end = std::upper_bound(begin, x.end(), interval.upper);
+    Support result;
+    result.add(front, melting);
     const auto offer = [&](std::size_t node)
     {
-      const bool last_chance = count == 1 && !far_front && x[node] == far_end;
       const bool clear = std::abs(x[node] - front) > apart
                          && (!far_front || std::abs(x[node] - far_end) > apart);
-      if(count <= degree && (clear || last_chance) && x[node] != front)
-      {
-        at[count] = x[node];
-        value[count++] = state.temperature[node];
-      }
+      // A wall's node counts at any distance if it is the only one.
+      const bool last_chance = result.count == 1 && !far_front && x[node] == far_end;
+      if(result.count <= degree && (clear || last_chance) && x[node] != front)
+        result.add(x[node], state.temperature[node]);
     };
-    if(below)
-      for(auto node = begin; node != end && count <= degree; ++node)
-        offer(static_cast<std::size_t>(node - x.begin()));
-    else
-      for(auto node = end; node != begin && count <= degree;)
-        offer(static_cast<std::size_t>(--node - x.begin()));
-    if(count <= degree && far_front && std::abs(far_end - front) > apart)
-    {
-      at[count] = far_end;
-      value[count++] = melting;
-    }
+    const auto first = static_cast<std::size_t>(
+        std::lower_bound(x.begin(), x.end(), interval.lower) - x.begin());
+    const auto end = static_cast<std::size_t>(
+        std::upper_bound(x.begin(), x.end(), interval.upper) - x.begin());
+    for(std::size_t i = 0; i < end - first && result.count <= degree; ++i)
+      offer(below ? first + i : end - 1 - i);
+    if(result.count <= degree && far_front && std::abs(far_end - front) > apart)
+      result.add(far_end, melting);
+    return result;
+  }
+
+  double LineHistory::extension(const LineState &state, const LineInterval &interval,
+                                double place) const
+  {
+    const double melting = problem.material.melting_temperature;
+    const Support points = support(state, interval, place < interval.lower);
     double sum = 0;
-    for(std::size_t i = 0; i < count; ++i)
+    for(std::size_t i = 0; i < points.count; ++i)
     {
       double weight = 1;
-      for(std::size_t j = 0; j < count; ++j)
+      for(std::size_t j = 0; j < points.count; ++j)
         if(j != i)
-          weight *= (place - at[j]) / (at[i] - at[j]);
-      sum += weight * (value[i] - melting);
+          weight *= (place - points.place[j]) / (points.place[i] - points.place[j]);
+      sum += weight * (points.value[i] - melting);
     }
     return melting + sum;
   }

@@ -3,6 +3,7 @@
 
 #include <particles/front_tracking/line_collocation.h>
 
+#include <array>
 #include <deque>
 #include <vector>
 
@@ -68,6 +69,22 @@ namespace meltfront::particles::front_tracking
     double temperature(std::size_t level, std::size_t node, std::size_t interval) const;
 
   private:
+    /** Points that an extension goes through: a front, then nodes into the phase. */
+    struct Support
+    {
+      static constexpr std::size_t most = 5;
+      std::array<double, most> place{}, value{};
+      std::size_t count = 0;
+
+      void add(double x, double y)
+      {
+        place[count] = x;
+        value[count++] = y;
+      }
+    };
+
+    Support support(const LineState &state, const LineInterval &interval,
+                    bool below) const;
     double extension(const LineState &state, const LineInterval &interval,
                      double place) const;
 
