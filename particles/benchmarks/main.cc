@@ -2,8 +2,10 @@
 // machine, as one table.
 
 #include <particles/benchmarks/benchmarks.h>
+#include <particles/benchmarks/lammps.h>
 #include <particles/benchmarks/table.h>
 
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -28,5 +30,10 @@ int main(int argc, char **argv)
   register_marker_benchmarks();
   register_run_benchmarks();
   Table table;
-  return benchmark::RunSpecifiedBenchmarks(&table) > 0 ? 0 : 2;
+  if(benchmark::RunSpecifiedBenchmarks(&table) == 0)
+    return 2;
+  // Whoever chooses benchmarks does not ask for it.
+  if(argc == 1)
+    compare_with_lammps(std::cout);
+  return 0;
 }

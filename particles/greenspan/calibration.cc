@@ -262,7 +262,8 @@ namespace meltfront::particles::greenspan
     CalibrationSettings settings = quick(force);
     settings.solid_excess = {-12, -8, -4, -1};
     settings.liquid_excess = {1, 5, 10, 15};
-    settings.solid_conduction = {-8, -4};
+    settings.liquid_conduction = {8, 12};
+    settings.rows = 24;
     settings.bulk_side = 24;
     settings.slab_columns = 128;
     settings.bar_columns = 96;

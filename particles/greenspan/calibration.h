@@ -19,21 +19,21 @@ namespace meltfront::particles::greenspan
     /** Temperatures at which phases are held, relative to the guess. */
     std::vector<double> solid_excess{-8, -1}, liquid_excess{2, 8, 15};
     /** Temperatures in the middle of two baths, relative to the guess. */
-    std::vector<double> solid_conduction{-4}, liquid_conduction{5, 12};
-    double half_difference = 4; ///< between a bath and the middle
+    std::vector<double> solid_conduction{-8}, liquid_conduction{8};
+    double half_difference = 7; ///< between a bath and the middle
     int bulk_side = 16;         ///< columns and rows of a phase
-    int slab_columns = 64;      ///< between baths
+    int slab_columns = 48;      ///< between baths
     int rows = 12;              ///< of slabs between baths and of bars
     int bar_columns = 64;       ///< of the bar of which half is molten
     double time_step = 4e-4;
     double bulk_time = 12;       ///< of averages of a phase
-    double conduction_time = 40; ///< of averages between baths
+    double conduction_time = 50; ///< of averages between baths
     double coexistence_time = 20;
     int members = 3; ///< seeds
     std::uint64_t first_seed = 1;
     int threads = 1; ///< seeds run side by side
 
-    /** About a minute on two cores: conductivities within some 10 %. */
+    /** About a minute on two cores: conductivities within 5 to 10 %. */
     static CalibrationSettings quick(const PairForce &force);
 
     /** Ten times that: larger, longer, more seeds. */

@@ -75,14 +75,12 @@ namespace meltfront::particles::greenspan
       result.largest_front = std::max(result.largest_front, share);
     }
     result.heating = (bar.particles().energy().total() - energy) / n;
-    if(result.least_front < least_share || result.largest_front > 1 - least_share)
+    if(!(result.front > least_share && result.front < 1 - least_share))
       throw cases::NumericalError(
           "greenspan", bar.particles().step(), time, "the molten share of a bar",
-          fmt::format(
-              "ranges from {:.2f} to {:.2f} where both phases should last; a guess "
-              "of the melting temperature nearer to it than {} is needed, or a "
-              "longer bar",
-              result.least_front, result.largest_front, settings.guess));
+          fmt::format("is {:.2f} where both phases should last; a guess of the melting "
+                      "temperature nearer to it than {} is needed, or a longer bar",
+                      result.front, settings.guess));
     return result;
   }
 } // namespace meltfront::particles::greenspan
