@@ -41,7 +41,7 @@ namespace meltfront::particles
          "Mitchell 2002)."},
         {Scheme::corrected, "level-set-particle-corrected",
          "The same with markers' values signed by the side on which a node lies (after "
-         "Wang, Yang, Stern 2012, as far as it is known)."},
+         "Wang, Yang, Stern 2009, as far as it is known)."},
         {Scheme::interpolative, "level-set-interpolative",
          "A level set that all markers correct by fits of the distances that they carry "
          "(Erickson et al. 2016)."}};
@@ -78,7 +78,8 @@ namespace meltfront::particles
            "rigid).",
            {},
            {},
-           {"none", "grid", "midpoint"}},
+           fits ? std::vector<std::string>{"none", "grid", "midpoint"}
+                : std::vector<std::string>{"none", "grid"}},
           {"reseed_every", "1", 20L, "Steps from one reseeding to the next.", 1, 1e6},
           {"offset_x", "1", 0.,
            "By how many spacings the grid's front lies off at the start, which the "
