@@ -246,7 +246,7 @@ namespace meltfront::verification
   {
     const std::string html = page_of(solids(4));
     for(const char *absent :
-        {"Convergence", "Exact solution", "Work-precision", "phase_change",
+        {"Convergence", "Exact solution", "Work-precision", "phase change",
          "wall temperature", "Stefan condition", "budget"})
       EXPECT_EQ(html.find(absent), std::string::npos) << absent;
     for(const char *present :
