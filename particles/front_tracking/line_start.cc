@@ -93,16 +93,19 @@ namespace meltfront::particles::front_tracking
       return fronts;
     }
 
+    /** Share of the time since an exact solution began that its history may take; less
+     * where its front has just set out, with steps that are short beside its age. */
+    constexpr double longest_exact_history = 0.5, longest_similarity_history = 0.2;
+
     /** States before a time, on an exact solution that began at `begin`. */
     template <typename StateAt>
     std::vector<LineState> older_states(const StateAt &state_at, double time,
-                                        double begin, double step, TimeScheme scheme)
+                                        double begin, double step, TimeScheme scheme,
+                                        double longest_history)
     {
-      // Neither a state before the front set out nor one much nearer to that.
-      constexpr double closest = 0.5;
       const int wanted = static_cast<int>(scheme) - 1;
       if(wanted > 0)
-        step = std::min(step, closest * (time - begin) / wanted);
+        step = std::min(step, longest_history * (time - begin) / wanted);
       std::vector<LineState> result;
       for(int k = 1; k <= wanted; ++k)
         result.push_back(state_at(time - k * step));
@@ -189,9 +192,9 @@ namespace meltfront::particles::front_tracking
     {
       const double begin = exact->start_time();
       if(time > begin)
-        start.older = older_states([&](double t)
-                                   { return exact_state(*exact, problem, t, false); },
-                                   time, begin, step, parameters.scheme);
+        start.older = older_states(
+            [&](double t) { return exact_state(*exact, problem, t, false); }, time, begin,
+            step, parameters.scheme, longest_exact_history);
       start.state = initial;
       start.how = "the exact solution and its history";
       return start;
@@ -205,7 +208,8 @@ namespace meltfront::particles::front_tracking
           continue;
         start.state = similar.state(since);
         start.older = older_states([&](double t) { return similar.state(t - time); },
-                                   time + since, time, step, parameters.scheme);
+                                   time + since, time, step, parameters.scheme,
+                                   longest_similarity_history);
         start.how
             = fmt::format("the similarity solution of a layer of {:g} spacings", layer);
         return start;

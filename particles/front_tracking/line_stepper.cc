@@ -13,11 +13,14 @@ namespace meltfront::particles::front_tracking
     /** Steps of backward differentiation of order 2 and 3 may grow so fast and stay
      * stable (limits: 2.41, 1.53). */
     constexpr double growth_of_order[] = {2., 2., 1.5};
-    /** A layer thinner than a spacing thickens by no more than this in a step. */
-    constexpr double layer_growth = 0.25;
+    /** A layer thinner than some spacings thickens by no more than this in a step, in
+     * which time its age grows by twice as much. */
+    constexpr double layer_growth = 0.1;
+    constexpr double thin_layer = 5;
     /** Events are found to this share of the temperature's span. */
     constexpr double event_tolerance = 1e-5;
     constexpr double least_excess = 1e-9;
+    constexpr double largest_excess = 1e-2;
     constexpr long most_events = 10000;
     /** Phases beyond the melting temperature by more than this share of the span are
      * spoken of; walls see to themselves. */
@@ -37,6 +40,7 @@ namespace meltfront::particles::front_tracking
     , note(std::move(note))
     , next_step(rules.first_step)
     , growth(growth_of_order[settings.time_order - 1])
+    , wanted{least_excess * rules.temperature_span, least_excess * rules.temperature_span}
   {
   }
 
@@ -61,7 +65,7 @@ namespace meltfront::particles::front_tracking
   {
     for(std::size_t side = 0; side < 2 && !problem.metastable; ++side)
       if(!(side == 0 && problem.axis)
-         && wall_excess(problem, state(), side) > least_excess * rules.temperature_span)
+         && wall_excess(problem, state(), side) > wanted[side])
         insert(side);
   }
 
@@ -88,6 +92,12 @@ namespace meltfront::particles::front_tracking
   void LineStepper::remove(std::size_t number)
   {
     LineState changed = state();
+    // A layer that does not hold comes back only when the wall is farther beyond the
+    // melting temperature: it may have appeared by an error of the scheme's.
+    for(const std::size_t side : {0, 1})
+      if(number == (side == 0 ? 0 : changed.fronts.size()))
+        wanted[side]
+            = std::min(10 * wanted[side], largest_excess * rules.temperature_span);
     const Vanished gone = remove_interval(problem, changed, number);
     note(changed.time,
          fmt::format("{} {} at {:.6g} m; {:.3g} J/m^2 of latent and {:.3g} J/m^2 of "
@@ -114,9 +124,9 @@ namespace meltfront::particles::front_tracking
     {
       const double below = now.fronts.front() - problem.nodes.front();
       const double above = problem.nodes.back() - now.fronts.back();
-      if(below < problem.spacing)
+      if(below < thin_layer * problem.spacing)
         allow(layer_growth * below, now.speed.front());
-      if(above < problem.spacing)
+      if(above < thin_layer * problem.spacing)
         allow(layer_growth * above, -now.speed.back());
     }
     constexpr double round_off = 1e-9;
@@ -151,10 +161,10 @@ namespace meltfront::particles::front_tracking
     const double tolerance = event_tolerance * rules.temperature_span;
     for(std::size_t side = problem.axis ? 1 : 0; side < 2; ++side)
     {
-      const double now = wall_excess(problem, state(), side);
-      if(now <= least_excess * rules.temperature_span)
+      const double now = wall_excess(problem, state(), side) - wanted[side];
+      if(now <= 0)
         continue;
-      const double earlier = wall_excess(problem, before.front(), side);
+      const double earlier = wall_excess(problem, before.front(), side) - wanted[side];
       const bool late = now > tolerance && time_step > rules.shortest_step;
       if(late && -earlier > tolerance)
       {

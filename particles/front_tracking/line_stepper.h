@@ -81,8 +81,9 @@ namespace meltfront::particles::front_tracking
     LineSolver solver;
     StepRules rules;
     Note note;
-    double next_step; ///< the longest that may come next (s)
-    double growth;    ///< of steps from one to the next
+    double next_step;             ///< the longest that may come next (s)
+    double growth;                ///< of steps from one to the next
+    std::array<double, 2> wanted; ///< excess at which a layer appears at a wall (K)
     long kept = 0;
     long shortened_steps = 0;
     long events = 0;
