@@ -120,20 +120,20 @@ namespace meltfront::particles::greenspan
     {
       BarSettings settings = small_bar();
       settings.columns = 50;
-      settings.equilibration = 0.2;
+      settings.equilibration = 0.04;
       std::vector<ParticleState> states;
       for(const int threads : {1, 2, 3})
       {
         settings.threads = threads;
         Bar bar(settings);
-        bar.advance_to(0.3);
+        bar.advance_to(0.06);
         states.push_back(bar.particles().state());
         EXPECT_EQ(states.back().position, states.front().position) << threads;
         EXPECT_EQ(states.back().velocity, states.front().velocity) << threads;
       }
       BarSchedule schedule;
-      schedule.duration = 0.3;
-      schedule.interval = 0.1;
+      schedule.duration = 0.06;
+      schedule.interval = 0.02;
       settings.threads = 1;
       const auto one = run_bars(settings, schedule, 3, 5, 1);
       const auto two = run_bars(settings, schedule, 3, 5, 2);
