@@ -17,6 +17,9 @@ namespace meltfront::particles::greenspan
     /** Between the order of solids near their melting point (0.74) and liquids (0). */
     constexpr double middle_order = 0.37;
 
+    /** Columns on each side of the front that count for its place. */
+    constexpr int window_columns = 20;
+
     /** The cold bath has no other end. */
     constexpr double far_away = 1e6;
 
@@ -125,11 +128,11 @@ namespace meltfront::particles::greenspan
   void BarSettings::validate() const
   {
     if(rows < 4 || rows % 2 != 0 || columns < 10 || piston_columns < 1
-       || piston_columns > columns / 2)
+       || piston_columns > columns / 6)
       throw cases::InputError(fmt::format(
           "a bar of {} columns and {} rows with a piston of {} columns is asked for; it "
           "needs ten columns or more, four rows or more, rows in pairs, and a piston of "
-          "half its columns at most",
+          "a sixth of its columns at most",
           columns, rows, piston_columns));
     const double length = columns * greenspan::spacing(*this);
     if(!(hot_length > 0 && cold_length > 0 && hot_length + cold_length < length))
@@ -175,7 +178,13 @@ namespace meltfront::particles::greenspan
       in_sequence.push_back(order[i]);
       result.edge += state.position[0][i] < given.hot_length ? 1 / width() : 0;
     }
-    result.front = static_cast<double>(order_step(in_sequence, middle_order)) / width();
+    // The piston's columns are disordered by their load.
+    const std::size_t solid
+        = in_sequence.size()
+          - static_cast<std::size_t>(3 * given.piston_columns * given.rows);
+    result.front = dividing_surface({in_sequence.data(), solid}, middle_order,
+                                    static_cast<std::size_t>(window_columns * given.rows))
+                   / width();
     result.time = static_cast<double>(motion.step() - first_step) * given.time_step;
     if(motion.zone_heat().size() == 2)
     {
@@ -192,7 +201,7 @@ namespace meltfront::particles::greenspan
     return result;
   }
 
-  std::size_t order_step(const std::vector<double> &order, double middle)
+  std::size_t order_step(std::span<const double> order, double middle)
   {
     double sum = 0, best = 0;
     std::size_t step = 0;
@@ -206,6 +215,24 @@ namespace meltfront::particles::greenspan
       }
     }
     return step;
+  }
+
+  double dividing_surface(std::span<const double> order, double middle,
+                          std::size_t window)
+  {
+    const std::size_t step = order_step(order, middle);
+    const std::size_t begin = step - std::min(step, window);
+    const std::size_t end = std::min(order.size(), step + window);
+    const std::size_t last = std::min(order.size(), end + 4 * window);
+    const double of_solid
+        = last > end + window / 2
+              ? std::accumulate(order.begin() + end, order.begin() + last, 0.)
+                    / static_cast<double>(last - end)
+              : 2 * middle;
+    double molten = static_cast<double>(begin);
+    for(std::size_t k = begin; k < end; ++k)
+      molten += 1 - order[k] / of_solid;
+    return molten;
   }
 
   std::vector<BarLook> run_bar(const BarSettings &settings, const BarSchedule &schedule,

@@ -5,6 +5,7 @@
 #include <particles/greenspan/motion.h>
 
 #include <functional>
+#include <span>
 
 namespace meltfront::particles::greenspan
 {
@@ -115,7 +116,20 @@ namespace meltfront::particles::greenspan
    * @param order in the sequence of x
    * @param middle of the two values
    */
-  std::size_t order_step(const std::vector<double> &order, double middle);
+  std::size_t order_step(std::span<const double> order, double middle);
+
+  /**
+   * The same as a dividing surface (Gibbs): within a window about the step the order that
+   * lacks to that of the solid behind it counts as molten, 1 - q / q_s, so that grains on
+   * the wrong side count with their size and do not move the whole step.
+   * @param order in the sequence of x
+   * @param middle of the orders of solid and liquid
+   * @param window particles to each side of the step; the four windows behind it are the
+   *   solid
+   * @return number of molten particles
+   */
+  double dividing_surface(std::span<const double> order, double middle,
+                          std::size_t window);
 
   /** What is looked at in a run. */
   struct BarSchedule

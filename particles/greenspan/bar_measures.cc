@@ -111,24 +111,26 @@ namespace meltfront::particles::greenspan
     return result;
   }
 
-  std::vector<BarLook> mean_looks(const std::vector<std::vector<BarLook>> &runs)
+  std::vector<BarLook> mean_looks(const std::vector<std::vector<BarLook>> &runs,
+                                  std::size_t block)
   {
-    std::vector<BarLook> result;
-    if(runs.empty())
-      return result;
+    if(runs.empty() || block == 0)
+      throw cases::InputError("means of bars need one run and one look at least");
     std::size_t count = runs[0].size();
     for(const auto &run : runs)
       count = std::min(count, run.size());
-    for(std::size_t k = 0; k < count; ++k)
+    std::vector<BarLook> result;
+    for(std::size_t first = 0; first + block <= count; first += block)
     {
       BarLook mean;
-      mean.time = runs[0][k].time;
       double square = 0;
-      for(const auto &run : runs)
+      for(std::size_t k = first; k < first + block; ++k)
       {
-        const double molten = run[k].molten();
-        square += molten * std::abs(molten) / static_cast<double>(runs.size());
+        mean.time += runs[0][k].time / static_cast<double>(block);
+        for(const auto &run : runs)
+          square += run[k].molten() * std::abs(run[k].molten());
       }
+      square /= static_cast<double>(runs.size() * block);
       mean.front = std::copysign(std::sqrt(std::abs(square)), square);
       result.push_back(mean);
     }

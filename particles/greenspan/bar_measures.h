@@ -47,8 +47,13 @@ namespace meltfront::particles::greenspan
   BarTemperatures bar_temperatures(std::span<const BarLook> looks, double least,
                                    double hot_temperature);
 
-  /** Looks at the same times, averaged over runs: squares of the molten mass. */
-  std::vector<BarLook> mean_looks(const std::vector<std::vector<BarLook>> &runs);
+  /**
+   * Looks at the same times, averaged over runs: squares of the molten mass, without edge
+   * and layers.
+   * @param block so many looks in turn are averaged, too; what is left over is dropped
+   */
+  std::vector<BarLook> mean_looks(const std::vector<std::vector<BarLook>> &runs,
+                                  std::size_t block = 1);
 } // namespace meltfront::particles::greenspan
 
 #endif

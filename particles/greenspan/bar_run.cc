@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 namespace meltfront::particles::greenspan
 {
@@ -16,8 +17,29 @@ namespace meltfront::particles::greenspan
     /** By how much the bar's length may differ from the slab's, relative. */
     constexpr double length_tolerance = 0.03;
 
-    /** Time between looks at the bar. */
-    constexpr double look_interval = 0.2;
+    /** Time between looks at the bar, and over which they are averaged: the front
+     * fluctuates by several spacings from one to the next. */
+    constexpr double look_interval = 0.2, average_time = 5;
+
+    /** The mean of looks: squares of the molten mass, temperatures of layers. */
+    BarLook mean_of(const std::deque<BarLook> &looks)
+    {
+      BarLook mean = looks.back();
+      const double share = 1. / static_cast<double>(looks.size());
+      double square = 0, edge = 0;
+      for(BarLayer &layer : mean.layers)
+        layer.temperature = 0;
+      for(const BarLook &look : looks)
+      {
+        square += share * look.molten() * std::abs(look.molten());
+        edge += share * look.edge;
+        for(std::size_t i = 0; i < mean.layers.size(); ++i)
+          mean.layers[i].temperature += share * look.layers[i].temperature;
+      }
+      mean.edge = edge;
+      mean.front = edge + std::sqrt(std::max(0., square));
+      return mean;
+    }
 
     double wall_temperature(const cases::Scene &scene, const cases::Side side)
     {
@@ -142,6 +164,7 @@ namespace meltfront::particles::greenspan
       add("pressure", settings.pressure);
       add("length of the hot bath", settings.hot_length);
       add("length of the cold bath", settings.cold_length);
+      add("time over which front and temperatures are averaged", average_time);
       return result;
     }
   } // namespace
@@ -165,6 +188,7 @@ namespace meltfront::particles::greenspan
     const auto looks = static_cast<long>(std::ceil(duration / look_interval));
     const double time_step = bar.settings().time_step;
     cases::Cost cost;
+    std::deque<BarLook> recent;
     for(long look = 0; look <= looks; ++look)
     {
       const double time = duration * static_cast<double>(look) / looks;
@@ -173,10 +197,13 @@ namespace meltfront::particles::greenspan
       watch.without(
           [&]
           {
+            recent.push_back(bar.look());
+            if(static_cast<double>(recent.size()) * look_interval > average_time)
+              recent.pop_front();
             if(look != 0 && look != looks
                && !observer.wants(cost.steps, scene.start_time + time))
               return;
-            BarLook seen = bar.look();
+            BarLook seen = mean_of(recent);
             seen.time = time;
             show(seen, cost.steps);
           });

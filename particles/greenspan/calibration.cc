@@ -97,7 +97,8 @@ namespace meltfront::particles::greenspan
         }
       }
 
-      /** Coefficients about a temperature, of that degree at most. */
+      /** Coefficients about a temperature, of that degree at most and with a value to
+       * spare where there are more than two. */
       static std::vector<double> fit(const std::vector<BulkProperties> &states,
                                      double BulkProperties::*property, double temperature,
                                      int degree)
@@ -108,8 +109,8 @@ namespace meltfront::particles::greenspan
           x.push_back(state.temperature - temperature);
           y.push_back(state.*property);
         }
-        auto result
-            = fit_polynomial(x, y, std::min(degree, static_cast<int>(x.size()) - 1));
+        auto result = fit_polynomial(
+            x, y, std::min(degree, std::max(1, static_cast<int>(x.size()) - 2)));
         result.resize(degree + 1, 0);
         return result;
       }

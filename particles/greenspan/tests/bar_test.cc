@@ -24,12 +24,14 @@ namespace meltfront::particles::greenspan
 
     TEST(GreenspanBar, StepOfOrderIsTheBestOne)
     {
-      EXPECT_EQ(order_step({0, 0.1, 0, 0.9, 0.8, 1}, 0.4), 3u);
-      EXPECT_EQ(order_step({1, 1, 1}, 0.4), 0u);
-      EXPECT_EQ(order_step({0, 0, 0}, 0.4), 3u);
-      EXPECT_EQ(order_step({0, 1, 0, 0, 1, 1, 0, 1}, 0.4),
+      const auto step
+          = [](const std::vector<double> &order) { return order_step(order, 0.4); };
+      EXPECT_EQ(step({0, 0.1, 0, 0.9, 0.8, 1}), 3u);
+      EXPECT_EQ(step({1, 1, 1}), 0u);
+      EXPECT_EQ(step({0, 0, 0}), 3u);
+      EXPECT_EQ(step({0, 1, 0, 0, 1, 1, 0, 1}),
                 4u); // one disturbed on each side
-      EXPECT_EQ(order_step({}, 0.4), 0u);
+      EXPECT_EQ(step({}), 0u);
     }
 
     TEST(GreenspanBar, FitsAreExactForASquareRoot)
@@ -118,20 +120,20 @@ namespace meltfront::particles::greenspan
     {
       BarSettings settings = small_bar();
       settings.columns = 50;
-      settings.equilibration = 0.2;
+      settings.equilibration = 0.04;
       std::vector<ParticleState> states;
       for(const int threads : {1, 2, 3})
       {
         settings.threads = threads;
         Bar bar(settings);
-        bar.advance_to(0.3);
+        bar.advance_to(0.06);
         states.push_back(bar.particles().state());
         EXPECT_EQ(states.back().position, states.front().position) << threads;
         EXPECT_EQ(states.back().velocity, states.front().velocity) << threads;
       }
       BarSchedule schedule;
-      schedule.duration = 0.3;
-      schedule.interval = 0.1;
+      schedule.duration = 0.06;
+      schedule.interval = 0.02;
       settings.threads = 1;
       const auto one = run_bars(settings, schedule, 3, 5, 1);
       const auto two = run_bars(settings, schedule, 3, 5, 2);
@@ -143,20 +145,47 @@ namespace meltfront::particles::greenspan
       EXPECT_NE(one[0].back().enthalpy, one[1].back().enthalpy);
     }
 
-    TEST(GreenspanBar, SquareOfTheFrontIsLinearInTime)
+    TEST(GreenspanBar, DividingSurfaceCountsWhatIsMolten)
     {
+      std::vector<double> order(1000, 0.8);
+      std::fill(order.begin(), order.begin() + 300, 0);
+      EXPECT_NEAR(dividing_surface(order, 0.4, 50), 300, 1e-10);
+      for(std::size_t k = 310; k < 320; ++k)
+        order[k] = 0.4; // ten half molten ones
+      EXPECT_NEAR(dividing_surface(order, 0.4, 50), 305, 1e-10);
+      for(std::size_t k = 200; k < 240; ++k)
+        order[k] = 0.8; // a grain far in the melt
+      EXPECT_NEAR(dividing_surface(order, 0.4, 50), 305, 1e-10);
+      EXPECT_NEAR(dividing_surface(std::vector<double>(100, 0), 0.4, 50), 100, 1e-10);
+    }
+
+    // A small ensemble is noisy: the share of 0.98 is reached by the larger ones of the
+    // README; here the noise of four bars must leave the law to be seen.
+    TEST(GreenspanBar, SquareOfTheFrontGrowsInProportionToTime)
+    {
+      BarSettings settings = small_bar();
+      settings.columns = 160;
+      settings.rows = 12;
+      settings.spacing = 1.113;
+      settings.pressure = 60;
+      settings.hot_temperature = 90;
+      settings.cold_temperature = 47;
+      settings.hot_length = 10;
+      settings.time_step = 8e-4;
       BarSchedule schedule;
-      schedule.duration = 40;
+      schedule.duration = 22;
       schedule.interval = 0.25;
-      const auto runs = run_bars(small_bar(), schedule, 3, 1, 2);
-      const double ten_spacings = 10 * 0.92 * 1.117;
-      const FrontFit fit = fit_front(mean_looks(runs), ten_spacings);
-      EXPECT_GT(fit.r_squared, 0.98) << "slope " << fit.slope << " points " << fit.points;
-      EXPECT_GT(fit.points, 20);
-      EXPECT_GT(fit.slope, 0);
-      const BarTemperatures found = bar_temperatures(runs[0], ten_spacings, 75);
-      EXPECT_LT(found.edge, 75 + 2);
-      EXPECT_GT(found.edge, found.melt_at_front);
+      const auto runs = run_bars(settings, schedule, 4, 1, 2);
+      const double ten_spacings = 10 * 0.93 * 1.113;
+      const FrontFit fit = fit_front(mean_looks(runs, 8), ten_spacings);
+      EXPECT_GT(fit.r_squared, 0.9) << "slope " << fit.slope << " points " << fit.points;
+      EXPECT_GE(fit.points, 6);
+      EXPECT_GT(fit.slope, 20);
+      const BarTemperatures found = bar_temperatures(runs[0], ten_spacings, 90);
+      EXPECT_LT(found.edge, 90 + 2);
+      EXPECT_NEAR(found.melt_at_front, 49, 6); // T_m at this pressure
+      RecordProperty("r_squared", std::to_string(fit.r_squared));
+      EXPECT_THROW(mean_looks({}), cases::InputError);
     }
 
     TEST(GreenspanBar, BadInputIsRefused)
