@@ -59,6 +59,8 @@ namespace meltfront::particles::greenspan
       BarSettings settings;
       settings.force = force_of(solid.law);
       settings.columns = resolution.n;
+      // of the crystal whose density the scene states: from another it would be strained
+      settings.spacing = std::sqrt(2 / (std::sqrt(3.) * scene.material.solid.density));
       settings.rows = solid.rows;
       settings.pressure = solid.pressure;
       settings.hot_temperature = wall_temperature(scene, cases::Side::x_min);
