@@ -99,7 +99,7 @@ namespace meltfront::verification
 
     NumberText value_text(double value)
     {
-      return prose_number(value, 5);
+      return prose_number(value, 4);
     }
 
     NumberText deviation_text(double value)

@@ -99,6 +99,7 @@ td sup,td sub,.equation sup,.equation sub{line-height:0;font-size:.76em}
 .summary small{display:block;font-size:.86em;line-height:1.1}
 td b{color:var(--ink);font-weight:720}
 .plain td{white-space:normal;max-width:46ch}
+.plain td.number{white-space:nowrap}
 .links{font-size:.83rem;color:var(--muted);margin:.1rem 0 1rem}
 .key{display:inline-flex;align-items:center;gap:.45rem;white-space:nowrap}
 .key svg{flex:none;overflow:visible}

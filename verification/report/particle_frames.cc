@@ -16,6 +16,7 @@ namespace meltfront::verification
     constexpr double drawing_width = 400;
     constexpr double margin = 8, strip_below = 26;
     constexpr double fast = 7.5;
+    constexpr double most_aside = 1.3; // of the solid's width
     constexpr std::size_t most_numbered = 50;
 
     using Out = std::back_insert_iterator<std::string>;
@@ -94,7 +95,7 @@ namespace meltfront::verification
       for(const ParticleFrame &frame : frames)
       {
         for(const double x : frame.x)
-          widen(x0, x1, x, left - 0.8 * width, right + 0.8 * width);
+          widen(x0, x1, x, left - most_aside * width, right + most_aside * width);
         for(const double y : frame.y)
           widen(y0, y1, y, bottom - 0.5 * height, top + 0.5 * height);
       }

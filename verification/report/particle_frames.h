@@ -31,7 +31,7 @@ namespace meltfront::verification
     /**
      * @param record of a case of particle solids
      * @param frames what the window is chosen from: it holds all of them, but for
-     * particles that fly farther than the solid is wide
+     * particles that fly farther than 1.3 of the solid's width beside it
      */
     FrameDrawing(const CaseRecord &record, const std::vector<ParticleFrame> &frames,
                  const DrawingColours &colours);

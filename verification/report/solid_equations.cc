@@ -97,19 +97,24 @@ namespace meltfront::verification
 
     Markup heating(const cases::PointHeating &heating)
     {
-      Markup stages;
-      for(std::size_t i = 0; i < heating.stages.size(); ++i)
-        stages += text(i == 0 ? "" : ", then ")
-                  + equation_number(heating.stages[i].strength)
-                  + text(fmt::format(" for {} steps", grouped(heating.stages[i].steps)));
       return text("where ") + symbol("R") + text(" = |") + symbol("r") + text(" − ")
              + symbol("s") + text("| < ") + equation_number(heating.reach) + text(":  ")
              + symbol("v") + text(" → ") + symbol("v") + text(" + ")
              + intensity(heating.power) + text(" ")
              + fraction(symbol("r") + text(" − ") + symbol("s"), symbol("R"))
-             + filled(text("in every step; ") + symbol("s") + text(" = (")
-                      + equation_number(heating.position[0]) + text(", ")
-                      + equation_number(heating.position[1]) + text("), Γ = ") + stages);
+             + filled(text("in every step"));
+    }
+
+    Markup source_words(const cases::PointHeating &heating)
+    {
+      Markup words = symbol("s") + text(" = (") + number_markup(heating.position[0], 4)
+                     + text(", ") + number_markup(heating.position[1], 4)
+                     + text("), Γ = ");
+      for(std::size_t i = 0; i < heating.stages.size(); ++i)
+        words += text(i == 0 ? "" : ", then ")
+                 + number_markup(heating.stages[i].strength, 4)
+                 + text(fmt::format(" for {} steps", grouped(heating.stages[i].steps)));
+      return words;
     }
 
     std::string words_of_arrangement(const cases::ParticleSolid &solid)
@@ -141,12 +146,14 @@ namespace meltfront::verification
         start += text("; each coordinate disturbed by ")
                  + number_markup(solid.disturbance)
                  + text(" (standard deviation), otherwise for every seed");
+      const Markup source
+          = solid.heating ? condition("source", source_words(*solid.heating)) : Markup();
       const double steps = (record.end_time - record.start_time) / solid.time_step;
       return element(
           "dl", {{"class", "conditions"}},
           condition("moved", text("particles of mass 1 that bind each other; "
                                   "Boltzmann's constant is 1"))
-              + condition("start", start)
+              + condition("start", start) + source
               + condition("end", text("t = " + plain_number(record.end_time, 6)
                                       + fmt::format(", after {} steps",
                                                     grouped(std::lround(steps)))))
