@@ -173,11 +173,13 @@ namespace meltfront::particles::front_tracking
                        std::to_string(similar.back() * 1e6) + "e-6 similar, "
                            + std::to_string(steady.back() * 1e6) + "e-6 quasi-steady");
       }
-      EXPECT_GE(fitted_order(similar), 1.5);
-      EXPECT_LE(std::abs(similar[0]), 1.1e-3);
-      EXPECT_LE(std::abs(similar[2]), 1.2e-4);
-      EXPECT_GE(fitted_order(steady), 0.9);
-      EXPECT_LE(std::abs(steady[2]), 8.4e-4);
+      // The coarsest are better than their order makes them.
+      EXPECT_GE(fitted_order(similar), 1.1);
+      EXPECT_LE(std::abs(similar[0]), 1.3e-4);
+      EXPECT_LE(std::abs(similar[3]), 8e-6);
+      EXPECT_GE(fitted_order(steady), 1.1);
+      EXPECT_LE(std::abs(steady[0]), 2.4e-4);
+      EXPECT_LE(std::abs(steady[3]), 1.2e-5);
     }
 
     TEST(RkpmTracked, FreezesFromTheUpperWallAlike)
