@@ -1,0 +1,76 @@
+#ifndef meltfront_particles_front_tracking_tracking_options_h
+#define meltfront_particles_front_tracking_tracking_options_h
+
+#include <cases/method.h>
+
+#include <string>
+#include <vector>
+
+namespace meltfront::particles::front_tracking
+{
+  /** The word that a user types. */
+  inline constexpr const char *method_name = "rkpm-tracked";
+
+  /** How the equations are advanced in time: backward differentiation of an order. */
+  enum class TimeScheme
+  {
+    backward_euler = 1,
+    bdf2 = 2,
+    bdf3 = 3
+  };
+
+  /** In what the steps of a run are equal. */
+  enum class Clock
+  {
+    time,
+    root ///< of the time
+  };
+
+  /** How a phase is begun that appears at a wall. */
+  enum class Start
+  {
+    automatic,   ///< from the similarity solution where the data allow it
+    quasi_steady ///< as a thin layer whose profile is that of steady growth
+  };
+
+  /** Which phase gives way where the densities differ. */
+  enum class Displaced
+  {
+    liquid,
+    solid
+  };
+
+  /** A run's options, read. */
+  struct TrackingParameters
+  {
+    int intervals = 40; ///< of the spacing along the domain's side
+    int steps = 20;     ///< planned over the run; where fronts are fast there are more
+    int basis_order = 2;
+    double dilation = 2.6; ///< radius of the kernel over the spacing
+    TimeScheme scheme = TimeScheme::bdf2;
+    Clock clock = Clock::time;
+    double largest_move = 0.5; ///< of a front in a step, over the spacing
+    double absorption = 0.1;   ///< nodes nearer to a front are interpolated, over the
+                               ///< spacing
+    double jitter = 0;         ///< of inner nodes, over the spacing
+    Start start = Start::automatic;
+    bool exact_history = true; ///< before the start, where the start is exact
+    Displaced displaced = Displaced::liquid;
+  };
+
+  /** All options of the method. */
+  std::vector<cases::OptionDeclaration> tracking_options();
+
+  /**
+   * Dimension in which a scene is simulated: 1 for a slab and, unless asked otherwise,
+   * for what depends on the distance from an axis or a centre.
+   * @throws cases::Refusal if the scene cannot be simulated in the one asked for.
+   */
+  int simulated_dimension(const cases::Scene &scene, const cases::Options &options);
+
+  /** Read the options that both dimensions share. */
+  TrackingParameters read_tracking_parameters(const cases::Scene &scene,
+                                              const cases::Resolution &resolution);
+} // namespace meltfront::particles::front_tracking
+
+#endif
