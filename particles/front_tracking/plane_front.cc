@@ -41,7 +41,7 @@ namespace meltfront::particles::front_tracking
       return a.x() * b.y() - a.y() * b.x();
     }
 
-    void update_geometry(PlaneFront &front, std::size_t curve)
+    void update_curve(PlaneFront &front, std::size_t curve)
     {
       const auto spline = spline_of(front, curve);
       for(std::size_t p = front.offsets[curve], k = 0; p < front.offsets[curve + 1];
@@ -73,7 +73,7 @@ namespace meltfront::particles::front_tracking
     displacement.resize(position.size(), PlanePoint(0, 0));
     active.resize(position.size(), 1);
     offsets.push_back(position.size());
-    front_tracking::update_geometry(*this, curves() - 1);
+    update_curve(*this, curves() - 1);
   }
 
   void PlaneFront::remove_curve(std::size_t curve)
@@ -93,7 +93,7 @@ namespace meltfront::particles::front_tracking
   void update_geometry(PlaneFront &front)
   {
     for(std::size_t curve = 0; curve < front.curves(); ++curve)
-      update_geometry(front, curve);
+      update_curve(front, curve);
   }
 
   SpacingRange spacing_range(const PlaneFront &front)
@@ -141,7 +141,7 @@ namespace meltfront::particles::front_tracking
     replace(front.active, first, last, std::vector<char>(count, 1));
     for(std::size_t c = curve + 1; c < front.offsets.size(); ++c)
       front.offsets[c] = front.offsets[c] + count - (last - first);
-    update_geometry(front, curve);
+    update_curve(front, curve);
   }
 
   std::size_t redistribute(PlaneFront &front, double target, double least, double largest)
@@ -245,9 +245,9 @@ namespace meltfront::particles::front_tracking
          { band_pieces[next[b]++] = static_cast<std::uint32_t>(v); });
   }
 
-  bool FrontIndex::solid(const PlanePoint &place) const
+  int FrontIndex::winding(const PlanePoint &place) const
   {
-    long winding = solid_beyond ? 1 : 0;
+    int winding = solid_beyond ? 1 : 0;
     const double level = (place.y() - bottom) / cell;
     if(level >= 0 && level < static_cast<double>(band_offsets.size()))
     {
@@ -268,7 +268,7 @@ namespace meltfront::particles::front_tracking
           --winding;
       }
     }
-    return winding > 0;
+    return winding;
   }
 
   double FrontIndex::signed_distance(const PlanePoint &place, double reach) const

@@ -101,9 +101,15 @@ namespace meltfront::particles::front_tracking
     FrontIndex(const FrontIndex &) = delete;
     FrontIndex &operator=(const FrontIndex &) = delete;
 
-    /** Solid is where the curves that go round a point, counter-clockwise less clockwise,
-     * are more than none: two overlapping bodies are one. */
-    bool solid(const PlanePoint &place) const;
+    /** How often curves go round a point, counter-clockwise less clockwise, and one more
+     * where what no curve encloses is solid. */
+    int winding(const PlanePoint &place) const;
+
+    /** Solid is where that is more than none: two overlapping bodies are one. */
+    bool solid(const PlanePoint &place) const
+    {
+      return winding(place) > 0;
+    }
 
     /**
      * Distance to the front, negative in solid (m).
