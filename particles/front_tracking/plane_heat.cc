@@ -65,7 +65,7 @@ namespace meltfront::particles::front_tracking
                   : 0);
   }
 
-  void PlaneHeat::set_front(PlaneState &state)
+  void PlaneHeat::set_front(PlaneState &state, bool keep_phases)
   {
     PlaneFront &front = state.front;
     for(std::size_t p = 0; p < front.size(); ++p)
@@ -75,7 +75,7 @@ namespace meltfront::particles::front_tracking
     front_bins = PlaneBins(front.position, nodes.spacing);
     const double absorbed = settings.absorption * nodes.spacing;
     state.phase.resize(nodes.size());
-    for(std::size_t i = 0; i < nodes.size(); ++i)
+    for(std::size_t i = 0; i < nodes.size() && !keep_phases; ++i)
     {
       const double distance = index->signed_distance(
           nodes.position[i], std::max(absorbed, 1e-9 * nodes.spacing));

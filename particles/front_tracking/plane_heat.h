@@ -57,8 +57,10 @@ namespace meltfront::particles::front_tracking
     PlaneHeat(const cases::Scene &scene, const PlaneNodes &nodes,
               const PlaneHeatSettings &settings);
 
-    /** Put the front of a state to use: phases of the nodes, active particles. */
-    void set_front(PlaneState &state);
+    /** Put the front of a state to use: active particles, phases of the nodes.
+     * @param keep_phases leave the phases as they are: late passes move the front by next
+     * to nothing, and nodes would go to and fro */
+    void set_front(PlaneState &state, bool keep_phases = false);
 
     /** Expansions about the front of temperatures that are given at the nodes, and the
      * speeds that they make; for the start. */

@@ -27,6 +27,9 @@ namespace meltfront::particles::front_tracking
     constexpr int most_halvings = 8;
     constexpr int passes_allowed = 10;
 
+    /** Passes in which nodes change their phases. */
+    constexpr long regrouping_passes = 3;
+
     /** A step is done when no particle has farther to move, in spacings: the move itself
      * is made, and what it leaves is smaller by about its square. */
     constexpr double done = 1e-4;
@@ -237,7 +240,7 @@ namespace meltfront::particles::front_tracking
     long passes = 0;
     while(largest > done && passes < passes_allowed)
     {
-      heat.set_front(next);
+      heat.set_front(next, passes >= regrouping_passes);
       limited = move(heat.solve(times, next), next, largest);
       ++passes;
       if(limited && !last_chance)
