@@ -184,6 +184,50 @@ namespace meltfront::cases
                    "an exchange of heat");
     }
 
+    EffectDecision gibbs_thomson(const Scene &scene)
+    {
+      const double coefficient = scene.material.gibbs_thomson_coefficient;
+      return decide(
+          Effect::gibbs_thomson, coefficient != 0,
+          fmt::format("the Gibbs-Thomson coefficient is {:.6g} K m", coefficient),
+          "the melting temperature does not depend on curvature");
+    }
+
+    EffectDecision gravity(const Scene &scene)
+    {
+      const double gravity = scene.particle_solid->gravity;
+      return decide(Effect::gravity, gravity != 0,
+                    fmt::format("particles fall with {:.6g}", gravity),
+                    "there is no gravity");
+    }
+
+    EffectDecision base(const Scene &scene)
+    {
+      return decide(Effect::base, scene.particle_solid->base.has_value(),
+                    "there is a floor", "there is no floor");
+    }
+
+    EffectDecision hot_base(const Scene &scene)
+    {
+      const auto &floor = scene.particle_solid->base;
+      return decide(Effect::hot_base, floor && floor->hot, "a part of the floor is hot",
+                    "no part of a floor is hot");
+    }
+
+    EffectDecision point_heating(const Scene &scene)
+    {
+      return decide(Effect::point_heating, scene.particle_solid->heating.has_value(),
+                    "there is a source that drives particles away",
+                    "there is no such source");
+    }
+
+    /** Whether an effect is one of particle solids; the others are those of heat. */
+    bool moves_particles(Effect effect)
+    {
+      return effect == Effect::gravity || effect == Effect::base
+             || effect == Effect::hot_base || effect == Effect::point_heating;
+    }
+
     constexpr Rule rules[] = {
         {Effect::phase_change, "phase_change", "Latent heat is exchanged at the front.",
          phase_change},
@@ -215,7 +259,16 @@ namespace meltfront::cases
         {Effect::inclusion, "inclusion",
          "A region that conducts otherwise than the rest.", inclusion},
         {Effect::wall_transfer, "wall_transfer",
-         "Walls that exchange heat with their surroundings.", wall_transfer}};
+         "Walls that exchange heat with their surroundings.", wall_transfer},
+        {Effect::gibbs_thomson, "gibbs_thomson",
+         "The melting temperature of a curved front is lowered or raised.",
+         gibbs_thomson},
+        {Effect::gravity, "gravity", "Particles of a solid have weight.", gravity},
+        {Effect::base, "base", "A floor throws particles back.", base},
+        {Effect::hot_base, "hot_base",
+         "A part of the floor throws particles back with another speed.", hot_base},
+        {Effect::point_heating, "point_heating",
+         "A source drives particles away from itself.", point_heating}};
     static_assert(std::size(rules) == n_effects);
 
     const Rule &rule(Effect effect)
@@ -268,6 +321,9 @@ namespace meltfront::cases
     std::vector<EffectDecision> decisions;
     for(const Rule &r : rules)
     {
+      if(moves_particles(r.effect) ? scene.problem != ProblemKind::particle_solid
+                                   : !scene.conducts_heat())
+        continue;
       EffectDecision decision = r.decide(scene);
       const auto choice = scene.effect_choices.find(r.effect);
       if(choice != scene.effect_choices.end()
@@ -299,11 +355,29 @@ namespace meltfront::cases
         for(Solute &solute : scene.alloy->solutes)
           solute.diffusivity = 0;
     }
+
+    void leave_out_of_particle_solid(const EffectSet &effects, ParticleSolid &solid)
+    {
+      if(!effects.contains(Effect::gravity))
+        solid.gravity = 0;
+      if(!effects.contains(Effect::base))
+        solid.base.reset();
+      if(solid.base && !effects.contains(Effect::hot_base))
+        solid.base->hot.reset();
+      if(!effects.contains(Effect::point_heating))
+        solid.heating.reset();
+    }
   } // namespace
 
   Scene simulated_scene(const Scene &scene, const EffectSet &effects)
   {
     Scene result = scene;
+    if(scene.problem == ProblemKind::particle_solid)
+      leave_out_of_particle_solid(effects, *result.particle_solid);
+    if(!scene.conducts_heat())
+      return result;
+    if(!effects.contains(Effect::gibbs_thomson))
+      result.material.gibbs_thomson_coefficient = 0;
     const PhaseProperties &solid = scene.material.solid;
     PhaseProperties &liquid = result.material.liquid;
     if(!effects.contains(Effect::phase_change))

@@ -25,9 +25,14 @@ namespace meltfront::cases
     eutectic,            ///< what is left of the liquid freezes at one temperature
     heat_release,        ///< heat is released throughout the domain
     inclusion,           ///< a region conducts otherwise than the rest
-    wall_transfer        ///< a wall exchanges heat with its surroundings
+    wall_transfer,       ///< a wall exchanges heat with its surroundings
+    gibbs_thomson,       ///< a curved front melts at another temperature
+    gravity,             ///< particles of a solid have weight
+    base,                ///< a floor throws particles back
+    hot_base,            ///< a part of the floor throws them back faster than they came
+    point_heating        ///< a source drives particles away from itself
   };
-  inline constexpr std::size_t n_effects = 14;
+  inline constexpr std::size_t n_effects = 19;
 
   /** The word for an effect in case files and tables, `phase_change` and so on. */
   const char *to_string(Effect effect);
@@ -54,7 +59,7 @@ namespace meltfront::cases
     std::string reason; ///< one sentence
   };
 
-  /** A decision for every effect. */
+  /** A decision for every effect that the kind of problem knows. */
   class EffectSet
   {
   public:

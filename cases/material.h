@@ -39,6 +39,10 @@ namespace meltfront::cases
     double latent_heat = 1; ///< J/kg
     double melting_temperature
         = 0; ///< K or degrees Celsius, as the scene's other temperatures
+    /** Gamma of Gibbs and Thomson (K m): where the solid's surface has the curvature
+     * kappa (sum of the principal ones, 1/m, positive where solid is convex) it melts at
+     * the melting temperature less Gamma kappa. */
+    double gibbs_thomson_coefficient = 0;
 
     /** T(H), inverse of the enthalpy graph. */
     double temperature(double enthalpy) const

@@ -30,8 +30,7 @@ namespace meltfront::cases
   void require_problem(const Method &method, const Scene &scene)
   {
     if(!method.solves(scene.problem))
-      throw Refusal(fmt::format(
-          "{} solves no {} scenes", method.name(),
-          scene.problem == ProblemKind::poisson ? "steady" : "time-dependent"));
+      throw Refusal(fmt::format("{} solves no scenes of the kind '{}'", method.name(),
+                                to_string(scene.problem)));
   }
 } // namespace meltfront::cases

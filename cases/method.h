@@ -71,6 +71,17 @@ namespace meltfront::cases
       static_cast<void>(time);
       static_cast<void>(event);
     }
+
+    /**
+     * What only the method could count: when the first bond of a particle solid broke,
+     * how many markers were seeded. It becomes a quantity of the run.
+     * @param name one of outcomes(), cases/outcomes.h
+     */
+    virtual void outcome(const std::string &name, double value)
+    {
+      static_cast<void>(name);
+      static_cast<void>(value);
+    }
   };
 
   /** What one effect cost in a run. */

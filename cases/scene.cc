@@ -34,6 +34,13 @@ namespace meltfront::cases
     return names[static_cast<std::size_t>(side)];
   }
 
+  const char *to_string(ProblemKind problem)
+  {
+    constexpr const char *names[]
+        = {"stefan", "poisson", "interface advection", "particle solid"};
+    return names[static_cast<std::size_t>(problem)];
+  }
+
   const Boundary &Scene::boundary(Side side) const
   {
     const auto &found = boundaries[static_cast<std::size_t>(side)];
@@ -48,9 +55,14 @@ namespace meltfront::cases
                                                       : material.solid.conductivity;
   }
 
+  bool Scene::conducts_heat() const
+  {
+    return problem == ProblemKind::stefan || problem == ProblemKind::poisson;
+  }
+
   bool Scene::changes_phase() const
   {
-    return material.latent_heat > 0;
+    return conducts_heat() && material.latent_heat > 0;
   }
 
   std::vector<Side> Scene::sides() const
@@ -160,6 +172,8 @@ namespace meltfront::cases
   TemperatureBounds temperature_bounds(const Scene &scene)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    if(!scene.conducts_heat())
+      return {};
     double lower = infinity, upper = -infinity;
     const auto include = [&](double temperature)
     {

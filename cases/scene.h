@@ -6,6 +6,7 @@
 #include <cases/exact_solution.h>
 #include <cases/material.h>
 #include <cases/outline.h>
+#include <cases/particle_solid.h>
 #include <cases/position.h>
 
 #include <array>
@@ -19,6 +20,9 @@
 
 namespace meltfront::cases
 {
+  class Shape;
+  class VelocityField;
+
   /** A value that may vary in space and time, with the words it was given by. */
   struct Field
   {
@@ -113,8 +117,20 @@ namespace meltfront::cases
   /** What is asked of a scene. */
   enum class ProblemKind
   {
-    stefan, ///< heat over time, with or without a change of phase
-    poisson ///< the steady temperature: -div(k grad T) = heat released
+    stefan,              ///< heat over time, with or without a change of phase
+    poisson,             ///< the steady temperature: -div(k grad T) = heat released
+    interface_advection, ///< a front that a given velocity carries along
+    particle_solid       ///< particles that bind each other, heated by moving them
+  };
+
+  /** The word for a kind of problem in case files, `interface advection`. */
+  const char *to_string(ProblemKind problem);
+
+  /** A region whose front a velocity carries along. */
+  struct InterfaceAdvection
+  {
+    std::shared_ptr<const Shape> shape; ///< where it is at the start
+    std::shared_ptr<const VelocityField> velocity;
   };
 
   /** A region that conducts otherwise than the rest. */
@@ -168,6 +184,11 @@ namespace meltfront::cases
     /** Heat released throughout the domain (W/m^3). */
     std::optional<Field> heat_release;
     std::optional<Inclusion> inclusion;
+    /** Of ProblemKind::interface_advection. */
+    std::optional<InterfaceAdvection> interface;
+    /** Of ProblemKind::particle_solid; of a heat problem: what the material is made of.
+     */
+    std::optional<ParticleSolid> particle_solid;
     double start_time = 0; ///< s; 0 in a steady scene, which ends at 1
     double end_time = 1;   ///< s
     std::map<Effect, EffectChoice> effect_choices; ///< absent means automatic
@@ -176,6 +197,10 @@ namespace meltfront::cases
 
     /** Of a substance with one conductivity (W/(m K)): the inclusion's or the solid's. */
     double conductivity_at(const Position &position) const;
+
+    /** Whether a temperature is asked for: all kinds of problem but those that carry a
+     * front along or move particles. */
+    bool conducts_heat() const;
 
     /** Whether latent heat is exchanged, so that there is a front. */
     bool changes_phase() const;

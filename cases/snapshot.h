@@ -1,7 +1,10 @@
 #ifndef meltfront_cases_snapshot_h
 #define meltfront_cases_snapshot_h
 
+#include <cases/position.h>
+
 #include <array>
+#include <functional>
 #include <span>
 
 namespace meltfront::cases
@@ -75,6 +78,20 @@ namespace meltfront::cases
     /** Points on the front (m), one array per dimension, of a method that tracks it;
      * empty for one that does not. */
     std::array<std::span<const double>, 3> front{};
+
+    /** At these points, of a method that carries a front along: the unit normal out of
+     * the region, and the curvature (sum of the principal ones, positive where the region
+     * is convex; 1/m). */
+    std::array<std::span<const double>, 3> front_normal{};
+    std::span<const double> front_curvature;
+
+    /** The level set of a region that is carried along, positive inside: any point of the
+     * domain (m). Empty in other scenes. */
+    std::function<double(const Position &)> level_set;
+
+    /** Velocities of the sites, one array per dimension, in a scene of moving particles.
+     */
+    std::array<std::span<const double>, 3> velocity{};
 
     /** Whether the method obeys the maximum principle at any spacing; those of high order
      * and those that track a front do so in the limit only. */

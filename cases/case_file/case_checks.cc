@@ -368,6 +368,9 @@ namespace meltfront::cases
            fmt::format("{} is missing, which alone can leave a phase beyond the melting "
                        "temperature",
                        name_of_key(initial_keys, "front")));
+    demand(Effect::gibbs_thomson,
+           prm.given("Scene/Material", "Gibbs-Thomson coefficient"),
+           "'Gibbs-Thomson coefficient' in subsection 'Scene/Material' is missing");
     own_property(Effect::phase_conductivity, "conductivity");
     own_property(Effect::phase_heat_capacity, "specific heat capacity");
     own_property(Effect::liquid_motion, "density");
@@ -386,7 +389,8 @@ namespace meltfront::cases
           check_symmetric(prm, scene, field, radius_at(scene.domain, share), start,
                           initial_keys, key);
     };
-    check_initial(scene.initial.temperature, "temperature");
+    if(scene.conducts_heat())
+      check_initial(scene.initial.temperature, "temperature");
     if(scene.initial.front)
       check_initial(*scene.initial.front, "front");
     for(std::size_t s = 0; s < scene.initial.concentration.size(); ++s)

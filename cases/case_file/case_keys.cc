@@ -2,6 +2,9 @@
 #include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_keys.h>
 #include <cases/case_file/conduction_reader.h>
+#include <cases/case_file/interface_reader.h>
+#include <cases/case_file/key_builders.h>
+#include <cases/case_file/particle_solid_reader.h>
 #include <cases/effects.h>
 #include <cases/scene.h>
 
@@ -11,172 +14,136 @@ namespace meltfront::cases
 {
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-
-    PrmEntry text(const std::string &key, const std::string &description)
-    {
-      return {.key = key,
-              .kind = PrmKind::text,
-              .default_value = {},
-              .unit = {},
-              .description = description};
-    }
-
-    PrmEntry word(const std::string &key, const std::string &default_value,
-                  std::vector<std::string> choices, const std::string &description)
-    {
-      PrmEntry entry = text(key, description);
-      entry.kind = PrmKind::word;
-      entry.default_value = default_value;
-      entry.choices = std::move(choices);
-      return entry;
-    }
-
-    PrmEntry number(const std::string &key, const std::string &default_value,
-                    const std::string &unit, const std::string &description,
-                    double lower = -infinity, double upper = infinity)
-    {
-      PrmEntry entry = text(key, description);
-      entry.kind = PrmKind::number;
-      entry.default_value = default_value;
-      entry.unit = unit;
-      entry.lower = lower;
-      entry.upper = upper;
-      return entry;
-    }
-
-    PrmEntry numbers(const std::string &key, const std::string &unit,
-                     const std::string &description)
-    {
-      PrmEntry entry = text(key, description);
-      entry.kind = PrmKind::numbers;
-      entry.unit = unit;
-      return entry;
-    }
-
-    PrmEntry integer(const std::string &key, const std::string &default_value,
-                     double lower, double upper, const std::string &description)
-    {
-      PrmEntry entry = number(key, default_value, {}, description, lower, upper);
-      entry.kind = PrmKind::integer;
-      return entry;
-    }
-
     void declare_head(PrmFile &prm)
     {
-      prm.declare("", text("title", "The case in a few words."));
-      prm.declare("", text("description", "What it is and what is to be seen."));
-      prm.declare("", text("tags", "Words to select cases by, separated by commas."));
-      prm.declare("", word("units", "SI", {"SI", "normalised"},
-                           "Whether quantities are in SI units or normalised."));
+      prm.declare("", text_key("title", "The case in a few words."));
+      prm.declare("", text_key("description", "What it is and what is to be seen."));
+      prm.declare("", text_key("tags", "Words to select cases by, separated by commas."));
+      prm.declare("", word_key("units", "SI", {"SI", "normalised"},
+                               "Whether quantities are in SI units or normalised."));
     }
 
     void declare_domain(PrmFile &prm)
     {
       prm.declare("Scene",
-                  word("symmetry", "", {"planar", "cylindrical", "spherical", "none"},
-                       "What the solution depends on: x, the distance from the "
-                       "axis, the distance from the origin, or everything."));
-      prm.declare("Scene", number("start time", "0", "s", "When the scene begins."));
-      prm.declare("Scene", number("end time", "", "s", "When the scene ends."));
+                  word_key("symmetry", "", {"planar", "cylindrical", "spherical", "none"},
+                           "What the solution depends on: x, the distance from the "
+                           "axis, the distance from the origin, or everything."));
+      prm.declare("Scene", number_key("start time", "0", "s", "When the scene begins."));
+      prm.declare("Scene", number_key("end time", "", "s", "When the scene ends."));
       const std::string domain = "Scene/Domain";
       prm.declare(
           domain,
-          word("shape", "", {"slab", "box", "ball", "shell", "outline"},
-               "slab: 0 <= x <= length; box: between two corners; ball: a disk or "
-               "a ball about the origin; shell: that outside of an inner radius; "
-               "outline: within a closed curve in the plane."));
-      prm.declare(domain, integer("dimension", "1", 1, 3,
-                                  "Dimensions of the shape: 1 for a slab, 2 or 3 else."));
-      prm.declare(domain, number("length", "", "m", "Length of a slab.", above_zero));
-      prm.declare(domain, number("left end", "0", "m", "Where a slab begins."));
-      prm.declare(domain, numbers("lower corner", "m", "Corner of a box."));
-      prm.declare(domain, numbers("upper corner", "m", "Opposite corner of a box."));
+          word_key("shape", "", {"slab", "box", "ball", "shell", "outline"},
+                   "slab: 0 <= x <= length; box: between two corners; ball: a disk or "
+                   "a ball about the origin; shell: that outside of an inner radius; "
+                   "outline: within a closed curve in the plane."));
       prm.declare(domain,
-                  number("radius", "", "m", "Radius of a ball, outer radius of a shell.",
-                         above_zero));
-      prm.declare(domain, number("inner radius", "", "m", "Inner radius of a shell.",
-                                 above_zero));
-      prm.declare(domain, text("corners", "Of an outline that is a polygon: x, y; x, y; "
-                                          "... in metres, either way round."));
+                  integer_key("dimension", "1", 1, 3,
+                              "Dimensions of the shape: 1 for a slab, 2 or 3 else."));
+      prm.declare(domain, number_key("length", "", "m", "Length of a slab.", above_zero));
+      prm.declare(domain, number_key("left end", "0", "m", "Where a slab begins."));
+      prm.declare(domain, numbers_key("lower corner", "m", "Corner of a box."));
+      prm.declare(domain, numbers_key("upper corner", "m", "Opposite corner of a box."));
       prm.declare(domain,
-                  text("polar radius", "Of any other outline: distance from its centre "
-                                       "(m), expression of the angle phi from -pi to "
-                                       "pi."));
-      prm.declare(domain, numbers("centre", "m",
-                                  "Of an outline: where its angles are taken, and what "
-                                  "lattices are arranged about; the origin where not "
-                                  "given."));
-      prm.declare(domain, number("reference length", "", "m",
-                                 "Of an outline: what a resolution n divides; the larger "
-                                 "side of its bounding box where not given.",
-                                 above_zero));
+                  number_key("radius", "", "m",
+                             "Radius of a ball, outer radius of a shell.", above_zero));
+      prm.declare(domain, number_key("inner radius", "", "m", "Inner radius of a shell.",
+                                     above_zero));
+      prm.declare(domain,
+                  text_key("corners", "Of an outline that is a polygon: x, y; x, y; "
+                                      "... in metres, either way round."));
+      prm.declare(domain, text_key("polar radius",
+                                   "Of any other outline: distance from its centre "
+                                   "(m), expression of the angle phi from -pi to "
+                                   "pi."));
+      prm.declare(domain,
+                  numbers_key("centre", "m",
+                              "Of an outline: where its angles are taken, and what "
+                              "lattices are arranged about; the origin where not "
+                              "given."));
+      prm.declare(domain,
+                  number_key("reference length", "", "m",
+                             "Of an outline: what a resolution n divides; the larger "
+                             "side of its bounding box where not given.",
+                             above_zero));
     }
 
     void declare_material(PrmFile &prm)
     {
       const std::string material = "Scene/Material";
       prm.declare(material,
-                  number("latent heat", "", "J/kg", "Latent heat of melting.", 0));
-      prm.declare(material, number("melting temperature", "", "K or degrees Celsius",
-                                   "Temperature at which the phases meet."));
+                  number_key("latent heat", "", "J/kg", "Latent heat of melting.", 0));
+      prm.declare(material, number_key("melting temperature", "", "K or degrees Celsius",
+                                       "Temperature at which the phases meet."));
+      prm.declare(material,
+                  number_key("Gibbs-Thomson coefficient", "0", "K m",
+                             "By how much times its curvature the solid's convex surface "
+                             "melts below the melting temperature.",
+                             0));
       for(const std::string phase : {"Solid", "Liquid"})
       {
         const std::string here = material + "/" + phase;
         const std::string remark
             = phase == "Liquid" ? " The solid's value where it is not given." : "";
-        prm.declare(here, number("conductivity", "", "W/(m K)",
-                                 "Thermal conductivity." + remark, above_zero));
-        prm.declare(here, number("specific heat capacity", "", "J/(kg K)",
-                                 "Heat capacity per mass." + remark, above_zero));
+        prm.declare(here, number_key("conductivity", "", "W/(m K)",
+                                     "Thermal conductivity." + remark, above_zero));
+        prm.declare(here, number_key("specific heat capacity", "", "J/(kg K)",
+                                     "Heat capacity per mass." + remark, above_zero));
         prm.declare(here,
-                    number("density", "", "kg/m^3", "Density." + remark, above_zero));
+                    number_key("density", "", "kg/m^3", "Density." + remark, above_zero));
       }
     }
 
     void declare_state_and_walls(PrmFile &prm)
     {
       const std::string initial = "Scene/Initial state";
-      prm.declare(initial, word("kind", "temperature", {"temperature", "exact"},
-                                "Given as a temperature, or taken from the exact "
-                                "solution at the start time."));
-      prm.declare(initial, text("temperature", "Expression of x, y, z (K)."));
+      prm.declare(initial, word_key("kind", "temperature", {"temperature", "exact"},
+                                    "Given as a temperature, or taken from the exact "
+                                    "solution at the start time."));
+      prm.declare(initial, text_key("temperature", "Expression of x, y, z (K)."));
       prm.declare(initial,
-                  text("front", "Level set of the front, expression of x, y, z: negative "
-                                "in solid, zero on the front. Where it is not given, "
-                                "what is colder than the melting temperature is "
-                                "solid."));
+                  text_key("front",
+                           "Level set of the front, expression of x, y, z: negative "
+                           "in solid, zero on the front. Where it is not given, "
+                           "what is colder than the melting temperature is "
+                           "solid."));
       prm.declare(initial,
-                  number("solid fraction at melting", "0", "",
-                         "Solid fraction of points at the melting temperature.", 0, 1));
+                  number_key("solid fraction at melting", "0", "",
+                             "Solid fraction of points at the melting temperature.", 0,
+                             1));
       for(std::size_t s = 0; s < n_sides; ++s)
       {
         const std::string wall
             = std::string("Scene/Walls/") + to_string(static_cast<Side>(s));
+        prm.declare(
+            wall,
+            word_key("kind", "insulated",
+                     {"insulated", "fixed temperature", "exact", "flux", "periodic",
+                      "heat transfer"},
+                     "What holds at the wall; exact: the exact solution's "
+                     "temperature; heat transfer: a flux that the wall's difference "
+                     "from the ambient temperature drives."));
         prm.declare(wall,
-                    word("kind", "insulated",
-                         {"insulated", "fixed temperature", "exact", "flux", "periodic",
-                          "heat transfer"},
-                         "What holds at the wall; exact: the exact solution's "
-                         "temperature; heat transfer: a flux that the wall's difference "
-                         "from the ambient temperature drives."));
+                    text_key("ambient temperature", "Of heat transfer: expression of x, "
+                                                    "y, z, t (K)."));
         prm.declare(wall,
-                    text("ambient temperature", "Of heat transfer: expression of x, "
-                                                "y, z, t (K)."));
-        prm.declare(wall, number("heat transfer coefficient", "", "W/(m^2 K)",
-                                 "Heat flux per difference of temperature.", above_zero));
-        prm.declare(wall, text("temperature", "Expression of x, y, z, t (K)."));
-        prm.declare(wall, text("flux", "Heat flux into the domain, expression of x, y, "
-                                       "z, t (W/m^2)."));
+                    number_key("heat transfer coefficient", "", "W/(m^2 K)",
+                               "Heat flux per difference of temperature.", above_zero));
+        prm.declare(wall, text_key("temperature", "Expression of x, y, z, t (K)."));
+        prm.declare(wall,
+                    text_key("flux", "Heat flux into the domain, expression of x, y, "
+                                     "z, t (W/m^2)."));
       }
       for(int i = 1; i <= most_sources; ++i)
       {
         const std::string source = fmt::format("Scene/Source {}", i);
-        prm.declare(source, numbers("position", "m", "Where the source is."));
+        prm.declare(source, numbers_key("position", "m", "Where the source is."));
         prm.declare(source,
-                    text("power", "Heat released per time, expression of t, negative for "
-                                  "a sink; exact: that of the exact solution (W in 3D, "
-                                  "W/m in 2D)."));
+                    text_key("power",
+                             "Heat released per time, expression of t, negative for "
+                             "a sink; exact: that of the exact solution (W in 3D, "
+                             "W/m in 2D)."));
       }
     }
 
@@ -184,9 +151,9 @@ namespace meltfront::cases
     {
       for(const Effect effect : all_effects())
         prm.declare("Effects",
-                    word(to_string(effect), "auto", {"auto", "on", "off"},
-                         std::string(description(effect))
-                             + " auto: simulated where the scene calls for it."));
+                    word_key(to_string(effect), "auto", {"auto", "on", "off"},
+                             std::string(description(effect))
+                                 + " auto: simulated where the scene calls for it."));
     }
 
     void declare_exact_solution(PrmFile &prm)
@@ -194,56 +161,64 @@ namespace meltfront::cases
       const std::string exact = "Exact solution";
       prm.declare(
           exact,
-          word("kind", "none",
-               {"none", "neumann", "line sink", "point sink", "frank", "mushy layer",
-                "oracle", "formula", "five-point lattice"},
-               "The solution that is known; oracle: a spectral solution of the scene."));
-      prm.declare(exact, number("wall temperature", "", "K",
-                                "Of neumann; that of the wall x_min where not given."));
-      prm.declare(exact, number("far temperature", "", "K",
-                                "Far from the wall or the sink; the initial temperature "
-                                "where not given."));
+          word_key(
+              "kind", "none",
+              {"none", "neumann", "line sink", "point sink", "frank", "mushy layer",
+               "oracle", "formula", "five-point lattice"},
+              "The solution that is known; oracle: a spectral solution of the scene."));
+      prm.declare(exact,
+                  number_key("wall temperature", "", "K",
+                             "Of neumann; that of the wall x_min where not given."));
+      prm.declare(exact,
+                  number_key("far temperature", "", "K",
+                             "Far from the wall or the sink; the initial temperature "
+                             "where not given."));
       for(const std::string which : {"", "second "})
-        prm.declare(exact, number("far " + which + "concentration", "", "",
-                                  "Mass fraction of a solute far from the wall, of a "
-                                  "mushy layer; the initial one where that is given.",
-                                  0, 1));
-      prm.declare(exact, number("lambda", "", "", "Front constant of a sink's solution.",
-                                above_zero));
+        prm.declare(exact, number_key("far " + which + "concentration", "", "",
+                                      "Mass fraction of a solute far from the wall, of a "
+                                      "mushy layer; the initial one where that is given.",
+                                      0, 1));
+      prm.declare(exact, number_key("lambda", "", "",
+                                    "Front constant of a sink's solution.", above_zero));
       prm.declare(
           exact,
-          word("start", "neumann",
-               {"neumann", "line sink", "point sink", "initial state", "wall flux"},
-               "What the oracle starts from: a similarity solution, or "
-               "the scene's initial temperature with a front, or liquid that "
-               "a flux out of x_min cools until it freezes."));
-      prm.declare(exact, number("start time", "", "s",
-                                "Time until which the oracle is the similarity solution.",
-                                above_zero));
+          word_key("start", "neumann",
+                   {"neumann", "line sink", "point sink", "initial state", "wall flux"},
+                   "What the oracle starts from: a similarity solution, or "
+                   "the scene's initial temperature with a front, or liquid that "
+                   "a flux out of x_min cools until it freezes."));
       prm.declare(exact,
-                  number("initial front", "", "m",
-                         "Front of the initial state, for the oracle.", above_zero));
+                  number_key("start time", "", "s",
+                             "Time until which the oracle is the similarity solution.",
+                             above_zero));
+      prm.declare(exact,
+                  number_key("initial front", "", "m",
+                             "Front of the initial state, for the oracle.", above_zero));
     }
 
     void declare_measures(PrmFile &prm)
     {
       const std::string measure = "Measure";
       prm.declare(measure,
-                  integer("samples", "100", 0, 1e6,
-                          "Snapshots over the run, at least 50; 0: every step."));
-      prm.declare(measure, word("clock", "t", {"t", "sqrt(t)"},
-                                "Samples are equidistant in the time or in its root."));
-      prm.declare(measure, number("temperature from", "0", "m",
-                                  "Coordinate from which temperature is compared.", 0));
-      prm.declare(measure, number("temperature to", "", "m",
-                                  "Coordinate up to which temperature is compared; all "
-                                  "where not given.",
-                                  above_zero));
+                  integer_key("samples", "100", 0, 1e6,
+                              "Snapshots over the run, at least 50; 0: every step."));
       prm.declare(measure,
-                  number("front floor", "0", "m",
-                         "By how much the exact solution itself is off in this domain; "
-                         "0: exact.",
-                         0));
+                  word_key("clock", "t", {"t", "sqrt(t)"},
+                           "Samples are equidistant in the time or in its root."));
+      prm.declare(measure,
+                  number_key("temperature from", "0", "m",
+                             "Coordinate from which temperature is compared.", 0));
+      prm.declare(measure,
+                  number_key("temperature to", "", "m",
+                             "Coordinate up to which temperature is compared; all "
+                             "where not given.",
+                             above_zero));
+      prm.declare(
+          measure,
+          number_key("front floor", "0", "m",
+                     "By how much the exact solution itself is off in this domain; "
+                     "0: exact.",
+                     0));
       prm.declare(measure, {.key = "monotone front",
                             .kind = PrmKind::boolean,
                             .default_value = "true",
@@ -251,45 +226,53 @@ namespace meltfront::cases
                             .description = "Physics says that the front never turns "
                                            "back."});
       prm.declare(measure,
-                  integer("front mode", "0", 0, 1000,
-                          "m: the amplitude of cos(m phi) in a circular front is "
-                          "measured; 0: none."));
-      PrmEntry marks = numbers("marks", "s",
-                               "Times, ascending, at which the volume that is solid is "
-                               "measured beside the end.");
+                  integer_key("front mode", "0", 0, 1000,
+                              "m: the amplitude of cos(m phi) in a circular front is "
+                              "measured; 0: none."));
+      PrmEntry marks
+          = numbers_key("marks", "s",
+                        "Times, ascending, at which the volume that is solid is "
+                        "measured beside the end.");
       marks.most_values = most_marks;
       prm.declare(measure, marks);
       prm.declare(measure,
-                  text("events", "What is timed, separated by commas: first_contact of "
-                                 "the ice around two sinks, half_frozen, all_frozen."));
+                  text_key("events",
+                           "What is timed, separated by commas: first_contact of "
+                           "the ice around two sinks, half_frozen, all_frozen."));
       prm.declare(measure,
-                  integer("picture mark", "0", 0, most_marks,
-                          "Number of the mark, from 1, at which a picture of the "
-                          "scene is kept beside that of the end; 0: none."));
-      prm.declare(measure, word("mirror", "none", {"none", "x", "y", "z"},
-                                "Direction in which the temperature is compared with its "
-                                "mirror image about the origin."));
-      prm.declare(measure, number("absolute zero", "", "K or degrees Celsius",
-                                  "Absolute zero on the scene's scale of temperature, "
-                                  "-273.15 for degrees Celsius: the entropy is measured; "
-                                  "it is not where the key is not given."));
-      prm.declare("Reference", text("method", "The run that others are held against "
-                                              "where there is no exact solution: METHOD "
-                                              "or METHOD[KEY=VALUE,KEY=VALUE]."));
-      prm.declare("Reference", integer("n", "", 1, 1e9, "Resolution of that run."));
+                  integer_key("picture mark", "0", 0, most_marks,
+                              "Number of the mark, from 1, at which a picture of the "
+                              "scene is kept beside that of the end; 0: none."));
+      prm.declare(measure,
+                  word_key("mirror", "none", {"none", "x", "y", "z"},
+                           "Direction in which the temperature is compared with its "
+                           "mirror image about the origin."));
+      prm.declare(measure,
+                  number_key("absolute zero", "", "K or degrees Celsius",
+                             "Absolute zero on the scene's scale of temperature, "
+                             "-273.15 for degrees Celsius: the entropy is measured; "
+                             "it is not where the key is not given."));
+      prm.declare("Reference",
+                  text_key("method", "The run that others are held against "
+                                     "where there is no exact solution: METHOD "
+                                     "or METHOD[KEY=VALUE,KEY=VALUE]."));
+      prm.declare("Reference", integer_key("n", "", 1, 1e9, "Resolution of that run."));
       prm.declare_numbered("Acceptance",
-                           text("criterion", "METHOD: QUANTITY at n=N <= BOUND, and so "
-                                             "on; METHOD[KEY=VALUE,...] for a method "
-                                             "with options."),
+                           text_key("criterion",
+                                    "METHOD: QUANTITY at n=N <= BOUND, and so "
+                                    "on; METHOD[KEY=VALUE,...] for a method "
+                                    "with options."),
                            40);
-      prm.declare("Printed", text("source", "Paper that the values are printed in."));
-      prm.declare_numbered("Printed",
-                           text("value", "METHOD: QUANTITY at n=N = VALUE (TABLE)."), 40);
+      prm.declare("Printed", text_key("source", "Paper that the values are printed in."));
+      prm.declare_numbered(
+          "Printed", text_key("value", "METHOD: QUANTITY at n=N = VALUE (TABLE)."), 40);
       for(const std::string name : figure_names)
-        prm.declare("Printed", text(name + " figure",
-                                    "Figure of the paper that the report's plot of the "
-                                        + name + " restates, `Fig. 6`."));
-      prm.declare_numbered("Limits", text("limit", "What the case does not show."), 20);
+        prm.declare("Printed",
+                    text_key(name + " figure",
+                             "Figure of the paper that the report's plot of the " + name
+                                 + " restates, `Fig. 6`."));
+      prm.declare_numbered("Limits", text_key("limit", "What the case does not show."),
+                           20);
     }
   } // namespace
 
@@ -302,6 +285,8 @@ namespace meltfront::cases
     declare_state_and_walls(prm);
     declare_alloy(prm);
     declare_conduction(prm);
+    declare_interface(prm);
+    declare_particle_solid(prm);
     declare_effects(prm);
     declare_exact_solution(prm);
     declare_measures(prm);

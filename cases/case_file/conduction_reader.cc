@@ -1,5 +1,6 @@
 #include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/expression.h>
+#include <cases/case_file/key_builders.h>
 #include <cases/exact/formula_solution.h>
 #include <cases/exact/lattice_reference.h>
 
@@ -14,15 +15,6 @@ namespace meltfront::cases
     const std::string release_keys = "Scene/Heat release";
     const std::string inclusion_keys = "Scene/Inclusion";
     const std::string exact_keys = "Exact solution";
-
-    PrmEntry text(const std::string &key, const std::string &description)
-    {
-      return {.key = key,
-              .kind = PrmKind::text,
-              .default_value = {},
-              .unit = {},
-              .description = description};
-    }
 
     std::string variables(const Scene &scene)
     {
@@ -87,38 +79,37 @@ namespace meltfront::cases
 
   void declare_conduction(PrmFile &prm)
   {
-    PrmEntry problem = text("problem", "stefan: heat over time, with or without a change "
-                                       "of phase; poisson: the steady temperature.");
-    problem.kind = PrmKind::word;
-    problem.default_value = "stefan";
-    problem.choices = {"stefan", "poisson"};
-    prm.declare("Scene", problem);
+    prm.declare("Scene",
+                word_key("problem", "stefan",
+                         {"stefan", "poisson", "interface advection", "particle solid"},
+                         "stefan: heat over time, with or without a change of phase; "
+                         "poisson: the steady temperature; interface advection: a front "
+                         "that a given velocity carries along; particle solid: particles "
+                         "that bind each other."));
     prm.declare(release_keys,
-                text("power density",
-                     "Heat released throughout the domain, expression of x, "
-                     "y, z, t (W/m^3)."));
+                text_key("power density",
+                         "Heat released throughout the domain, expression of x, "
+                         "y, z, t (W/m^3)."));
     prm.declare(
         inclusion_keys,
-        text("level set", "Where it is: expression of x, y, z, negative inside."));
-    PrmEntry conductivity = text("conductivity", "Thermal conductivity inside.");
-    conductivity.kind = PrmKind::number;
-    conductivity.unit = "W/(m K)";
-    conductivity.lower = above_zero;
-    prm.declare(inclusion_keys, conductivity);
-    prm.declare(exact_keys, text("temperature", "Of a formula: expression of x, y, z, t "
-                                                "(K)."));
-    PrmEntry intervals = text("intervals", "Of the five-point lattice, along each side.");
-    intervals.kind = PrmKind::integer;
-    intervals.default_value = "101";
-    intervals.lower = 4;
-    intervals.upper = 2000;
-    prm.declare(exact_keys, intervals);
+        text_key("level set", "Where it is: expression of x, y, z, negative inside."));
+    prm.declare(inclusion_keys, number_key("conductivity", "", "W/(m K)",
+                                           "Thermal conductivity inside.", above_zero));
+    prm.declare(exact_keys,
+                text_key("temperature", "Of a formula: expression of x, y, z, t "
+                                        "(K)."));
+    prm.declare(exact_keys, integer_key("intervals", "101", 4, 2000,
+                                        "Of the five-point lattice, along each side."));
   }
 
   ProblemKind read_problem(const PrmFile &prm)
   {
-    return prm.get_text("Scene", "problem") == "poisson" ? ProblemKind::poisson
-                                                         : ProblemKind::stefan;
+    const std::string word = prm.get_text("Scene", "problem");
+    for(const ProblemKind kind : {ProblemKind::poisson, ProblemKind::interface_advection,
+                                  ProblemKind::particle_solid})
+      if(word == to_string(kind))
+        return kind;
+    return ProblemKind::stefan;
   }
 
   void read_conduction(const PrmFile &prm, Scene &scene)

@@ -305,6 +305,11 @@ namespace meltfront::cases
   {
     const std::string kind = prm.get_text(exact_keys, "kind");
     forbid_frontless_keys(prm, kind);
+    if(!scene.conducts_heat() && kind != "none")
+      throw prm.error(exact_keys, "kind",
+                      fmt::format("must be 'none' where the problem is '{}': what is "
+                                  "known exactly follows from the scene",
+                                  to_string(scene.problem)));
     if(kind != "oracle")
       for(const char *key : {"start", "start time", "initial front"})
         prm.forbid(exact_keys, key, "it is a key of the oracle");

@@ -3,6 +3,8 @@
 #include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/domain_reader.h>
 #include <cases/case_file/expression.h>
+#include <cases/case_file/interface_reader.h>
+#include <cases/case_file/particle_solid_reader.h>
 #include <cases/case_file/scene_reader.h>
 
 #include <fmt/format.h>
@@ -43,7 +45,8 @@ namespace meltfront::cases
     Material read_conductor(const PrmFile &prm)
     {
       const std::string why = "the scene is steady";
-      for(const char *key : {"latent heat", "melting temperature"})
+      for(const char *key :
+          {"latent heat", "melting temperature", "Gibbs-Thomson coefficient"})
         prm.forbid("Scene/Material", key, why);
       for(const char *key : {"specific heat capacity", "density"})
         prm.forbid("Scene/Material/Solid", key, why);
@@ -68,6 +71,8 @@ namespace meltfront::cases
          || prm.given("Scene/Material", "melting temperature"))
         material.melting_temperature
             = prm.get_number("Scene/Material", "melting temperature");
+      material.gibbs_thomson_coefficient
+          = prm.get_number("Scene/Material", "Gibbs-Thomson coefficient");
       const auto property = [&prm](const std::string &key, double &solid, double &liquid)
       {
         solid = prm.get_number("Scene/Material/Solid", key);
@@ -269,6 +274,37 @@ namespace meltfront::cases
                         fmt::format("({}) must come after 'start time' ({})",
                                     scene.end_time, scene.start_time));
     }
+
+    /** Of a scene that conducts heat. */
+    void read_heat(const PrmFile &prm, Scene &scene)
+    {
+      check_symmetry(prm, scene.domain, scene.symmetry);
+      scene.material = read_material(prm);
+      read_walls(prm, scene);
+      read_initial_state(prm, scene);
+      read_alloy(prm, scene);
+      read_conduction(prm, scene);
+      for(const std::string &here : opened_sources(prm))
+        scene.sources.push_back(read_source(prm, here, scene));
+    }
+
+    /** A scene that conducts none has no use for what belongs to heat. */
+    void forbid_heat(const PrmFile &prm, const Scene &scene)
+    {
+      std::vector<std::string> foreign{"Scene/Material",     "Scene/Walls",
+                                       initial_keys,         "Scene/Alloy",
+                                       "Scene/Heat release", "Scene/Inclusion"};
+      if(scene.problem == ProblemKind::particle_solid)
+        foreign.emplace_back("Scene/Domain");
+      for(const std::string &here : opened_sources(prm))
+        foreign.push_back(here);
+      for(const std::string &here : foreign)
+        if(prm.opened(here))
+          throw prm.subsection_error(here,
+                                     fmt::format("has no meaning where the problem is "
+                                                 "'{}'",
+                                                 to_string(scene.problem)));
+    }
   } // namespace
 
   Scene read_scene(const PrmFile &prm)
@@ -276,17 +312,16 @@ namespace meltfront::cases
     Scene scene;
     scene.units = prm.get_text("", "units");
     scene.problem = read_problem(prm);
-    scene.symmetry = read_symmetry(prm);
+    scene.symmetry = scene.conducts_heat() ? read_symmetry(prm) : Symmetry::none;
     read_times(prm, scene);
-    scene.domain = read_domain(prm);
-    check_symmetry(prm, scene.domain, scene.symmetry);
-    scene.material = read_material(prm);
-    read_walls(prm, scene);
-    read_initial_state(prm, scene);
-    read_alloy(prm, scene);
-    read_conduction(prm, scene);
-    for(const std::string &here : opened_sources(prm))
-      scene.sources.push_back(read_source(prm, here, scene));
+    if(scene.problem != ProblemKind::particle_solid)
+      scene.domain = read_domain(prm);
+    if(scene.conducts_heat())
+      read_heat(prm, scene);
+    else
+      forbid_heat(prm, scene);
+    read_interface(prm, scene);
+    read_particle_solid(prm, scene);
     for(const Effect effect : all_effects())
     {
       const std::string choice = prm.get_text("Effects", to_string(effect));
@@ -319,7 +354,7 @@ namespace meltfront::cases
       require_solution(wall_keys(side), "kind");
       boundary.value = temperature();
     }
-    if(prm.get_text(initial_keys, "kind") == "exact")
+    if(scene.conducts_heat() && prm.get_text(initial_keys, "kind") == "exact")
     {
       require_solution(initial_keys, "kind");
       scene.initial.temperature = temperature();

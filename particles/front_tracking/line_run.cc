@@ -1,11 +1,263 @@
 #include <cases/error.h>
+#include <cases/scene.h>
+#include <cases/stopwatch.h>
 #include <particles/front_tracking/line_run.h>
+#include <particles/front_tracking/line_sites.h>
+#include <particles/front_tracking/line_start.h>
+#include <particles/front_tracking/line_stepper.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace meltfront::particles::front_tracking
 {
-  cases::Cost solve_line(const cases::Scene &, const cases::EffectSet &,
-                         const cases::Resolution &, cases::Observer &)
+  namespace
   {
-    throw cases::Refusal("rkpm-tracked does not run along a line in this build");
+    /** Steps shorter than this share of the run fail. */
+    constexpr double shortest_step_over_run = 1e-13;
+    /** Collocation keeps the maximum principle in the limit only. */
+    constexpr double allowed_overshoot = 0.02;
+    constexpr int scheme_order(TimeScheme scheme)
+    {
+      return static_cast<int>(scheme);
+    }
+
+    /** Largest difference of temperatures that a scene can bring about. */
+    double temperature_span(const cases::TemperatureBounds &bounds,
+                            const LineState &initial, double melting)
+    {
+      double lowest = melting, highest = melting;
+      for(const double value : initial.temperature)
+      {
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
+      }
+      if(std::isfinite(bounds.lower))
+        lowest = std::min(lowest, bounds.lower);
+      if(std::isfinite(bounds.upper))
+        highest = std::max(highest, bounds.upper);
+      return highest > lowest ? highest - lowest : 1.;
+    }
+
+    class LineRun
+    {
+    public:
+      LineRun(const cases::Scene &scene, const cases::EffectSet &effects,
+              const cases::Resolution &resolution, cases::Observer &observer)
+        : scene(scene)
+        , effects(effects)
+        , observer(observer)
+        , parameters(read_tracking_parameters(scene, resolution))
+        , problem(pose_line_problem(scene, parameters, resolution.seed))
+        , initial(initial_state(scene, problem))
+        , bounds(cases::temperature_bounds(scene))
+        , stepper(problem,
+                  {parameters.basis_order, parameters.dilation, parameters.absorption,
+                   scheme_order(parameters.scheme)},
+                  rules(),
+                  [this](double time, const std::string &event)
+                  { watch.without([&] { this->observer.note(time, event); }); })
+      {
+      }
+
+      cases::Cost run()
+      {
+        const LineStart start = choose_start(scene, problem, parameters, initial,
+                                             planned_time(1) - scene.start_time);
+        const cases::Stopwatch::Seconds setup = watch.elapsed();
+        watch.without([&] { observer.begin(description(start)); });
+        watch.restart();
+        report(initial, true);
+        stepper.start(start.state, start.older);
+        booked = heat_of(problem, start.state).total() - initial_heat;
+        inflow = wall_heat(problem, stepper.state());
+        last_time = start.state.time;
+        if(start.state.time > scene.start_time)
+        {
+          ++first_step;
+          report(stepper.state(), false);
+        }
+        for(int k = 1; k <= parameters.steps; ++k)
+          if(planned_time(k) > stepper.state().time)
+            stepper.advance(planned_time(k), [this] { after_step(); });
+        return cost(setup);
+      }
+
+    private:
+      StepRules rules() const
+      {
+        const double duration = scene.end_time - scene.start_time;
+        const double step = planned_time(1) - scene.start_time;
+        StepRules result;
+        result.largest_move = parameters.largest_move;
+        // A first step of backward Euler so short that it spoils no higher order.
+        result.first_step = parameters.scheme == TimeScheme::backward_euler
+                                ? step
+                                : step * std::min(1., step / duration);
+        result.temperature_span
+            = temperature_span(bounds, initial, scene.material.melting_temperature);
+        result.shortest_step = shortest_step_over_run * duration;
+        return result;
+      }
+
+      double planned_time(int step) const
+      {
+        if(step == parameters.steps)
+          return scene.end_time;
+        const double share = static_cast<double>(step) / parameters.steps;
+        if(parameters.clock == Clock::time)
+          return scene.start_time + share * (scene.end_time - scene.start_time);
+        const double origin
+            = scene.initial.exact ? scene.initial.exact->start_time() : scene.start_time;
+        const double first = std::sqrt(scene.start_time - origin);
+        const double last = std::sqrt(scene.end_time - origin);
+        const double root = first + share * (last - first);
+        return origin + root * root;
+      }
+
+      cases::RunDescription description(const LineStart &start) const
+      {
+        cases::RunDescription result;
+        result.dimension = 1;
+        result.spacing = problem.spacing;
+        result.smoothing_length = 0;
+        result.time_step = (scene.end_time - scene.start_time) / parameters.steps;
+        result.unknowns = static_cast<long>(problem.nodes.size() + initial.fronts.size());
+        result.parameters = {
+            {"particles",
+             fmt::format("{} nodes{}, one particle on each front", problem.nodes.size(),
+                         parameters.jitter > 0
+                             ? fmt::format(", displaced by up to {:g} of their spacing",
+                                           parameters.jitter)
+                             : ""),
+             ""},
+            {"kernel", "cubic spline, fixed at each node, for each phase apart", ""},
+            {"basis order", std::to_string(parameters.basis_order), ""},
+            {"dilation", fmt::format("{:g}", parameters.dilation), "spacings"},
+            {"time scheme",
+             parameters.scheme == TimeScheme::backward_euler
+                 ? "backward Euler"
+                 : fmt::format("BDF{}", scheme_order(parameters.scheme)),
+             ""},
+            {"steps",
+             fmt::format("{}, equal in {}, divided where a front would move by more "
+                         "than {:g} spacings",
+                         parameters.steps,
+                         parameters.clock == Clock::time ? "t" : "sqrt(t)",
+                         parameters.largest_move),
+             ""},
+            {"start", start.how, ""},
+            {"fronts", "Broyden's method, all temperatures anew in each iteration", ""},
+            {"linear solver", "banded elimination", ""}};
+        return result;
+      }
+
+      void after_step()
+      {
+        const LineState &state = stepper.state();
+        const double now = wall_heat(problem, state);
+        const double release_now = release(state);
+        const double step = state.time - last_time;
+        walls += step * (now + inflow) / 2;
+        released += step * (release_now + last_release) / 2;
+        inflow = now;
+        last_release = release_now;
+        last_time = state.time;
+        const auto [lowest, highest]
+            = std::minmax_element(state.temperature.begin(), state.temperature.end());
+        cases::check_temperature(bounds, *lowest, *highest, method_name,
+                                 first_step + stepper.steps(), state.time,
+                                 allowed_overshoot);
+        report(state, state.time == scene.end_time);
+      }
+
+      /** Heat released in the domain per time. */
+      double release(const LineState &state) const
+      {
+        if(!problem.heat_release)
+          return 0;
+        double sum = 0;
+        const std::vector<double> &x = problem.nodes;
+        for(std::size_t i = 0; i < x.size(); ++i)
+        {
+          const double from = i == 0 ? x[i] : (x[i - 1] + x[i]) / 2;
+          const double to = i + 1 == x.size() ? x[i] : (x[i] + x[i + 1]) / 2;
+          sum += problem.heat_release(x[i], state.time)
+                 * cases::volume_between(problem.symmetry, from, to);
+        }
+        return sum;
+      }
+
+      void report(const LineState &state, bool always)
+      {
+        watch.without(
+            [&]
+            {
+              const long step = always && state.time == scene.start_time
+                                    ? 0
+                                    : first_step + stepper.steps();
+              if(!observer.wants(step, state.time) && !always)
+                return;
+              cases::Snapshot snapshot;
+              snapshot.step = step;
+              sites.read(problem, state, snapshot);
+              const LineHeat heat = heat_of(problem, state);
+              snapshot.heat.stored = heat.sensible;
+              snapshot.heat.latent = heat.latent;
+              snapshot.heat.boundary = booked + walls;
+              snapshot.heat.sources = released;
+              snapshot.heat.initial = initial_heat;
+              observer.observe(snapshot);
+            });
+      }
+
+      cases::Cost cost(const cases::Stopwatch::Seconds &setup) const
+      {
+        const cases::Stopwatch::Seconds stepping = watch.elapsed();
+        const LineSolver &solver = stepper.line_solver();
+        cases::Cost result;
+        result.setup_wall = setup.wall;
+        result.setup_cpu = setup.cpu;
+        result.stepping_wall = stepping.wall;
+        result.stepping_cpu = stepping.cpu;
+        result.steps = first_step + stepper.steps();
+        result.unknowns
+            = static_cast<long>(problem.nodes.size() + stepper.state().fronts.size());
+        result.work = solver.work();
+        result.solver_iterations = solver.counters().evaluations;
+        result.most_iterations = solver.counters().most_evaluations;
+        result.capped_steps = stepper.shortened();
+        // All effects are terms of the same rows: none has memory or time of its own.
+        for(const cases::EffectDecision &decision : effects.decisions())
+          if(decision.on)
+            result.effects.push_back(
+                {decision.effect, solver.counters().evaluations, 0, 0});
+        return result;
+      }
+
+      const cases::Scene &scene;
+      const cases::EffectSet &effects;
+      cases::Observer &observer;
+      cases::Stopwatch watch;
+      TrackingParameters parameters;
+      LineProblem problem;
+      LineState initial;
+      cases::TemperatureBounds bounds;
+      LineStepper stepper;
+      LineSites sites;
+      double initial_heat = heat_of(problem, initial).total();
+      double booked = 0; ///< through the walls before the first step
+      double walls = 0, released = 0;
+      double inflow = 0, last_release = 0, last_time = 0;
+      long first_step = 0; ///< 1 if the run set out from the similarity solution
+    };
+  } // namespace
+
+  cases::Cost solve_line(const cases::Scene &scene, const cases::EffectSet &effects,
+                         const cases::Resolution &resolution, cases::Observer &observer)
+  {
+    return LineRun(scene, effects, resolution, observer).run();
   }
 } // namespace meltfront::particles::front_tracking

@@ -4,12 +4,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace meltfront::particles::front_tracking
 {
   namespace
   {
     /** The kernel reaches this much farther than the order, in spacings. */
     constexpr double reach_beyond_order = 0.6;
+    /** From 4.3 spacings on the fourth order has growing modes beside fronts and walls.
+     */
+    constexpr double widest_default = 3.6;
 
     Clock choose_clock(const cases::Scene &scene, const std::string &word)
     {
@@ -31,7 +36,8 @@ namespace meltfront::particles::front_tracking
          "Dimension in which a symmetric scene is simulated; 0: the lowest.", 0, 2},
         {"basis_order", "1", 2L, "Order of the polynomials that are reproduced.", 2, 4},
         {"dilation", "1", 0.,
-         "Radius of the kernel (a cubic spline) over the spacing; 0: basis_order + 0.6.",
+         "Radius of the kernel (a cubic spline) over the spacing; 0: basis_order + "
+         "0.6, at most 3.6.",
          0, 20},
         {"scheme",
          "",
@@ -42,8 +48,10 @@ namespace meltfront::particles::front_tracking
          0,
          {"backward-euler", "bdf2", "bdf3"}},
         {"steps", "1", 0L,
-         "Time steps planned over the run; 0: half as many as intervals, at least 20.", 0,
-         1e7},
+         "Time steps planned over the run; 0: three for two intervals, at least 60, or "
+         "640 "
+         "where only space is refined.",
+         0, 1e7},
         {"refine",
          "",
          std::string("both"),
@@ -130,7 +138,7 @@ namespace meltfront::particles::front_tracking
                                               const cases::Resolution &resolution)
   {
     const cases::Options &options = resolution.options;
-    constexpr int fewest_steps = 20;
+    constexpr int fewest_steps = 60;
     constexpr int steps_where_only_space_is_refined = 640;
     TrackingParameters result;
     const std::string &refine = options.get_string("refine");
@@ -142,11 +150,11 @@ namespace meltfront::particles::front_tracking
       result.steps = resolution.n;
     else if(result.steps == 0)
       result.steps = refine == "space" ? steps_where_only_space_is_refined
-                                       : std::max(fewest_steps, resolution.n / 2);
+                                       : std::max(fewest_steps, 3 * resolution.n / 2);
     result.basis_order = static_cast<int>(options.get_integer("basis_order"));
     result.dilation = options.get_double("dilation");
     if(result.dilation == 0)
-      result.dilation = result.basis_order + reach_beyond_order;
+      result.dilation = std::min(result.basis_order + reach_beyond_order, widest_default);
     const std::string &scheme = options.get_string("scheme");
     result.scheme = scheme == "backward-euler" ? TimeScheme::backward_euler
                     : scheme == "bdf2"         ? TimeScheme::bdf2

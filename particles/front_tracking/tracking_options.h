@@ -44,7 +44,7 @@ namespace meltfront::particles::front_tracking
   struct TrackingParameters
   {
     int intervals = 40; ///< of the spacing along the domain's side
-    int steps = 20;     ///< planned over the run; where fronts are fast there are more
+    int steps = 60;     ///< planned over the run; where fronts are fast there are more
     int basis_order = 2;
     double dilation = 2.6; ///< radius of the kernel over the spacing
     TimeScheme scheme = TimeScheme::bdf2;

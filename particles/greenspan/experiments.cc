@@ -1,6 +1,7 @@
 #include <particles/greenspan/experiments.h>
 #include <particles/greenspan/random_numbers.h>
 #include <particles/greenspan/tables.h>
+#include <particles/greenspan/witness.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +11,6 @@ namespace meltfront::particles::greenspan
 {
   namespace
   {
-    /** A particle of the base that lies higher has left it. */
-    constexpr double buckled_height = 0.2;
-
-    /** Fluid particles count from here on: averages need time. */
-    constexpr long first_judged_step = 1000;
-
     Experiment triangle(const char *name, long steps)
     {
       Experiment experiment;
@@ -40,107 +35,6 @@ namespace meltfront::particles::greenspan
       experiment.corners = {1, 7};
       return experiment;
     }
-
-    /** Looks at a run and writes its record. */
-    class Witness
-    {
-    public:
-      explicit Witness(const Experiment &experiment)
-        : experiment(experiment)
-        , first_bonds(experiment.start.dimension, experiment.start.position,
-                      experiment.parameters.force.cutoff)
-        , average(experiment.interval, experiment.parameters.time_step)
-      {
-        record.corners.resize(experiment.corners.size());
-        record.least_solid = static_cast<int>(experiment.start.size());
-      }
-
-      void look(const ParticleState &state)
-      {
-        const BondGraph bonds(state.dimension, state.position,
-                              experiment.parameters.force.cutoff);
-        average.record(state);
-        const Cold cold = experiment.test == PhaseTest::temperature
-                              ? cold_by_temperature(state)
-                              : average.cold();
-        const std::vector<char> solid = bonds.in_triangle(cold);
-        const int count = static_cast<int>(std::count(solid.begin(), solid.end(), 1));
-        record.solid.push_back(count);
-        if(state.step >= first_judged_step)
-          judge(state.step, count);
-        if(record.first_break < 0 && first_bonds.shared_with(bonds) < first_bonds.count())
-          record.first_break = state.step;
-        if(record.unheated < 0 && experiment.parameters.source && nobody_heated(state))
-          record.unheated = state.step;
-        look_at_corners(state, bonds);
-        record.highest_y
-            = std::max(record.highest_y, *std::max_element(state.position[1].begin(),
-                                                           state.position[1].end()));
-        if(state.step == experiment.steps)
-          finish(state, bonds, solid);
-      }
-
-      RunRecord record;
-
-    private:
-      void judge(long step, int count)
-      {
-        record.least_solid = std::min(record.least_solid, count);
-        if(record.first_fluid < 0 && count < static_cast<int>(experiment.start.size()))
-          record.first_fluid = step;
-        if(record.all_fluid < 0 && count == 0)
-          record.all_fluid = step;
-      }
-
-      bool nobody_heated(const ParticleState &state) const
-      {
-        const HeatSource &source = *experiment.parameters.source;
-        for(std::size_t i = 0; i < state.size(); ++i)
-          if(std::hypot(state.position[0][i] - source.position[0],
-                        state.position[1][i] - source.position[1])
-             < source.reach)
-            return false;
-        return true;
-      }
-
-      void look_at_corners(const ParticleState &state, const BondGraph &bonds)
-      {
-        if(experiment.corners.empty())
-          return;
-        const std::vector<char> in_triangle = bonds.in_triangle();
-        const std::vector<double> temperature = temperatures(state);
-        for(std::size_t c = 0; c < experiment.corners.size(); ++c)
-        {
-          const std::size_t particle = experiment.corners[c] - 1;
-          if(record.corners[c].step < 0 && !in_triangle[particle])
-            record.corners[c] = {state.step, temperature[particle]};
-        }
-      }
-
-      void finish(const ParticleState &state, const BondGraph &bonds,
-                  const std::vector<char> &solid)
-      {
-        record.old_bonds = static_cast<int>(first_bonds.shared_with(bonds));
-        const auto &x = state.position[0];
-        record.lowest_x = *std::min_element(x.begin(), x.end());
-        record.highest_x = *std::max_element(x.begin(), x.end());
-        for(std::size_t i = 0; i < state.size(); ++i)
-        {
-          if(!solid[i])
-            record.final_fluid.push_back(i + 1);
-          record.base_buckled |= experiment.start.position[1][i] < buckled_height
-                                 && state.position[1][i] > buckled_height;
-          for(int d = 0; d < state.dimension; ++d)
-            record.kinetic_energy += state.velocity[d][i] * state.velocity[d][i] / 2;
-        }
-        if(!state.kinetic_sum.empty())
-          record.mean_temperature = spread(temperatures(state)).mean;
-      }
-
-      const Experiment &experiment;
-      BondGraph first_bonds;
-      AverageVelocity average;
-    };
   } // namespace
 
   Experiment Experiment::triangle_slow(double power)
@@ -204,7 +98,7 @@ namespace meltfront::particles::greenspan
       motion.advance(std::min(experiment.interval, experiment.steps - motion.step()));
       witness.look(motion.state());
     }
-    return witness.record;
+    return witness.record();
   }
 
   std::vector<RunRecord> run_ensemble(const Experiment &experiment, int members,

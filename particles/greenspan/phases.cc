@@ -21,7 +21,6 @@ namespace meltfront::particles::greenspan
 
   void AverageVelocity::record(const ParticleState &state)
   {
-    dimension = state.dimension;
     position.push_back(state.position);
     if(position.size() > frames)
       position.pop_front();
@@ -41,7 +40,7 @@ namespace meltfront::particles::greenspan
     for(std::size_t i = 0; i < result.size(); ++i)
     {
       double squared = 0;
-      for(int d = 0; d < dimension; ++d)
+      for(int d = 0; d < 3 && !position.back()[d].empty(); ++d)
       {
         const double moved = position.back()[d][i] - position.front()[d][i];
         squared += moved * moved;

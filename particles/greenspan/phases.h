@@ -37,6 +37,18 @@ namespace meltfront::particles::greenspan
     /** Hand over the positions of the next interval. */
     void record(const ParticleState &state);
 
+    /** Positions that were handed over within the window, oldest first. */
+    std::vector<std::array<std::vector<double>, 3>> recorded() const
+    {
+      return {position.begin(), position.end()};
+    }
+
+    /** Go on from them. */
+    void resume(const std::vector<std::array<std::vector<double>, 3>> &positions)
+    {
+      position.assign(positions.begin(), positions.end());
+    }
+
     /** Whether M steps have been seen. */
     bool known() const;
 
@@ -49,7 +61,6 @@ namespace meltfront::particles::greenspan
   private:
     std::size_t frames;
     double duration;
-    int dimension = 2;
     std::deque<std::array<std::vector<double>, 3>> position; ///< oldest first
   };
 

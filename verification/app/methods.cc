@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <particles/alloy/alloy.h>
 #include <particles/front_tracking/rkpm_tracked.h>
+#include <particles/greenspan/greenspan.h>
 #include <particles/relaxation/voronoi_fv.h>
 #include <particles/rkpm/moab_integral.h>
 #include <particles/rkpm/rkpm.h>
@@ -29,6 +30,7 @@ namespace meltfront::verification
       list.push_back(particles::make_moab_integral());
       list.push_back(particles::make_voronoi_fv());
       list.push_back(particles::make_rkpm_tracked());
+      list.push_back(particles::make_greenspan());
       list.push_back(reference_fem::make_fem_enthalpy());
       list.push_back(reference_fem::make_fem_fitted());
       list.push_back(reference_fem::make_fem_cut());

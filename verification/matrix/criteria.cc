@@ -1,5 +1,6 @@
 #include <verification/matrix/criteria.h>
 #include <verification/matrix/label.h>
+#include <verification/matrix/motion_observer.h>
 #include <verification/matrix/reference.h>
 #include <verification/matrix/refinement.h>
 #include <verification/matrix/run_observer.h>
@@ -211,6 +212,8 @@ namespace meltfront::verification
   std::vector<std::string> table_value_names()
   {
     std::vector<std::string> names = RunObserver::quantity_names();
+    for(const std::string &name : MotionObserver::quantity_names())
+      names.push_back(name);
     for(const std::string &name : derived_quantity_names())
       names.push_back(name);
     for(const auto &[name, value] : run_columns(RunRecord()))

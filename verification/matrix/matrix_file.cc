@@ -44,7 +44,8 @@ namespace meltfront::verification
         declare("options", "",
                 "Values of options, METHOD.KEY = VALUE | VALUE, with semicolons; every "
                 "combination is run.");
-        declare("seeds", "1", "Seeds of random arrangements, with commas.");
+        declare("seeds", "1",
+                "Seeds of random arrangements, with commas; 1..200 for all between.");
         declare("threads", "1", "Threads of a run; several numbers with commas.");
       }
       return prm;
@@ -74,6 +75,34 @@ namespace meltfront::verification
         values.push_back(value);
       }
       return values;
+    }
+
+    /** `1, 2, 5` and `1..200`, at most 10000 of them. */
+    std::vector<std::uint64_t> seeds_of(const PrmFile &prm, const std::string &block)
+    {
+      constexpr std::uint64_t most = 10000;
+      const std::string text = prm.get_text(block, "seeds");
+      const std::size_t dots = text.find("..");
+      if(dots == std::string::npos)
+        return integers<std::uint64_t>(prm, block, "seeds");
+      std::uint64_t first = 0, last = 0;
+      const auto read = [](const std::string &word, std::uint64_t &value)
+      {
+        const auto [end, failure]
+            = std::from_chars(word.data(), word.data() + word.size(), value);
+        return failure == std::errc() && end == word.data() + word.size();
+      };
+      if(!read(cases::trimmed(text.substr(0, dots)), first)
+         || !read(cases::trimmed(text.substr(dots + 2)), last) || first < 1
+         || last < first || last - first >= most)
+        throw prm.error(block, "seeds",
+                        fmt::format("holds '{}', which is not FIRST..LAST with whole "
+                                    "numbers from 1 on, at most {} of them",
+                                    cases::quotable(text), most));
+      std::vector<std::uint64_t> seeds;
+      for(std::uint64_t seed = first; seed <= last; ++seed)
+        seeds.push_back(seed);
+      return seeds;
     }
 
     /** `METHOD.KEY = VALUE | VALUE` */
@@ -108,7 +137,7 @@ namespace meltfront::verification
         for(const std::string &text :
             cases::split_list(prm.get_text(name, "options"), ';'))
           block.options.push_back(option_axis(prm, name, text));
-      block.seeds = integers<std::uint64_t>(prm, name, "seeds");
+      block.seeds = seeds_of(prm, name);
       block.threads = integers<int>(prm, name, "threads");
       return block;
     }

@@ -293,6 +293,21 @@ namespace meltfront::verification
           fmt::format("was not taken to the end, {:.6g}", scene.end_time));
   }
 
+  void RunObserver::keep_course(RunRecord &record) const
+  {
+    record.description = run_description;
+    record.series = run_series;
+    record.events = run_events;
+  }
+
+  void RunObserver::keep_results(RunRecord &record) const
+  {
+    record.profile = end_profile;
+    record.mark_profiles = mark_profiles();
+    record.frames = front_frames;
+    record.quantities = quantities();
+  }
+
   const cases::RunDescription &RunObserver::description() const
   {
     return run_description;

@@ -4,7 +4,7 @@
 #include <cases/case.h>
 #include <cases/method.h>
 #include <verification/matrix/alloy_measures.h>
-#include <verification/matrix/run_record.h>
+#include <verification/matrix/run_measures.h>
 #include <verification/matrix/run_statistics.h>
 #include <verification/measure/event_watch.h>
 #include <verification/measure/front_reader.h>
@@ -18,7 +18,7 @@
 namespace meltfront::verification
 {
   /**
-   * Measures a run while it goes on: reads fronts and budgets from each snapshot, holds
+   * Measures a run that conducts heat: reads fronts and budgets from each snapshot, holds
    * them against the case's exact solution, keeps the profile of the end.
    *
    * Snapshots are taken of the initial state, of the first step at or after each of
@@ -32,7 +32,7 @@ namespace meltfront::verification
    * temperature_overshoot tells by how much they did. Where no phase changes there is no
    * front and no volume that is solid: these quantities are NaN.
    */
-  class RunObserver : public cases::Observer
+  class RunObserver : public RunMeasures
   {
   public:
     /**
@@ -51,8 +51,9 @@ namespace meltfront::verification
     void observe(const cases::Snapshot &snapshot) override;
     void note(double time, const std::string &event) override;
 
-    /** @throws NumericalError if the method did not take the run to its end. */
-    void require_end() const;
+    void require_end() const override;
+    void keep_course(RunRecord &record) const override;
+    void keep_results(RunRecord &record) const override;
 
     const cases::RunDescription &description() const;
     const RunSeries &series() const;

@@ -1,7 +1,7 @@
 #include <cases/error.h>
 #include <verification/matrix/hash.h>
 #include <verification/matrix/provenance.h>
-#include <verification/matrix/run_observer.h>
+#include <verification/matrix/run_measures.h>
 #include <verification/matrix/run_one.h>
 
 #include <fmt/format.h>
@@ -79,18 +79,16 @@ namespace meltfront::verification
       cases::require_problem(method, c.scene);
       cases::require_effects(method, effects);
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
-      RunObserver observer(c, scene, method.name(), second);
+      const auto measures = measures_of(c, scene, method.name(), second);
       const auto keep_course = [&]
       {
-        record.description = observer.description();
-        record.series = observer.series();
-        record.events = observer.events();
+        measures->keep_course(record);
         record.peak_memory_mb = peak_memory_mb();
       };
       try
       {
-        record.cost = method.solve(scene, effects, resolution, observer);
-        observer.require_end();
+        record.cost = method.solve(scene, effects, resolution, *measures);
+        measures->require_end();
       }
       catch(...)
       {
@@ -98,12 +96,12 @@ namespace meltfront::verification
         throw;
       }
       keep_course();
-      record.profile = observer.profile();
-      record.mark_profiles = observer.mark_profiles();
-      record.frames = observer.frames();
-      record.quantities = observer.quantities();
+      measures->keep_results(record);
       record.status = RunStatus::finished;
-      repeat(method, scene, effects, resolution, policy, record);
+      // The first seed stands for the time of all; the others are there for their
+      // results.
+      if(resolution.seed == 1)
+        repeat(method, scene, effects, resolution, policy, record);
     }
   } // namespace
 

@@ -122,6 +122,31 @@ namespace meltfront::verification
       return list;
     }
 
+    json json_of(const std::vector<ParticleFrame> &frames)
+    {
+      json list = json::array();
+      for(const ParticleFrame &frame : frames)
+        list.push_back({{"time", json_of(frame.time)},
+                        {"step", frame.step},
+                        {"x", json_of(frame.x)},
+                        {"y", json_of(frame.y)},
+                        {"velocity_x", json_of(frame.velocity_x)},
+                        {"velocity_y", json_of(frame.velocity_y)},
+                        {"solid", json_of(frame.solid)}});
+      return list;
+    }
+
+    std::vector<ParticleFrame> particle_frames_in(const json &json)
+    {
+      std::vector<ParticleFrame> frames;
+      for(const auto &frame : json)
+        frames.push_back(
+            {number_in(frame.at("time")), frame.at("step"), numbers_in(frame.at("x")),
+             numbers_in(frame.at("y")), numbers_in(frame.at("velocity_x")),
+             numbers_in(frame.at("velocity_y")), numbers_in(frame.at("solid"))});
+      return frames;
+    }
+
     std::vector<FrontFrame> frames_in(const json &json)
     {
       std::vector<FrontFrame> frames;
@@ -256,6 +281,8 @@ namespace meltfront::verification
     for(const RunProfile &profile : record.mark_profiles)
       json["mark_profiles"].push_back(json_of(profile));
     json["frames"] = json_of(record.frames);
+    if(!record.particle_frames.empty())
+      json["particle_frames"] = json_of(record.particle_frames);
     json["events"] = json_of(record.events);
     json["provenance"] = record.provenance;
   }
@@ -284,6 +311,7 @@ namespace meltfront::verification
     for(const auto &profile : list_in(json, "mark_profiles"))
       record.mark_profiles.push_back(profile_in(profile));
     record.frames = frames_in(list_in(json, "frames"));
+    record.particle_frames = particle_frames_in(list_in(json, "particle_frames"));
     record.events = events_in(list_in(json, "events"));
     json.at("provenance").get_to(record.provenance);
   }

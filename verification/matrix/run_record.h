@@ -56,6 +56,15 @@ namespace meltfront::verification
     std::vector<double> x, y;
   };
 
+  /** Particles of a solid in the plane at a time. */
+  struct ParticleFrame
+  {
+    double time = 0;
+    long step = 0;
+    std::vector<double> x, y, velocity_x, velocity_y;
+    std::vector<double> solid; ///< 1 or 0
+  };
+
   /** Something that happened in a run between its snapshots. */
   struct RunEvent
   {
@@ -93,8 +102,9 @@ namespace meltfront::verification
     std::map<std::string, double> quantities;
     RunSeries series;
     RunProfile profile;
-    std::vector<RunProfile> mark_profiles; ///< at Measurement::marks or some
-    std::vector<FrontFrame> frames;        ///< at Measurement::marks and at the end
+    std::vector<RunProfile> mark_profiles;      ///< at Measurement::marks or some
+    std::vector<FrontFrame> frames;             ///< at Measurement::marks and at the end
+    std::vector<ParticleFrame> particle_frames; ///< at the start, the marks and the end
     std::vector<RunEvent> events;
 
     /** case_text, case_hash, program_version, compiler, flags, cpu, packages, date,

@@ -146,7 +146,8 @@ TEST(CaseFile, TheSameSceneSaidInTwoWaysHasTheSameBits)
   EXPECT_EQ(a.boundary(Side::x_min).value({}, 1), b.boundary(Side::x_min).value({}, 1));
   EXPECT_EQ(a.boundary(Side::x_max).kind, b.boundary(Side::x_max).kind);
   const EffectSet effects_a = effects_called_for(a), effects_b = effects_called_for(b);
-  for(std::size_t i = 0; i < n_effects; ++i)
+  ASSERT_EQ(effects_a.decisions().size(), effects_b.decisions().size());
+  for(std::size_t i = 0; i < effects_a.decisions().size(); ++i)
   {
     EXPECT_EQ(effects_a.decisions()[i].on, effects_b.decisions()[i].on);
     EXPECT_EQ(effects_a.decisions()[i].reason, effects_b.decisions()[i].reason);

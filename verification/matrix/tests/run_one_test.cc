@@ -33,7 +33,8 @@ namespace meltfront::verification
       EXPECT_NEAR(record.quantities.at("front_rms"), 0.1 / 40, 1e-12);
       EXPECT_EQ(record.description.spacing, 1. / 40);
       EXPECT_EQ(record.cost.work, 40 * 200);
-      EXPECT_EQ(record.effects.size(), cases::n_effects);
+      EXPECT_EQ(record.effects.size(),
+                cases::effects_called_for(c.scene).decisions().size());
       EXPECT_EQ(record.options.at("step_factor"), "0.5");
       EXPECT_GT(record.peak_memory_mb, 1);
       for(const char *key : {"case_text", "case_hash", "compiler", "flags", "cpu",
@@ -106,7 +107,8 @@ namespace meltfront::verification
       const RunRecord record = run_fake(OnlyConduction("conduction"));
       EXPECT_EQ(record.status, RunStatus::refused);
       EXPECT_NE(record.message.find("phase_change"), std::string::npos);
-      EXPECT_EQ(record.effects.size(), cases::n_effects);
+      EXPECT_EQ(record.effects.size(),
+                cases::effects_called_for(c.scene).decisions().size());
     }
 
     TEST(RunOne, RecordsEveryOtherExceptionAsAFailure)

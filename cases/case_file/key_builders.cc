@@ -1,0 +1,56 @@
+#include <cases/case_file/key_builders.h>
+
+#include <utility>
+
+namespace meltfront::cases
+{
+  PrmEntry text_key(const std::string &key, const std::string &description)
+  {
+    return {.key = key,
+            .kind = PrmKind::text,
+            .default_value = {},
+            .unit = {},
+            .description = description};
+  }
+
+  PrmEntry word_key(const std::string &key, const std::string &default_value,
+                    std::vector<std::string> choices, const std::string &description)
+  {
+    PrmEntry entry = text_key(key, description);
+    entry.kind = PrmKind::word;
+    entry.default_value = default_value;
+    entry.choices = std::move(choices);
+    return entry;
+  }
+
+  PrmEntry number_key(const std::string &key, const std::string &default_value,
+                      const std::string &unit, const std::string &description,
+                      double lower, double upper)
+  {
+    PrmEntry entry = text_key(key, description);
+    entry.kind = PrmKind::number;
+    entry.default_value = default_value;
+    entry.unit = unit;
+    entry.lower = lower;
+    entry.upper = upper;
+    return entry;
+  }
+
+  PrmEntry numbers_key(const std::string &key, const std::string &unit,
+                       const std::string &description)
+  {
+    PrmEntry entry = text_key(key, description);
+    entry.kind = PrmKind::numbers;
+    entry.unit = unit;
+    return entry;
+  }
+
+  PrmEntry integer_key(const std::string &key, const std::string &default_value,
+                       double lower, double upper, const std::string &description)
+  {
+    PrmEntry entry = number_key(key, default_value, {}, description, lower, upper);
+    entry.kind = PrmKind::integer;
+    return entry;
+  }
+
+} // namespace meltfront::cases

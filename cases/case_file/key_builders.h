@@ -1,0 +1,26 @@
+#ifndef meltfront_cases_case_file_key_builders_h
+#define meltfront_cases_case_file_key_builders_h
+
+#include <cases/case_file/prm_file.h>
+
+namespace meltfront::cases
+{
+  /** Keys of the kinds that case files have, each declared in one line. */
+  PrmEntry text_key(const std::string &key, const std::string &description);
+
+  PrmEntry word_key(const std::string &key, const std::string &default_value,
+                    std::vector<std::string> choices, const std::string &description);
+
+  PrmEntry number_key(const std::string &key, const std::string &default_value,
+                      const std::string &unit, const std::string &description,
+                      double lower = -std::numeric_limits<double>::infinity(),
+                      double upper = std::numeric_limits<double>::infinity());
+
+  PrmEntry numbers_key(const std::string &key, const std::string &unit,
+                       const std::string &description);
+
+  PrmEntry integer_key(const std::string &key, const std::string &default_value,
+                       double lower, double upper, const std::string &description);
+} // namespace meltfront::cases
+
+#endif

@@ -1,0 +1,93 @@
+#ifndef meltfront_cases_particle_solid_h
+#define meltfront_cases_particle_solid_h
+
+#include <cases/position.h>
+
+#include <optional>
+#include <vector>
+
+namespace meltfront::cases
+{
+  /**
+   * The force between two particles of mass 1 at a distance r: attraction / r^p is taken
+   * from repulsion / r^q, up to the cutoff (Greenspan 1976, equations 2.5, 2.6). Units
+   * are the report's, Boltzmann's constant is 1.
+   */
+  struct PairLaw
+  {
+    double attraction = 2500;       ///< G
+    double repulsion = 2900;        ///< H
+    double attraction_exponent = 4; ///< beta
+    double repulsion_exponent = 6;  ///< alpha
+    double cutoff = 1.5;            ///< beyond which there is no force
+  };
+
+  /** How the particles are arranged at the start. */
+  enum class SolidArrangement
+  {
+    table,     ///< one of the tables of the report
+    triangle,  ///< rows that become shorter upwards, at rest on the base
+    rectangle, ///< rows of L and L - 1 particles, at rest on the base
+    bar        ///< a crystal between a hot and a cold wall
+  };
+
+  /** So many steps with such a strength of heating. */
+  struct HeatingStage
+  {
+    long steps = 0;
+    double strength = 0; ///< Gamma: velocity added in each step at distance 1
+  };
+
+  /** A source that drives particles away from itself, equation (4.1). */
+  struct PointHeating
+  {
+    Position position{};
+    std::vector<HeatingStage> stages; ///< in turn; the last holds on
+    double power = 2;                 ///< of the distance that the strength is divided by
+    double reach = 2.5;
+  };
+
+  /** The part |x| < half_width of the base that heats, equation (5.1): gamma falls from
+   * `left` at its left end by `slope` per length. */
+  struct HotBase
+  {
+    double half_width = 5;
+    double left = 1.5;
+    double slope = 0.025;
+  };
+
+  /** The floor y = 0 that throws particles back, equation (3.1). */
+  struct SolidBase
+  {
+    double restitution = 0.1; ///< gamma: share of the velocity that is thrown back
+    std::optional<HotBase> hot;
+  };
+
+  /** What makes a particle fluid. */
+  enum class SolidTest
+  {
+    average_speed, ///< it moves faster than 7.5 on average over 1000 steps
+    temperature    ///< its mean kinetic energy since the start is 25 or more
+  };
+
+  /** A solid of particles that bind each other (D. Greenspan, A particle model of the
+   * Stefan problem, 1976). */
+  struct ParticleSolid
+  {
+    PairLaw law;
+    SolidArrangement arrangement = SolidArrangement::table;
+    int table = 1;       ///< of the report: 1, the triangle, or 2, the rectangle
+    bool errata = false; ///< the table's four misprints are put right
+    int rows = 7;        ///< of a rectangle
+    double time_step = 1e-4;
+    double gravity = 0;     ///< downward
+    double disturbance = 0; ///< standard deviation of what is added to each coordinate
+    std::optional<SolidBase> base;
+    std::optional<PointHeating> heating;
+    SolidTest test = SolidTest::average_speed;
+    std::vector<int> corners; ///< particles, from 1, whose last bond is looked for
+    double pressure = 0;      ///< on a bar's cold end
+  };
+} // namespace meltfront::cases
+
+#endif

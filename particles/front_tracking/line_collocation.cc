@@ -1,0 +1,270 @@
+#include <cases/error.h>
+#include <particles/front_tracking/line_collocation.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::particles::front_tracking
+{
+  using cases::BoundaryKind;
+
+  LineInterval interval(const LineProblem &problem, const LineState &state,
+                        std::size_t number)
+  {
+    LineInterval result;
+    result.lower_front = number > 0;
+    result.upper_front = number < state.fronts.size();
+    result.lower = result.lower_front ? state.fronts[number - 1] : problem.nodes.front();
+    result.upper = result.upper_front ? state.fronts[number] : problem.nodes.back();
+    result.solid = state.solid(number);
+    return result;
+  }
+
+  LineCollocation::LineCollocation(const LineProblem &problem,
+                                   const LineSettings &settings)
+    : problem(problem)
+    , absorption(std::max(settings.absorption, coincidence) * problem.spacing)
+    , stencils(settings.basis_order, settings.dilation * problem.spacing)
+    , regular(problem.nodes.size())
+  {
+    cloud.dimension = 1;
+    cloud.position[0] = problem.nodes;
+    for(std::size_t i = 0; i < problem.nodes.size(); ++i)
+      stencils.evaluate(problem.nodes[i], cloud, regular[i]);
+  }
+
+  std::pair<std::size_t, std::size_t>
+  LineCollocation::nodes_of(const LineInterval &interval) const
+  {
+    const std::vector<double> &x = problem.nodes;
+    const double near = coincidence * problem.spacing;
+    const auto begin = interval.lower_front
+                           ? std::upper_bound(x.begin(), x.end(), interval.lower + near)
+                           : x.begin();
+    const auto past = interval.upper_front
+                          ? std::lower_bound(begin, x.end(), interval.upper - near)
+                          : x.end();
+    return {static_cast<std::size_t>(begin - x.begin()),
+            static_cast<std::size_t>(past - x.begin())};
+  }
+
+  void LineCollocation::gather(const LineInterval &interval)
+  {
+    const std::vector<double> &x = problem.nodes;
+    std::tie(all_first, all_end) = nodes_of(interval);
+    first = all_first;
+    end = all_end;
+    // A node on a wall stays, however near the front is.
+    while(interval.lower_front && first < end && first + 1 < x.size()
+          && x[first] - interval.lower < absorption)
+      ++first;
+    while(interval.upper_front && end > first && end > 1
+          && interval.upper - x[end - 1] < absorption)
+      --end;
+    std::vector<double> &place = cloud.position[0];
+    place.clear();
+    if(interval.lower_front)
+      place.push_back(interval.lower);
+    offset = place.size();
+    for(std::size_t i = first; i < end; ++i)
+      place.push_back(x[i]);
+    if(interval.upper_front)
+      place.push_back(interval.upper);
+    if(rows.size() < place.size())
+    {
+      rows.resize(place.size());
+      coefficients.resize(place.size());
+    }
+  }
+
+  const LineStencil &LineCollocation::stencil(std::size_t point)
+  {
+    const double place = cloud.position[0][point];
+    LineStencil &row = rows[point];
+    const std::size_t node = first + point - offset;
+    if(point >= offset && node < end)
+    {
+      const LineStencil &known = regular[node];
+      const bool inside = known.first >= first && known.end() <= end;
+      const bool below = offset == 1 && place - cloud.position[0].front() < known.radius;
+      const bool above = offset + (end - first) < cloud.size()
+                         && cloud.position[0].back() - place < known.radius;
+      if(inside && !below && !above)
+      {
+        row = known;
+        row.first = known.first - first + offset;
+        return row;
+      }
+    }
+    stencils.evaluate(place, cloud, row);
+    return row;
+  }
+
+  void LineCollocation::add_row(std::size_t point, const LineInterval &interval,
+                                const StepTerms &terms)
+  {
+    const LineStencil &row = rows[point];
+    const double x = cloud.position[0][point];
+    const cases::PhaseProperties &phase = problem.phase(interval.solid);
+    const double diffusivity = phase.diffusivity();
+    const int bends = problem.curvature_terms();
+    double slope = bends > 0 ? -diffusivity * bends / x : 0.;
+    if(terms.displaced_speed != 0)
+    {
+      double speed = terms.displaced_speed;
+      for(int i = 0; i < bends; ++i)
+        speed *= terms.displacing_front / x;
+      slope += speed;
+    }
+    std::vector<double> &values = coefficients[point];
+    values.resize(row.size());
+    for(std::size_t j = 0; j < row.size(); ++j)
+      values[j] = slope * row.slope[j] - diffusivity * row.second[j];
+    values[point - row.first] += terms.leading;
+    const std::size_t node = first + point - offset;
+    right_side[point] = -terms.history[node];
+    if(problem.heat_release)
+      right_side[point]
+          += problem.heat_release(x, terms.time) / phase.volumetric_heat_capacity();
+  }
+
+  void LineCollocation::add_wall_row(std::size_t point, int side,
+                                     const LineInterval &interval, double time)
+  {
+    const LineWall &wall = problem.walls[static_cast<std::size_t>(side)];
+    const LineStencil &row = rows[point];
+    std::vector<double> &values = coefficients[point];
+    values.assign(row.size(), 0.);
+    right_side[point] = 0;
+    if(wall.fixed())
+    {
+      values[point - row.first] = 1;
+      right_side[point] = wall.value(time);
+      return;
+    }
+    const double conductivity = problem.phase(interval.solid).conductivity;
+    const double outward = side == 0 ? -1 : 1;
+    for(std::size_t j = 0; j < row.size(); ++j)
+      values[j] = outward * conductivity * row.slope[j];
+    if(wall.kind == BoundaryKind::flux)
+      right_side[point] = wall.value(time);
+    if(wall.kind == BoundaryKind::heat_transfer)
+    {
+      values[point - row.first] += wall.transfer;
+      right_side[point] = wall.transfer * wall.value(time);
+    }
+  }
+
+  EndSlopes LineCollocation::solve(const LineInterval &interval, const StepTerms &terms,
+                                   std::span<double> temperature)
+  {
+    gather(interval);
+    const std::size_t points = cloud.size();
+    const double melting = problem.material.melting_temperature;
+    if(points < 2)
+      throw cases::InputError("rkpm-tracked: a phase needs two points at least");
+    right_side.resize(points);
+    std::size_t below = 0, above = 0;
+    for(std::size_t p = 0; p < points; ++p)
+    {
+      const LineStencil &row = stencil(p);
+      below = std::max(below, p - std::min(p, row.first));
+      above = std::max(above, row.end() - 1 - std::min(row.end() - 1, p));
+      const bool lower_end = p == 0, upper_end = p + 1 == points;
+      if((lower_end && interval.lower_front) || (upper_end && interval.upper_front))
+      {
+        coefficients[p].assign(row.size(), 0.);
+        coefficients[p][p - row.first] = 1;
+        right_side[p] = melting;
+      }
+      else if(lower_end || upper_end)
+        add_wall_row(p, upper_end ? 1 : 0, interval, terms.time);
+      else
+        add_row(p, interval, terms);
+    }
+    matrix.reset(points, below, above);
+    for(std::size_t p = 0; p < points; ++p)
+    {
+      // Rows of equal size, for the sake of the pivots.
+      double largest = 0;
+      for(const double value : coefficients[p])
+        largest = std::max(largest, std::abs(value));
+      for(std::size_t j = 0; j < rows[p].size(); ++j)
+        matrix(p, rows[p].first + j) = coefficients[p][j] / largest;
+      right_side[p] /= largest;
+      entries += static_cast<long>(rows[p].size());
+    }
+    if(!matrix.solve(right_side))
+      throw cases::InputError("rkpm-tracked: the equations of a phase are singular");
+    for(std::size_t i = first; i < end; ++i)
+      temperature[i] = right_side[i - first + offset];
+    interpolate_absorbed(interval, temperature);
+    return end_slopes();
+  }
+
+  void LineCollocation::interpolate_absorbed(const LineInterval &interval,
+                                             std::span<double> temperature) const
+  {
+    const std::vector<double> &place = cloud.position[0];
+    const std::size_t points = std::min<std::size_t>(place.size(), 3);
+    const auto fill = [&](std::size_t node, std::size_t from)
+    {
+      const double x = problem.nodes[node];
+      double value = 0;
+      for(std::size_t i = from; i < from + points; ++i)
+      {
+        double weight = 1;
+        for(std::size_t j = from; j < from + points; ++j)
+          if(j != i)
+            weight *= (x - place[j]) / (place[i] - place[j]);
+        value += weight * right_side[i];
+      }
+      temperature[node] = value;
+    };
+    for(std::size_t node = all_first; node < first; ++node)
+      fill(node, 0);
+    for(std::size_t node = end; node < all_end; ++node)
+      fill(node, place.size() - points);
+    const double melting = problem.material.melting_temperature;
+    if(interval.lower_front && all_first > 0
+       && std::abs(problem.nodes[all_first - 1] - interval.lower)
+              <= coincidence * problem.spacing)
+      temperature[all_first - 1] = melting;
+    if(interval.upper_front && all_end < problem.nodes.size()
+       && std::abs(problem.nodes[all_end] - interval.upper)
+              <= coincidence * problem.spacing)
+      temperature[all_end] = melting;
+  }
+
+  EndSlopes LineCollocation::end_slopes() const
+  {
+    const double melting = problem.material.melting_temperature;
+    const std::size_t last = cloud.size() - 1;
+    EndSlopes result{};
+    for(std::size_t side = 0; side < 2; ++side)
+    {
+      const LineStencil &row = rows[side == 0 ? 0 : last];
+      double sum = 0;
+      for(std::size_t j = 0; j < row.size(); ++j)
+        sum += row.slope[j] * (right_side[row.first + j] - melting);
+      result[side] = sum;
+    }
+    return result;
+  }
+
+  EndSlopes LineCollocation::slopes(const LineInterval &interval,
+                                    std::span<const double> temperature)
+  {
+    gather(interval);
+    right_side.resize(cloud.size());
+    for(std::size_t p = 0; p < cloud.size(); ++p)
+    {
+      const bool node = p >= offset && first + p - offset < end;
+      right_side[p]
+          = node ? temperature[first + p - offset] : problem.material.melting_temperature;
+    }
+    stencil(0);
+    stencil(cloud.size() - 1);
+    return end_slopes();
+  }
+} // namespace meltfront::particles::front_tracking

@@ -1,0 +1,129 @@
+#include <particles/front_tracking/line_history.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace meltfront::particles::front_tracking
+{
+  namespace
+  {
+    /** Nodes nearer to a front than this, over the spacing, do not shape its extension:
+     * their weights would be large. */
+    constexpr double least_distance = 0.3;
+    constexpr std::size_t highest_degree = 4;
+  } // namespace
+
+  std::vector<double> differentiation_weights(std::span<const double> times)
+  {
+    // Slopes at times[0] of Lagrange's polynomials.
+    std::vector<double> weights(times.size(), 0.);
+    for(std::size_t j = 1; j < times.size(); ++j)
+    {
+      double product = 1;
+      for(std::size_t m = 1; m < times.size(); ++m)
+        if(m != j)
+          product *= (times[0] - times[m]) / (times[j] - times[m]);
+      weights[j] = product / (times[j] - times[0]);
+      weights[0] -= weights[j];
+    }
+    return weights;
+  }
+
+  LineHistory::LineHistory(const LineProblem &problem, const LineSettings &settings)
+    : problem(problem)
+    , order(static_cast<std::size_t>(settings.time_order))
+    , degree(static_cast<std::size_t>(std::max(3, settings.basis_order)))
+  {
+  }
+
+  void LineHistory::restart(LineState state)
+  {
+    levels.clear();
+    levels.push_front(std::move(state));
+  }
+
+  void LineHistory::push(LineState state)
+  {
+    levels.push_front(std::move(state));
+    while(levels.size() > order)
+      levels.pop_back();
+  }
+
+  void LineHistory::add_older(LineState state)
+  {
+    levels.push_back(std::move(state));
+  }
+
+  std::vector<double> LineHistory::times(double next) const
+  {
+    std::vector<double> result{next};
+    for(std::size_t j = 0; j < std::min(order, levels.size()); ++j)
+      result.push_back(levels[j].time);
+    return result;
+  }
+
+  double LineHistory::temperature(std::size_t level, std::size_t node,
+                                  std::size_t number) const
+  {
+    const LineState &state = levels[level];
+    const double place = problem.nodes[node];
+    const bool below = number > 0 && place < state.fronts[number - 1];
+    const bool above = number < state.fronts.size() && place > state.fronts[number];
+    if(!below && !above)
+      return state.temperature[node];
+    return extension(state, interval(problem, state, number), place);
+  }
+
+  double LineHistory::extension(const LineState &state, const LineInterval &interval,
+                                double place) const
+  {
+    const std::vector<double> &x = problem.nodes;
+    const double melting = problem.material.melting_temperature;
+    const bool below = place < interval.lower;
+    const double front = below ? interval.lower : interval.upper;
+    const double far_end = below ? interval.upper : interval.lower;
+    const bool far_front = below ? interval.upper_front : interval.lower_front;
+    std::array<double, highest_degree + 1> at{}, value{};
+    std::size_t count = 0;
+    at[count] = front;
+    value[count++] = melting;
+    const double apart = least_distance * problem.spacing;
+    // From the front into the phase; a wall's node counts at any distance if it is the
+    // only one.
+    const auto begin = std::lower_bound(x.begin(), x.end(), interval.lower);
+    const auto end = std::upper_bound(begin, x.end(), interval.upper);
+    const auto offer = [&](std::size_t node)
+    {
+      const bool last_chance = count == 1 && !far_front && x[node] == far_end;
+      const bool clear = std::abs(x[node] - front) > apart
+                         && (!far_front || std::abs(x[node] - far_end) > apart);
+      if(count <= degree && (clear || last_chance) && x[node] != front)
+      {
+        at[count] = x[node];
+        value[count++] = state.temperature[node];
+      }
+    };
+    if(below)
+      for(auto node = begin; node != end && count <= degree; ++node)
+        offer(static_cast<std::size_t>(node - x.begin()));
+    else
+      for(auto node = end; node != begin && count <= degree;)
+        offer(static_cast<std::size_t>(--node - x.begin()));
+    if(count <= degree && far_front && std::abs(far_end - front) > apart)
+    {
+      at[count] = far_end;
+      value[count++] = melting;
+    }
+    double sum = 0;
+    for(std::size_t i = 0; i < count; ++i)
+    {
+      double weight = 1;
+      for(std::size_t j = 0; j < count; ++j)
+        if(j != i)
+          weight *= (place - at[j]) / (at[i] - at[j]);
+      sum += weight * (value[i] - melting);
+    }
+    return melting + sum;
+  }
+} // namespace meltfront::particles::front_tracking

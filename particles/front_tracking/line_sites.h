@@ -1,0 +1,44 @@
+#ifndef meltfront_particles_front_tracking_line_sites_h
+#define meltfront_particles_front_tracking_line_sites_h
+
+#include <cases/snapshot.h>
+#include <particles/front_tracking/line_problem.h>
+
+namespace meltfront::particles::front_tracking
+{
+  /** Heat in the domain above solid at the melting temperature, in the measure of the
+   * scene. */
+  struct LineHeat
+  {
+    double sensible = 0, latent = 0;
+
+    double total() const
+    {
+      return sensible + latent;
+    }
+  };
+
+  /** The heat of a state; temperatures are straight between neighbouring points. */
+  LineHeat heat_of(const LineProblem &problem, const LineState &state);
+
+  /** Heat that comes in through the walls per time, in the measure of the scene; with
+   * liquid or solid that moves through them. */
+  double wall_heat(const LineProblem &problem, const LineState &state);
+
+  /** A state as sites: nodes and fronts in ascending order. A node stands for what is
+   * nearer to it than to its neighbours, up to the front; so the solid's volume is that
+   * between the fronts. */
+  class LineSites
+  {
+  public:
+    void read(const LineProblem &problem, const LineState &state,
+              cases::Snapshot &snapshot);
+
+  private:
+    void add(double place, double weight, double temperature, bool solid);
+
+    std::vector<double> place, weight, temperature, solid_fraction, fronts;
+  };
+} // namespace meltfront::particles::front_tracking
+
+#endif

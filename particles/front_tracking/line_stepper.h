@@ -1,0 +1,94 @@
+#ifndef meltfront_particles_front_tracking_line_stepper_h
+#define meltfront_particles_front_tracking_line_stepper_h
+
+#include <particles/front_tracking/line_events.h>
+#include <particles/front_tracking/line_solver.h>
+
+#include <functional>
+#include <string>
+
+namespace meltfront::particles::front_tracking
+{
+  /** Bounds on the steps that a stepper takes. */
+  struct StepRules
+  {
+    double largest_move = 0.5;   ///< of a front in a step, over the spacing
+    double first_step = 0;       ///< after a start without history and after events (s)
+    double temperature_span = 1; ///< that events are found to a share of (K)
+    double shortest_step = 0;    ///< a step that must be shorter fails (s)
+  };
+
+  /**
+   * Takes a line problem from time to time in steps of its own choice: shorter where a
+   * front is fast, after a start and after events. Phases appear at walls that pass the
+   * melting temperature, vanish where their fronts reach a wall, and fronts that meet
+   * take the phase between them away.
+   */
+  class LineStepper
+  {
+  public:
+    using Note = std::function<void(double time, const std::string &event)>;
+
+    LineStepper(const LineProblem &problem, const LineSettings &settings,
+                const StepRules &rules, Note note);
+
+    /** Begin from a state; a phase that a wall calls for at once appears.
+     * @param older states before it, newest first, equally far apart */
+    void start(LineState state, std::vector<LineState> older);
+
+    /**
+     * Advance to a time, reached exactly.
+     * @param after_step called after every step that is kept
+     * @throws cases::NumericalError where steps would have to be too short or a value is
+     * not finite
+     */
+    void advance(double target, const std::function<void()> &after_step);
+
+    const LineState &state() const
+    {
+      return solver.state();
+    }
+
+    const LineSolver &line_solver() const
+    {
+      return solver;
+    }
+
+    /** Steps kept. */
+    long steps() const
+    {
+      return kept;
+    }
+
+    /** Steps that were cut short because their equations had no solution in reach. */
+    long shortened() const
+    {
+      return shortened_steps;
+    }
+
+  private:
+    double choose_end(double target) const;
+    void shorten(StepOutcome outcome, double time_step);
+    bool pass_wall(const std::deque<LineState> &before, double time_step);
+    void insert(std::size_t side);
+    void insert_where_called_for();
+    void remove(std::size_t number);
+    void restart(LineState state);
+    void warn_of_thin_layers();
+    void warn_of_metastable_phases();
+
+    const LineProblem &problem;
+    LineSolver solver;
+    StepRules rules;
+    Note note;
+    double next_step; ///< the longest that may come next (s)
+    double growth;    ///< of steps from one to the next
+    long kept = 0;
+    long shortened_steps = 0;
+    long events = 0;
+    std::array<int, 2> warned{}; ///< of liquid and solid: how strongly
+    std::array<bool, 2> warned_metastable{};
+  };
+} // namespace meltfront::particles::front_tracking
+
+#endif

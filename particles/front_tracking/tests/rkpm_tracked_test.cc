@@ -1,0 +1,280 @@
+#include <cases/error.h>
+#include <cases/exact/frank.h>
+#include <cases/exact/oracle.h>
+#include <cases/exact/planar_neumann.h>
+#include <cases/scene.h>
+#include <particles/front_tracking/rkpm_tracked.h>
+#include <particles/front_tracking/tests/line_cases.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+namespace meltfront::particles::front_tracking
+{
+  namespace
+  {
+    using cases::BoundaryKind;
+    using cases::Side;
+    using OptionTexts = std::vector<std::pair<std::string, std::string>>;
+
+    /** Keeps what a run reports at each step. */
+    struct Recorder : cases::Observer
+    {
+      bool wants(long, double) override
+      {
+        return true;
+      }
+
+      void observe(const cases::Snapshot &snapshot) override
+      {
+        times.push_back(snapshot.time);
+        steps.push_back(snapshot.step);
+        fronts.assign(snapshot.front[0].begin(), snapshot.front[0].end());
+        solid = 0;
+        for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
+          solid += snapshot.weights[i] * snapshot.solid_fraction[i];
+        volume = std::accumulate(snapshot.weights.begin(), snapshot.weights.end(), 0.);
+        place.assign(snapshot.positions[0].begin(), snapshot.positions[0].end());
+        temperature.assign(snapshot.temperature.begin(), snapshot.temperature.end());
+        defect = std::max(defect, snapshot.heat.defect());
+      }
+
+      void note(double, const std::string &event) override
+      {
+        notes.push_back(event);
+      }
+
+      std::vector<double> times, fronts, place, temperature;
+      std::vector<long> steps;
+      std::vector<std::string> notes;
+      double solid = 0, volume = 0, defect = 0;
+    };
+
+    Recorder run(const cases::Scene &scene, int n, const OptionTexts &options = {})
+    {
+      const auto method = make_rkpm_tracked();
+      cases::Resolution resolution;
+      resolution.n = n;
+      resolution.options = cases::Options(method->option_declarations());
+      for(const auto &[key, value] : options)
+        resolution.options.set(key, value);
+      Recorder recorder;
+      const cases::EffectSet effects = cases::effects_called_for(scene);
+      method->solve(cases::simulated_scene(scene, effects), effects, resolution,
+                    recorder);
+      return recorder;
+    }
+
+    cases::Boundary held(double value)
+    {
+      return {BoundaryKind::fixed_temperature, cases::Field::uniform(value)};
+    }
+
+    void set(cases::Scene &scene, Side side, const cases::Boundary &boundary)
+    {
+      scene.boundaries[static_cast<std::size_t>(side)] = boundary;
+    }
+
+    cases::Scene slab(const cases::Material &material, double start, double end)
+    {
+      cases::Scene scene;
+      scene.name = "slab";
+      scene.symmetry = cases::Symmetry::planar;
+      scene.domain.upper[0] = 1;
+      scene.material = material;
+      scene.start_time = start;
+      scene.end_time = end;
+      return scene;
+    }
+
+    void start_from(cases::Scene &scene,
+                    const std::shared_ptr<const cases::ExactSolution> &exact)
+    {
+      const auto temperature = [exact](const cases::Position &p, double time)
+      { return exact->temperature(p, time); };
+      scene.initial.temperature = {"exact", temperature};
+      scene.initial.exact = exact;
+      const double sign = exact->solid_at_origin() ? 1 : -1;
+      scene.initial.front
+          = cases::Field{"exact", [exact, sign](const cases::Position &p, double time)
+                         { return sign * exact->signed_distance(p, time); }};
+      const cases::Boundary wall{
+          BoundaryKind::fixed_temperature, {"exact", temperature}, true};
+      if(scene.domain.round())
+        set(scene, Side::outer, wall);
+      else
+        for(const Side side : {Side::x_min, Side::x_max})
+          set(scene, side, wall);
+    }
+
+    TEST(RkpmTracked, BarFromTheExactState)
+    {
+      const auto exact
+          = std::make_shared<const cases::PlanarNeumann>(bar_material(), hot, cold);
+      const ExactLine line = neumann(bar_material());
+      cases::Scene scene = slab(bar_material(), line.time_of(0.06), line.time_of(0.18));
+      start_from(scene, exact);
+      std::vector<double> errors;
+      for(const int n : {40, 80, 160, 320})
+      {
+        const Recorder recorder = run(scene, n);
+        ASSERT_EQ(recorder.fronts.size(), 1U);
+        errors.push_back(recorder.fronts[0] - 0.18);
+        EXPECT_NEAR(recorder.solid, 1 - recorder.fronts[0], 1e-12);
+        EXPECT_NEAR(recorder.volume, 1, 1e-12);
+        EXPECT_EQ(recorder.times.front(), scene.start_time);
+        EXPECT_EQ(recorder.times.back(), scene.end_time);
+        EXPECT_TRUE(std::ranges::is_sorted(recorder.steps));
+        EXPECT_LE(recorder.defect, n == 40 ? 2e-2 : 1e-3);
+        RecordProperty("exact_start_" + std::to_string(n),
+                       std::to_string(errors.back() * 1e6) + "e-6");
+        RecordProperty("budget_defect_" + std::to_string(n),
+                       std::to_string(recorder.defect * 1e6) + "e-6");
+      }
+      EXPECT_GE(fitted_order(errors), 1.8);
+      EXPECT_LE(std::abs(errors[3]), 1e-5);
+    }
+
+    cases::Scene cold_bar(double end)
+    {
+      cases::Scene scene = slab(bar_material(), 0, end);
+      scene.initial.temperature = cases::Field::uniform(cold);
+      set(scene, Side::x_min, held(hot));
+      const auto exact
+          = std::make_shared<const cases::PlanarNeumann>(bar_material(), hot, cold);
+      set(scene, Side::x_max,
+          {BoundaryKind::fixed_temperature,
+           {"exact", [exact](const cases::Position &p, double time)
+            { return exact->temperature(p[0], time); }},
+           true});
+      return scene;
+    }
+
+    TEST(RkpmTracked, StartsFromNothing)
+    {
+      const double end = neumann(bar_material()).time_of(0.18);
+      std::vector<double> similar, steady;
+      for(const int n : {40, 80, 160, 320})
+      {
+        const Recorder recorder = run(cold_bar(end), n);
+        similar.push_back(recorder.fronts.at(0) - 0.18);
+        EXPECT_LE(recorder.defect, 2e-2);
+        steady.push_back(run(cold_bar(end), n, {{"start", "quasi-steady"}}).fronts.at(0)
+                         - 0.18);
+        RecordProperty("start_" + std::to_string(n),
+                       std::to_string(similar.back() * 1e6) + "e-6 similar, "
+                           + std::to_string(steady.back() * 1e6) + "e-6 quasi-steady");
+      }
+      EXPECT_GE(fitted_order(similar), 1.5);
+      EXPECT_LE(std::abs(similar[0]), 1.1e-3);
+      EXPECT_LE(std::abs(similar[2]), 1.2e-4);
+      EXPECT_GE(fitted_order(steady), 0.9);
+      EXPECT_LE(std::abs(steady[2]), 8.4e-4);
+    }
+
+    TEST(RkpmTracked, FreezesFromTheUpperWallAlike)
+    {
+      // The same slab from the other end.
+      cases::Scene scene = cold_bar(0.02), mirrored = scene;
+      set(scene, Side::x_max, held(cold));
+      set(mirrored, Side::x_max, held(hot));
+      set(mirrored, Side::x_min, held(cold));
+      EXPECT_NEAR(run(scene, 40).fronts.at(0), 1 - run(mirrored, 40).fronts.at(0), 1e-9);
+    }
+
+    TEST(RkpmTracked, BarOfTheReport)
+    {
+      cases::Scene scene = slab(bar_material(), 0, 1);
+      scene.initial.temperature = {"straight", [](const cases::Position &p, double) {
+                                     return p[0] < 0.06 ? hot - 70 * p[0] / 0.06
+                                                        : 430 - 50 * (p[0] - 0.06) / 0.94;
+                                   }};
+      set(scene, Side::x_min, held(hot));
+      set(scene, Side::x_max, held(cold));
+      for(const auto &[mark, front] : {std::pair{0.05, 0.1986270}, {0.2, 0.3204786}})
+      {
+        scene.end_time = mark;
+        EXPECT_NEAR(run(scene, 160).fronts.at(0), front, 1e-4) << mark;
+      }
+    }
+
+    TEST(RkpmTracked, LighterIcePushesTheWater)
+    {
+      cases::Material material;
+      material.latent_heat = 333500;
+      material.solid = {2.2, 2090, 917};
+      material.liquid = {0.591, 4190, 1000};
+      const auto exact = std::make_shared<const cases::PlanarNeumann>(material, -10, 10);
+      cases::Scene scene = slab(material, 3600, 86400);
+      scene.domain.upper[0] = 0.5;
+      start_from(scene, exact);
+      std::vector<double> errors;
+      for(const int n : {40, 80, 160, 320})
+      {
+        const Recorder recorder = run(scene, n);
+        errors.push_back(recorder.fronts.at(0) - exact->front(86400));
+        RecordProperty("lighter_ice_" + std::to_string(n),
+                       std::to_string(errors.back() * 1e6) + "e-6, budget "
+                           + std::to_string(recorder.defect));
+        EXPECT_LE(recorder.defect, 1e-2);
+      }
+      EXPECT_GE(fitted_order(errors), 1.5);
+      EXPECT_LE(std::abs(errors[3]) / exact->front(86400), 1e-4);
+    }
+
+    TEST(RkpmTracked, DiskAndSphereGrowIntoUndercooledMelt)
+    {
+      for(const auto symmetry :
+          {cases::Symmetry::cylindrical, cases::Symmetry::spherical})
+      {
+        const auto exact = std::make_shared<const cases::FrankGrowth>(cases::Material{},
+                                                                      symmetry, -0.3);
+        cases::Scene scene;
+        scene.symmetry = symmetry;
+        scene.domain.shape = cases::DomainShape::ball;
+        scene.domain.dimension = symmetry == cases::Symmetry::cylindrical ? 2 : 3;
+        scene.domain.radius = 1;
+        const double unit = exact->front(1.);
+        scene.start_time = 0.04 / (unit * unit);
+        scene.end_time = 0.25 / (unit * unit);
+        start_from(scene, exact);
+        std::vector<double> errors;
+        for(const int n : {40, 80, 160, 320})
+        {
+          const Recorder recorder = run(scene, n);
+          errors.push_back(recorder.fronts.at(0) - 0.5);
+          RecordProperty("growth_" + std::to_string(scene.domain.dimension) + "d_"
+                             + std::to_string(n),
+                         std::to_string(errors.back() * 1e6) + "e-6, budget "
+                             + std::to_string(recorder.defect));
+          EXPECT_LE(recorder.defect, 3e-2);
+        }
+        EXPECT_GE(fitted_order(errors), 1.7);
+        EXPECT_LE(std::abs(errors[3]), scene.domain.dimension == 2 ? 1.5e-4 : 5e-4);
+      }
+    }
+
+    TEST(RkpmTracked, RefusesWhatItCannotFollow)
+    {
+      cases::Scene scene = cold_bar(0.01);
+      EXPECT_THROW(run(scene, 1), cases::Refusal);
+      cases::Scene conduction = scene;
+      conduction.material.latent_heat = 0;
+      EXPECT_THROW(run(conduction, 20), cases::Refusal);
+      cases::Scene periodic = scene;
+      set(periodic, Side::x_max, {BoundaryKind::periodic, {}});
+      EXPECT_THROW(run(periodic, 20), cases::Refusal);
+      EXPECT_THROW(run(scene, 20, {{"dimension", "2"}}), cases::Refusal);
+      cases::Scene two_fronts = scene;
+      two_fronts.material.solid.density = 0.9;
+      two_fronts.initial.temperature = {"", [](const cases::Position &p, double) {
+                                          return p[0] > 0.4 && p[0] < 0.6 ? 440. : 400.;
+                                        }};
+      EXPECT_THROW(run(two_fronts, 20), cases::Refusal);
+    }
+  } // namespace
+} // namespace meltfront::particles::front_tracking

@@ -1,0 +1,308 @@
+#include <cases/error.h>
+#include <cases/outcomes.h>
+#include <cases/scene.h>
+#include <cases/stopwatch.h>
+#include <particles/greenspan/checkpoint.h>
+#include <particles/greenspan/greenspan.h>
+#include <particles/greenspan/scene_experiment.h>
+#include <particles/greenspan/witness.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    using namespace greenspan;
+
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+    /** A run of a solid, from its set-up to what it tells the observer. */
+    class SolidRun
+    {
+    public:
+      SolidRun(const cases::Scene &scene, const cases::EffectSet &effects,
+               const cases::Resolution &resolution, cases::Observer &observer)
+        : scene(scene)
+        , effects(effects)
+        , observer(observer)
+        , experiment(experiment_of(scene, resolution))
+        , checkpoint_file(resolution.options.get_string("checkpoint"))
+        , checkpoint_interval(resolution.options.get_integer("checkpoint_interval"))
+        , resumed(checkpoint_file.empty() ? std::optional<Checkpoint>()
+                                          : read_checkpoint(checkpoint_file, experiment))
+        , motion(experiment.parameters, resumed ? resumed->state : experiment.start)
+        , witness(experiment)
+        , conserves_energy(!experiment.parameters.base && !experiment.parameters.source)
+      {
+        if(checkpoint_interval % experiment.interval != 0)
+          throw cases::Refusal(fmt::format("checkpoint_interval = {} is no multiple of "
+                                           "interval = {}",
+                                           checkpoint_interval, experiment.interval));
+      }
+
+      cases::Cost take()
+      {
+        const cases::Stopwatch::Seconds setup = watch.elapsed();
+        observer.begin(description());
+        watch.restart();
+        if(resumed)
+          go_on();
+        else
+        {
+          initial_energy = motion.energy().total();
+          look();
+        }
+        while(motion.step() < experiment.steps)
+        {
+          motion.advance(std::min(experiment.interval, experiment.steps - motion.step()));
+          look();
+          keep_checkpoint();
+        }
+        const cases::Stopwatch::Seconds stepping = watch.elapsed();
+        if(!checkpoint_file.empty())
+          std::filesystem::remove(checkpoint_file); // it has served
+        tell_outcomes();
+        return cost(setup, stepping);
+      }
+
+    private:
+      cases::RunDescription description() const
+      {
+        const MotionParameters &parameters = experiment.parameters;
+        cases::RunDescription result;
+        result.dimension = experiment.start.dimension;
+        result.spacing = parameters.force.equilibrium_distance();
+        result.time_step = parameters.time_step;
+        result.unknowns = unknowns();
+        const auto add = [&](const char *name, double value) {
+          result.parameters.push_back({name, fmt::format("{:.6g}", value), ""});
+        };
+        add("particles", static_cast<double>(motion.size()));
+        add("work that breaks a bond", parameters.force.bond_work());
+        add("stable time step", parameters.force.stable_time_step(2));
+        add("steps between looks", static_cast<double>(experiment.interval));
+        return result;
+      }
+
+      long unknowns() const
+      {
+        return static_cast<long>(2 * motion.size()) * experiment.start.dimension;
+      }
+
+      double time() const
+      {
+        return motion.step() == experiment.steps ? scene.end_time
+                                                 : scene.start_time + motion.time();
+      }
+
+      void go_on()
+      {
+        witness.remember(resumed->memory);
+        initial_energy = resumed->initial_energy;
+        energy_error = resumed->energy_error;
+        observer.note(time(), fmt::format("goes on from the checkpoint of step {}; what "
+                                          "was before is not sampled again",
+                                          motion.step()));
+        show(motion.state());
+      }
+
+      void keep_checkpoint()
+      {
+        if(checkpoint_file.empty() || motion.step() % checkpoint_interval != 0)
+          return;
+        write_checkpoint(checkpoint_file,
+                         {run_fingerprint(experiment), motion.state(), witness.memory(),
+                          initial_energy, energy_error});
+      }
+
+      void look()
+      {
+        const ParticleState state = motion.state();
+        witness.look(state);
+        if(conserves_energy)
+          energy_error = std::max(energy_error,
+                                  std::abs(motion.energy().total() - initial_energy));
+        if(motion.step() == 0 || motion.step() == experiment.steps
+           || observer.wants(motion.step(), time()))
+          watch.without([&] { show(state); });
+      }
+
+      void show(const ParticleState &state)
+      {
+        weights.assign(state.size(), 1);
+        solid.assign(witness.solid().begin(), witness.solid().end());
+        temperature.resize(state.size());
+        if(!state.kinetic_sum.empty() && state.step > 0)
+          temperature = temperatures(state);
+        else
+          for(std::size_t i = 0; i < state.size(); ++i)
+          {
+            temperature[i] = 0;
+            for(int d = 0; d < state.dimension; ++d)
+              temperature[i] += state.velocity[d][i] * state.velocity[d][i] / 2;
+          }
+        cases::Snapshot snapshot;
+        snapshot.step = state.step;
+        snapshot.time = time();
+        snapshot.dimension = state.dimension;
+        for(int d = 0; d < state.dimension; ++d)
+        {
+          snapshot.positions[d] = state.position[d];
+          snapshot.velocity[d] = state.velocity[d];
+        }
+        snapshot.weights = weights;
+        snapshot.temperature = temperature;
+        snapshot.solid_fraction = solid;
+        snapshot.heat.booked = false;
+        observer.observe(snapshot);
+      }
+
+      void tell_outcomes()
+      {
+        const RunRecord &record = witness.record();
+        const auto step = [&](const char *name, long value)
+        { observer.outcome(name, value < 0 ? nan : static_cast<double>(value)); };
+        step("first_break", record.first_break);
+        step("first_fluid", record.first_fluid);
+        step("unheated_from", record.unheated);
+        step("all_fluid_at", record.all_fluid);
+        const std::vector<std::uint32_t> &fluid = record.final_fluid;
+        const std::pair<const char *, double> counts[]
+            = {{"least_solid", record.least_solid},
+               {"fluid_end", static_cast<double>(fluid.size())},
+               {"bonds_kept", record.old_bonds},
+               {"whole_until_broken",
+                record.first_break < 0 ? experiment.steps : record.first_break},
+               {"all_solid_end", fluid.empty()},
+               {"all_fluid", record.all_fluid >= 0},
+               {"base_buckled", record.base_buckled},
+               {"left_lobe_longer", -record.lowest_x > record.highest_x},
+               {"lowest_x", record.lowest_x},
+               {"highest_x", record.highest_x},
+               {"highest_y", record.highest_y},
+               {"kinetic_energy_end", record.kinetic_energy}};
+        for(const auto &[name, value] : counts)
+          observer.outcome(name, value);
+        if(experiment.parameters.temperatures)
+          observer.outcome("mean_temperature_end", record.mean_temperature);
+        if(conserves_energy)
+          observer.outcome("energy_error", energy_error);
+        for(std::size_t c = 0; c < record.corners.size(); ++c)
+        {
+          const bool lost = record.corners[c].step >= 0;
+          observer.outcome(fmt::format("corner_{}_temperature", c + 1),
+                           lost ? record.corners[c].temperature : nan);
+          observer.outcome(fmt::format("corner_{}_step", c + 1),
+                           lost ? static_cast<double>(record.corners[c].step) : nan);
+        }
+        if(motion.size() <= cases::most_named_particles)
+          for(std::uint32_t particle = 1; particle <= motion.size(); ++particle)
+            observer.outcome(fmt::format("fluid_end_{}", particle),
+                             std::ranges::find(fluid, particle) != fluid.end());
+      }
+
+      cases::Cost cost(const cases::Stopwatch::Seconds &setup,
+                       const cases::Stopwatch::Seconds &stepping) const
+      {
+        cases::Cost result;
+        result.setup_wall = setup.wall;
+        result.setup_cpu = setup.cpu;
+        result.stepping_wall = stepping.wall;
+        result.stepping_cpu = stepping.cpu;
+        result.steps = experiment.steps;
+        result.unknowns = unknowns();
+        result.work = experiment.steps * static_cast<long>(motion.size());
+        for(const cases::EffectDecision &decision : effects.decisions())
+          if(decision.on)
+            result.effects.push_back({decision.effect, experiment.steps, 0, 0});
+        return result;
+      }
+
+      const cases::Scene &scene;
+      const cases::EffectSet &effects;
+      cases::Observer &observer;
+      cases::Stopwatch watch;
+      Experiment experiment;
+      std::string checkpoint_file;
+      long checkpoint_interval;
+      std::optional<Checkpoint> resumed;
+      Motion motion;
+      Witness witness;
+      bool conserves_energy;
+      double initial_energy = 0;
+      double energy_error = 0;
+      std::vector<double> weights, solid, temperature;
+    };
+
+    class Greenspan : public cases::Method
+    {
+    public:
+      std::string name() const override
+      {
+        return "greenspan";
+      }
+
+      std::string summary() const override
+      {
+        return "A solid of particles that bind each other, moved by leapfrog; it melts "
+               "where they are driven apart (Greenspan 1976).";
+      }
+
+      bool solves(cases::ProblemKind problem) const override
+      {
+        return problem == cases::ProblemKind::particle_solid;
+      }
+
+      std::vector<cases::Effect> supported_effects() const override
+      {
+        return {cases::Effect::gravity, cases::Effect::base, cases::Effect::hot_base,
+                cases::Effect::point_heating};
+      }
+
+      std::vector<cases::OptionDeclaration> option_declarations() const override
+      {
+        return {
+            {"interval", "1", 100L,
+             "Steps from one look at the particles to the next; divides 1000.", 1, 1000},
+            {"skin", "1", 0.3, "Neighbours are kept that much beyond the cutoff.", 0, 2},
+            {"neighbours",
+             "",
+             std::string("automatic"),
+             "How neighbours are found: cells for large solids, or all pairs.",
+             {},
+             {},
+             {"automatic", "all pairs"}},
+            {"step_factor", "1", 1.,
+             "Time step over that of the scene, where nothing acts once per step.", 0.01,
+             10},
+            {"checkpoint", "", std::string(),
+             "File that a run is saved to and goes on from, bit for bit, removed at its "
+             "end; empty: none."},
+            {"checkpoint_interval", "1", 10000L,
+             "Steps from one checkpoint to the next, a multiple of the interval.", 1,
+             1e9}};
+      }
+
+      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
+                        const cases::Resolution &resolution,
+                        cases::Observer &observer) const override
+      {
+        cases::Resolution complete = resolution;
+        if(complete.options.declarations().empty())
+          complete.options = cases::Options(option_declarations());
+        return SolidRun(scene, effects, complete, observer).take();
+      }
+    };
+  } // namespace
+
+  std::unique_ptr<cases::Method> make_greenspan()
+  {
+    return std::make_unique<Greenspan>();
+  }
+} // namespace meltfront::particles

@@ -1,0 +1,24 @@
+#ifndef meltfront_particles_greenspan_scene_experiment_h
+#define meltfront_particles_greenspan_scene_experiment_h
+
+#include <cases/method.h>
+#include <cases/scene.h>
+#include <particles/greenspan/experiments.h>
+
+namespace meltfront::particles::greenspan
+{
+  /**
+   * The experiment that a scene of the kind `particle solid` describes.
+   *
+   * The resolution's n is checked against a table's number of particles, or makes a
+   * triangle or a rectangle with so many particles on its base, laid to rest there; the
+   * seed disturbs what the scene lets it disturb.
+   *
+   * @throws Refusal if n does not fit, or if the time step is to be scaled where base or
+   * source act once per step
+   */
+  Experiment experiment_of(const cases::Scene &scene,
+                           const cases::Resolution &resolution);
+} // namespace meltfront::particles::greenspan
+
+#endif
