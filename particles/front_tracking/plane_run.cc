@@ -28,7 +28,7 @@ namespace meltfront::particles::front_tracking
     constexpr int passes_allowed = 10;
 
     /** Passes in which nodes change their phases. */
-    constexpr long regrouping_passes = 3;
+    constexpr long regrouping_passes = 4;
 
     /** A step is done when no particle has farther to move, in spacings: the move itself
      * is made, and what it leaves is smaller by about its square. */
@@ -49,7 +49,7 @@ namespace meltfront::particles::front_tracking
     constexpr double contour_margin = 4;
 
     /** Share of the span of the bounds by which temperatures may pass them. */
-    constexpr double bounds_slack = 0.02;
+    constexpr double bounds_slack = 0.1;
 
     PlaneHeatSettings settings_of(const TrackingParameters &parameters, int threads)
     {

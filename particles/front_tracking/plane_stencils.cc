@@ -25,10 +25,6 @@ namespace meltfront::particles::front_tracking
     constexpr double sight_tolerance = 0.1;
     constexpr double sight_step = 0.3;
 
-    /** Sine of the angle by which a phase may lie behind its own front: more would be a
-     * front that turns within two spacings, or another body beyond a thin film. */
-    constexpr double farthest_behind = 0.5;
-
     rkpm::MomentSettings settings_of(int order)
     {
       rkpm::MomentSettings settings;
@@ -91,31 +87,6 @@ namespace meltfront::particles::front_tracking
     return false;
   }
 
-  /** Points behind the nearest front particle's tangent lie in another body: films thinner
-   * than lines of sight can tell are seen by that. */
-  void StencilMaker::remove_hidden(const PlanePoint &centre, bool solid)
-  {
-    const Candidate *nearest = nullptr;
-    for(const Candidate &candidate : candidates)
-      if(candidate.column >= nodes.size()
-         && (!nearest || candidate.distance < nearest->distance))
-        nearest = &candidate;
-    const PlanePoint none(0, 0);
-    const std::size_t particle = nearest ? nearest->column - nodes.size() : 0;
-    const PlanePoint foot = nearest ? front->position[particle] : none;
-    const PlanePoint into
-        = nearest ? PlanePoint((solid ? 1 : -1) * front->normal[particle]) : none;
-    std::erase_if(candidates,
-                  [&](const Candidate &candidate)
-                  {
-                    const PlanePoint place(points.position[0][candidate.column],
-                                           points.position[1][candidate.column]);
-                    const PlanePoint way = place - foot;
-                    return (nearest && way.dot(into) < -farthest_behind * way.norm())
-                           || hidden(centre, place, solid);
-                  });
-  }
-
   void StencilMaker::gather(const PlanePoint &centre, NodePhase phase, double radius)
   {
     candidates.clear();
@@ -138,7 +109,13 @@ namespace meltfront::particles::front_tracking
                          mixed = true;
                      });
     if(mixed)
-      remove_hidden(centre, phase == NodePhase::solid);
+      std::erase_if(candidates,
+                    [&](const Candidate &candidate)
+                    {
+                      const PlanePoint place(points.position[0][candidate.column],
+                                             points.position[1][candidate.column]);
+                      return hidden(centre, place, phase == NodePhase::solid);
+                    });
     std::ranges::sort(candidates,
                       [](const Candidate &a, const Candidate &b)
                       {

@@ -90,7 +90,6 @@ namespace meltfront::particles::front_tracking
     };
 
     void gather(const PlanePoint &centre, NodePhase phase, double radius);
-    void remove_hidden(const PlanePoint &centre, bool solid);
     bool hidden(const PlanePoint &from, const PlanePoint &to, bool solid) const;
     bool fit(const PlanePoint &centre, double dilation, int order);
 

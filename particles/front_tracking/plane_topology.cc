@@ -18,7 +18,7 @@ namespace meltfront::particles::front_tracking
     constexpr std::size_t places_along_curve = 3;
 
     /** A bridge is wider than the gap by so many spacings. */
-    constexpr double bridge_margin = 0.35;
+    constexpr double bridge_margin = 0.5;
 
     /** Share of its distance from the melting temperature by which a node is changed. */
     constexpr double largest_share = 0.5;

@@ -22,7 +22,7 @@ namespace meltfront::particles::front_tracking
   {
     double spacing = 0;         ///< of the nodes (m)
     double front_spacing = 0;   ///< of the front's particles (m)
-    double meeting_gap = 0.3;   ///< at which curves become one, in spacings
+    double meeting_gap = 0.2;   ///< at which curves become one, in spacings
     double least_radius = 0.35; ///< of a curve, in spacings: below it goes
   };
 
