@@ -65,12 +65,17 @@ namespace meltfront::particles::front_tracking
                   : 0);
   }
 
-  void PlaneHeat::set_front(PlaneState &state, bool keep_phases)
+  void PlaneHeat::mark_active(PlaneFront &front) const
   {
-    PlaneFront &front = state.front;
     for(std::size_t p = 0; p < front.size(); ++p)
       front.active[p]
           = nodes.wall_distance(front.position[p]) >= -beyond_wall * nodes.spacing;
+  }
+
+  void PlaneHeat::set_front(PlaneState &state, bool keep_phases)
+  {
+    PlaneFront &front = state.front;
+    mark_active(front);
     index = std::make_unique<FrontIndex>(front, settings.solid_beyond, nodes.spacing);
     front_bins = PlaneBins(front.position, nodes.spacing);
     const double absorbed = settings.absorption * nodes.spacing;

@@ -57,6 +57,9 @@ namespace meltfront::particles::front_tracking
     PlaneHeat(const cases::Scene &scene, const PlaneNodes &nodes,
               const PlaneHeatSettings &settings);
 
+    /** Tell particles within the domain from those beyond its walls. */
+    void mark_active(PlaneFront &front) const;
+
     /** Put the front of a state to use: active particles, phases of the nodes.
      * @param keep_phases leave the phases as they are: late passes move the front by next
      * to nothing, and nodes would go to and fro */

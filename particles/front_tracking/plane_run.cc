@@ -45,6 +45,10 @@ namespace meltfront::particles::front_tracking
     /** No step takes a curve nearer to its middle than by this share. */
     constexpr double share_of_radius = 0.5;
 
+    /** After fronts met, so many steps pass before any meet again: the new neck is to open
+     * first. Bodies that overlap meanwhile count as one anyway. */
+    constexpr long steps_between_meetings = 4;
+
     constexpr double seed_cells = 3;
     constexpr double contour_margin = 4;
 
@@ -290,6 +294,8 @@ namespace meltfront::particles::front_tracking
     ++step_number;
     check(state);
     redistribute(state.front, front_spacing * nodes.spacing, closest, farthest);
+    // Particles that were placed anew may lie beyond a wall.
+    heat.mark_active(state.front);
     follow_topology();
   }
 
@@ -300,6 +306,7 @@ namespace meltfront::particles::front_tracking
     TopologySettings settings;
     settings.spacing = nodes.spacing;
     settings.front_spacing = front_spacing * nodes.spacing;
+    settings.join = step_number >= next_meeting;
     const std::vector<TopologyEvent> changes = update_topology(
         state.front, nodes, heat.settings.solid_beyond, settings);
     if(changes.empty())
@@ -307,6 +314,8 @@ namespace meltfront::particles::front_tracking
     const double latent = scene.material.solid.density * scene.material.latent_heat;
     for(const TopologyEvent &change : changes)
     {
+      if(!change.vanished)
+        next_meeting = step_number + steps_between_meetings;
       const double energy = latent * change.solid_area;
       const double booked
           = book_latent_heat(state, scene, nodes, heat, change.place, energy);

@@ -191,8 +191,9 @@ namespace meltfront::particles::front_tracking
                                              const TopologySettings &settings)
   {
     std::vector<TopologyEvent> events = remove_vanished(front, nodes, settings);
-    for(TopologyEvent &event : join_contacts(front, nodes, solid_beyond, settings))
-      events.push_back(std::move(event));
+    if(settings.join)
+      for(TopologyEvent &event : join_contacts(front, nodes, solid_beyond, settings))
+        events.push_back(std::move(event));
     if(!events.empty())
       for(PlanePoint &way : front.displacement)
         way = PlanePoint(0, 0);

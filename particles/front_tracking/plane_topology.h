@@ -24,6 +24,7 @@ namespace meltfront::particles::front_tracking
     double front_spacing = 0;   ///< of the front's particles (m)
     double meeting_gap = 0.2;   ///< at which curves become one, in spacings
     double least_radius = 0.35; ///< of a curve, in spacings: below it goes
+    bool join = true;           ///< whether curves may meet
   };
 
   /** Square root of a curve's area over pi (m). */

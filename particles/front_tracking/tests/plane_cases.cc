@@ -104,7 +104,7 @@ namespace meltfront::particles::front_tracking
       const double nearer = std::min(left(p), right(p));
       if(nearer < radius)
         return std::log(std::max(nearer, 1e-12) / radius) / std::numbers::pi;
-      const auto far = [](double r)
+      const auto far = [=](double r)
       { return 1 - std::exp((radius * radius - r * r) / 0.04); };
       return 0.1 * far(left(p)) * far(right(p));
     };
