@@ -311,6 +311,7 @@ namespace meltfront::particles::front_tracking
         state.front, nodes, heat.settings.solid_beyond, settings);
     if(changes.empty())
       return;
+    settle_nodes();
     const double latent = scene.material.solid.density * scene.material.latent_heat;
     for(const TopologyEvent &change : changes)
     {
@@ -319,7 +320,6 @@ namespace meltfront::particles::front_tracking
       const double energy = latent * change.solid_area;
       const double booked
           = book_latent_heat(state, scene, nodes, heat, change.place, energy);
-      swept_heat += std::abs(energy);
       events.emplace_back(
           state.time,
           fmt::format("{}; {:.3g} m^2 {} by that, of {:.3g} J/m latent heat {:.3g} J/m "
@@ -329,6 +329,27 @@ namespace meltfront::particles::front_tracking
     }
     older.reset();
     fresh = true;
+  }
+
+  /** Nodes that changed their phase without a front that passed over them are at the melting
+   * temperature: beyond where the front was, their new phase has no past. */
+  void PlaneRun::settle_nodes()
+  {
+    const double absorbed = parameters.absorption * nodes.spacing;
+    const FrontIndex index(state.front, heat.settings.solid_beyond, nodes.spacing);
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      const PlanePoint &place = nodes.position[i];
+      const double distance = index.signed_distance(place, nodes.spacing);
+      const NodePhase phase = distance < 0 ? NodePhase::solid : NodePhase::liquid;
+      const double kept = state.phase[i] == NodePhase::front ? 1.5 * absorbed : absorbed;
+      if(state.phase[i] == phase || std::abs(distance) < kept)
+        continue;
+      state.phase[i] = phase;
+      state.unknown[i]
+          = scene.material.melting_temperature
+            - (phase == NodePhase::solid ? heat.sinks.value(place, state.time) : 0);
+    }
   }
 
   void PlaneRun::check(const PlaneState &checked) const

@@ -34,6 +34,7 @@ namespace meltfront::particles::front_tracking
               double &largest) const;
     void accept(PlaneState next);
     void follow_topology();
+    void settle_nodes();
     void check(const PlaneState &checked) const;
 
     cases::RunDescription description() const;
@@ -56,7 +57,7 @@ namespace meltfront::particles::front_tracking
     double last_step = 0;
     bool fresh = true; ///< no step was made since the start or an event
     long step_number = 0, capped_steps = 0, most_passes = 0, next_meeting = 0;
-    double boundary_heat = 0, initial_heat = 0, swept_heat = 0, condition = 0;
+    double boundary_heat = 0, initial_heat = 0, condition = 0;
     std::vector<std::pair<double, std::string>> events; ///< not yet told
 
     std::array<std::vector<double>, 2> site_positions, front_positions;
