@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <particles/front_tracking/line_run.h>
+#include <particles/front_tracking/plane_run.h>
 #include <particles/front_tracking/rkpm_tracked.h>
 #include <particles/front_tracking/tracking_options.h>
 
@@ -21,18 +22,17 @@ namespace meltfront::particles
       std::string summary() const override
       {
         return "Sharp front: particles on the front move with the Stefan speed, solid "
-               "and "
-               "liquid are collocated apart with reproducing kernels.";
+               "and liquid are collocated apart with reproducing kernels.";
       }
 
       std::vector<cases::Effect> supported_effects() const override
       {
         using cases::Effect;
         return {Effect::phase_change,        Effect::phase_conductivity,
-                Effect::phase_heat_capacity, Effect::wall_temperature,
-                Effect::wall_flux,           Effect::liquid_motion,
-                Effect::metastable_phase,    Effect::heat_release,
-                Effect::wall_transfer};
+                Effect::phase_heat_capacity, Effect::heat_sources,
+                Effect::wall_temperature,    Effect::wall_flux,
+                Effect::liquid_motion,       Effect::metastable_phase,
+                Effect::heat_release,        Effect::wall_transfer};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -52,9 +52,15 @@ namespace meltfront::particles
         switch(simulated_dimension(scene, complete.options))
         {
         case 1:
+          if(!scene.sources.empty())
+            throw cases::Refusal(
+                "rkpm-tracked treats line sources in the plane only: set dimension=2");
           return solve_line(scene, effects, complete, observer);
+        case 2:
+          return solve_plane(scene, effects, complete, observer);
         default:
-          throw cases::Refusal("rkpm-tracked follows a front along one coordinate");
+          throw cases::Refusal("rkpm-tracked follows a front along one coordinate or in "
+                               "the plane");
         }
       }
     };

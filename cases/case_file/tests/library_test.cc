@@ -73,6 +73,8 @@ TEST(Library, HoldsTheCasesThatOthersRelyOn)
                           "annulus",
                           "annulus-perturbed",
                           "merging-disks",
+                          "line-sink-annulus",
+                          "ring-melting",
                           "bar-flux",
                           "alloy-sodium-nitrate",
                           "alloy-sodium-nitrate-diffusion",

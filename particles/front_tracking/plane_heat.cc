@@ -1,0 +1,279 @@
+#include <particles/front_tracking/plane_heat.h>
+
+#include <particles/scattered/linear_solver.h>
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace meltfront::particles::front_tracking
+{
+  namespace
+  {
+    /** Sinks are not looked at from nearer than this, in spacings. */
+    constexpr double nearest_to_sink = 0.05;
+
+    /** Front particles so much beyond a wall, in spacings, take no part. */
+    constexpr double beyond_wall = 0.05;
+
+    constexpr NodePhase phases[] = {NodePhase::liquid, NodePhase::solid};
+  } // namespace
+
+  PlaneStep::PlaneStep(const PlaneState &last, const PlaneState *older, double time)
+    : last(last)
+    , older(older)
+    , time(time)
+    , step(time - last.time)
+  {
+    if(!older)
+      return;
+    const double ratio = step / (last.time - older->time);
+    a = (1 + 2 * ratio) / (1 + ratio);
+    b = 1 + ratio;
+    c = ratio * ratio / (1 + ratio);
+  }
+
+  PlaneHeat::PlaneHeat(const cases::Scene &scene, const PlaneNodes &nodes,
+                       const PlaneHeatSettings &settings)
+    : sinks(scene, nearest_to_sink * nodes.spacing)
+    , settings(settings)
+    , scene(scene)
+    , nodes(nodes)
+    , makers(settings.threads, StencilMaker(nodes, settings.order))
+    , rows(nodes.size())
+  {
+  }
+
+  const cases::PhaseProperties &PlaneHeat::properties(NodePhase phase) const
+  {
+    return phase == NodePhase::solid ? scene.material.solid : scene.material.liquid;
+  }
+
+  double PlaneHeat::front_temperature(double curvature) const
+  {
+    return scene.material.melting_temperature - settings.capillarity * curvature;
+  }
+
+  double PlaneHeat::temperature(const PlaneState &state, std::size_t node) const
+  {
+    return state.unknown[node]
+           + (state.phase[node] == NodePhase::solid
+                  ? sinks.value(nodes.position[node], state.time)
+                  : 0);
+  }
+
+  void PlaneHeat::mark_active(PlaneFront &front) const
+  {
+    for(std::size_t p = 0; p < front.size(); ++p)
+      front.active[p]
+          = nodes.wall_distance(front.position[p]) >= -beyond_wall * nodes.spacing;
+  }
+
+  void PlaneHeat::set_front(PlaneState &state, bool keep_phases)
+  {
+    PlaneFront &front = state.front;
+    mark_active(front);
+    index = std::make_unique<FrontIndex>(front, settings.solid_beyond, nodes.spacing);
+    front_bins = PlaneBins(front.position, nodes.spacing);
+    const double absorbed = settings.absorption * nodes.spacing;
+    state.phase.resize(nodes.size());
+    for(std::size_t i = 0; i < nodes.size() && !keep_phases; ++i)
+    {
+      const double distance = index->signed_distance(
+          nodes.position[i], std::max(absorbed, 1e-9 * nodes.spacing));
+      state.phase[i] = std::abs(distance) < absorbed ? NodePhase::front
+                       : distance < 0                ? NodePhase::solid
+                                                     : NodePhase::liquid;
+    }
+    before.resize(front.size());
+    after.resize(front.size());
+    for(std::size_t c = 0; c < front.curves(); ++c)
+      for(std::size_t p = front.offsets[c]; p < front.offsets[c + 1]; ++p)
+      {
+        before[p] = front.previous(c, p);
+        after[p] = front.next(c, p);
+      }
+    for(StencilMaker &maker : makers)
+      maker.set_front(front, *index, state.phase);
+  }
+
+  void PlaneHeat::make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,
+                           std::size_t node)
+  {
+    Row &row = rows[node];
+    maker.make(nodes.position[node], phase, stencil);
+    row.columns = stencil.columns;
+    row.weights.resize(stencil.columns.size());
+    PlanePoint direction(0, 0);
+    const std::int32_t wall = nodes.wall_of_node[node];
+    if(wall >= 0)
+    {
+      const WallNode &on_wall = nodes.walls[wall];
+      for(int i = 0; i < on_wall.n_pieces; ++i)
+        direction += (on_wall.held() ? on_wall.pieces[i].length : 1.)
+                     * on_wall.pieces[i].normal;
+    }
+    for(std::size_t e = 0; e < row.columns.size(); ++e)
+      row.weights[e] = wall >= 0 ? direction.x() * stencil.weights[d_x][e]
+                                       + direction.y() * stencil.weights[d_y][e]
+                                 : stencil.weights[d_xx][e] + stencil.weights[d_yy][e];
+    row.reach = stencil.pure ? stencil.dilation + nodes.spacing : 0;
+  }
+
+  /** Rows that the front does not touch are kept from pass to pass. */
+  void PlaneHeat::make_rows(const PlaneState &state)
+  {
+    std::vector<std::uint32_t> wanted;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if(state.phase[i] == NodePhase::front)
+        continue;
+      bool touched = rows[i].reach == 0;
+      if(!touched)
+        front_bins.visit(nodes.position[i], rows[i].reach,
+                         [&](std::uint32_t, double) { touched = true; });
+      if(touched)
+        wanted.push_back(static_cast<std::uint32_t>(i));
+    }
+#pragma omp parallel num_threads(settings.threads) if(settings.threads > 1)
+    {
+      PlaneStencil stencil;
+#pragma omp for schedule(static)
+      for(std::size_t k = 0; k < wanted.size(); ++k)
+        make_row(makers[omp_get_thread_num()], stencil, state.phase[wanted[k]], wanted[k]);
+    }
+  }
+
+  void PlaneHeat::make_front_stencils(const PlaneState &state)
+  {
+    const PlaneFront &front = state.front;
+    for(auto &stencils : front_stencils)
+      stencils.resize(front.size());
+#pragma omp parallel num_threads(settings.threads) if(settings.threads > 1)
+#pragma omp for schedule(static)
+    for(std::size_t p = 0; p < front.size(); ++p)
+      if(front.active[p])
+        for(const NodePhase phase : phases)
+          makers[omp_get_thread_num()].make(front.position[p], phase,
+                                            front_stencils[index_of(phase)][p]);
+  }
+
+  /** The phases' values at the front particles as they depend on the displacements. */
+  void PlaneHeat::find_front_values(const PlaneState &state)
+  {
+    const PlaneFront &front = state.front;
+    for(const NodePhase phase : phases)
+    {
+      std::vector<FrontValue> &values = front_values[index_of(phase)];
+      values.resize(front.size());
+      const FrontExpansion &expansion = state.expansion[index_of(phase)];
+      for(std::size_t p = 0; p < front.size(); ++p)
+      {
+        double slope = expansion.gradient.empty()
+                           ? 0.
+                           : expansion.gradient[p].dot(front.normal[p]);
+        FrontValue &value = values[p];
+        value.constant = front_temperature(front.curvature[p]);
+        if(phase == NodePhase::solid && !sinks.empty())
+        {
+          value.constant -= sinks.value(front.position[p], state.time);
+          slope += sinks.gradient(front.position[p], state.time).dot(front.normal[p]);
+        }
+        value.own = -slope;
+        value.before = value.after = 0;
+        if(settings.capillarity == 0)
+          continue;
+        // Moving along n changes the curvature by kappa^2 d + d'' along the curve.
+        const double left = (front.position[p] - front.position[before[p]]).norm(),
+                     right = (front.position[after[p]] - front.position[p]).norm();
+        const double bend = 2 * settings.capillarity / (left + right);
+        value.own -= settings.capillarity * front.curvature[p] * front.curvature[p]
+                     - bend * (1 / left + 1 / right);
+        value.before = -bend / left;
+        value.after = -bend / right;
+      }
+    }
+  }
+
+  double PlaneHeat::front_value(NodePhase phase, std::size_t particle,
+                                std::span<const double> solution) const
+  {
+    const FrontValue &value = front_values[index_of(phase)][particle];
+    const auto moved = [&](std::size_t p) { return solution[nodes.size() + p]; };
+    return value.constant
+           + nodes.spacing
+                 * (value.own * moved(particle) + value.before * moved(before[particle])
+                    + value.after * moved(after[particle]));
+  }
+
+  double PlaneHeat::wall_power(const PlaneState &state,
+                               std::span<const double> solution) const
+  {
+    double power = 0;
+    for(const WallNode &wall : nodes.walls)
+    {
+      const NodePhase phase = state.phase[wall.node];
+      if(phase == NodePhase::front)
+        continue;
+      const PlanePoint &place = nodes.position[wall.node];
+      if(!wall.held())
+      {
+        for(int i = 0; i < wall.n_pieces; ++i)
+        {
+          const WallPiece &piece = wall.pieces[i];
+          if(piece.boundary->kind == cases::BoundaryKind::insulated)
+            continue;
+          const double given
+              = piece.boundary->value({place.x(), place.y(), 0}, state.time);
+          power += piece.length
+                   * (piece.boundary->kind == cases::BoundaryKind::heat_transfer
+                          ? piece.boundary->heat_transfer_coefficient
+                                * (given - temperature(state, wall.node))
+                          : given);
+        }
+        continue;
+      }
+      const Row &row = rows[wall.node];
+      double sum = 0;
+      for(std::size_t e = 0; e < row.columns.size(); ++e)
+        sum += row.weights[e]
+               * (row.columns[e] < nodes.size()
+                      ? solution[row.columns[e]]
+                      : front_value(phase, row.columns[e] - nodes.size(), solution));
+      if(phase == NodePhase::solid && !sinks.empty())
+        for(int i = 0; i < wall.n_pieces; ++i)
+          sum += wall.pieces[i].length
+                 * sinks.gradient(place, state.time).dot(wall.pieces[i].normal);
+      power += properties(phase).conductivity * sum;
+    }
+    return power;
+  }
+
+  double PlaneHeat::worst_condition(const PlaneState &state)
+  {
+    double worst = 0;
+    PlaneStencil stencil;
+    for(std::size_t p = 0; p < state.front.size(); ++p)
+      if(state.front.active[p])
+        for(const NodePhase phase : phases)
+        {
+          makers[0].make(state.front.position[p], phase, stencil);
+          worst = std::max(worst, makers[0].condition_number());
+        }
+    return worst;
+  }
+
+  StencilRecord PlaneHeat::stencil_record() const
+  {
+    StencilRecord sum;
+    for(const StencilMaker &maker : makers)
+    {
+      sum.enlarged += maker.record.enlarged;
+      sum.lowered += maker.record.lowered;
+    }
+    return sum;
+  }
+} // namespace meltfront::particles::front_tracking

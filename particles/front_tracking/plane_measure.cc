@@ -1,0 +1,166 @@
+#include <particles/front_tracking/plane_measure.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace meltfront::particles::front_tracking
+{
+  namespace
+  {
+    /** Spacings from the front within which areas are summed over points. */
+    constexpr double cut_reach = 1.3;
+
+    /** Spacings from a sink within which its singular part is summed over points. */
+    constexpr double sink_reach = 3;
+
+    constexpr int most_shifts = 20;
+
+    /** A point of a cut area. */
+    struct Sample
+    {
+      std::uint32_t node;
+      double distance; ///< negative in solid
+      double weight;
+      PlanePoint place;
+    };
+
+    /** Share of a sample's area that is solid. */
+    double share(double distance, double width)
+    {
+      return std::clamp(0.5 - distance / width, 0., 1.);
+    }
+  } // namespace
+
+  double enclosed_solid_area(const cases::Scene &scene, const PlaneNodes &nodes,
+                             const PlaneState &state, bool solid_beyond)
+  {
+    const cases::Domain &domain = scene.domain;
+    double enclosed = 0;
+    for(std::size_t c = 0; c < state.front.curves(); ++c)
+    {
+      for(std::size_t p = state.front.offsets[c]; p < state.front.offsets[c + 1]; ++p)
+        if(nodes.wall_distance(state.front.position[p]) < 0)
+          return std::numeric_limits<double>::quiet_NaN();
+      enclosed += signed_area(state.front, c);
+    }
+    double area = solid_beyond ? nodes.area + enclosed : enclosed;
+    if(domain.shape == cases::DomainShape::shell)
+    {
+      const FrontIndex index(state.front, solid_beyond, nodes.spacing);
+      const double hole = std::numbers::pi * domain.inner_radius * domain.inner_radius;
+      const bool solid_hole = index.solid(PlanePoint(0, 0));
+      if(solid_hole && !solid_beyond)
+        area -= hole;
+      if(!solid_hole && solid_beyond)
+        area += hole;
+    }
+    return area;
+  }
+
+  PlaneMeasure measure(const cases::Scene &scene, const PlaneNodes &nodes,
+                       const PlaneHeat &heat, const PlaneState &state)
+  {
+    const cases::Material &material = scene.material;
+    const double h = nodes.spacing, width = nodes.sample_spacing;
+    PlaneMeasure result;
+    result.temperature.resize(nodes.size());
+    result.solid_fraction.resize(nodes.size());
+    const bool solid_beyond = heat.settings.solid_beyond;
+    const FrontIndex index(state.front, solid_beyond, h);
+    std::vector<Sample> samples;
+    std::vector<char> cut(nodes.size());
+    double whole = 0;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      result.temperature[i] = state.phase[i] == NodePhase::front
+                                  ? material.melting_temperature
+                                  : heat.temperature(state, i);
+      const double distance = index.signed_distance(nodes.position[i], cut_reach * h);
+      cut[i] = std::abs(distance) < cut_reach * h;
+      if(!cut[i])
+      {
+        result.solid_fraction[i] = distance < 0 ? 1 : 0;
+        whole += distance < 0 ? nodes.weight[i] : 0;
+        continue;
+      }
+      const std::size_t begin = nodes.sample_offsets[i], end = nodes.sample_offsets[i + 1];
+      for(std::size_t s = begin; s < end; ++s)
+        samples.push_back({static_cast<std::uint32_t>(i),
+                           index.signed_distance(nodes.samples[s], cut_reach * h),
+                           nodes.weight[i] / static_cast<double>(end - begin),
+                           nodes.samples[s]});
+    }
+    // One shift makes the parts' sum what the curves enclose.
+    const double wanted = enclosed_solid_area(scene, nodes, state, solid_beyond);
+    double shift = 0;
+    for(int pass = 0; pass < most_shifts && std::isfinite(wanted); ++pass)
+    {
+      double sum = whole, slope = 0;
+      for(const Sample &sample : samples)
+      {
+        const double part = share(sample.distance - shift, width);
+        sum += sample.weight * part;
+        slope += part > 0 && part < 1 ? sample.weight / width : 0;
+      }
+      if(slope == 0 || std::abs(wanted - sum) <= 1e-15 * nodes.area)
+        break;
+      shift += std::clamp((wanted - sum) / slope, -width / 2, width / 2);
+    }
+    result.solid_area = whole;
+    const auto add_heat = [&](bool solid, double area, double excess)
+    {
+      const auto &phase = solid ? material.solid : material.liquid;
+      result.sensible += phase.volumetric_heat_capacity() * area * excess;
+    };
+    for(const Sample &sample : samples)
+    {
+      const double part = share(sample.distance - shift, width);
+      result.solid_fraction[sample.node] += sample.weight * part;
+      result.solid_area += sample.weight * part;
+      const long nearest = state.expansion_bins.nearest(sample.place);
+      if(nearest < 0)
+        continue;
+      const PlanePoint offset = sample.place - state.expanded_about[nearest];
+      for(const bool solid : {false, true})
+      {
+        const double area = sample.weight * (solid ? part : 1 - part);
+        if(area > 0)
+          add_heat(solid, area,
+                   state.expansion[solid].at(nearest, offset)
+                       + (solid ? heat.sinks.value(sample.place, state.time) : 0)
+                       - material.melting_temperature);
+      }
+    }
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if(cut[i])
+      {
+        result.solid_fraction[i]
+            = nodes.weight[i] > 0 ? result.solid_fraction[i] / nodes.weight[i]
+                                  : (state.phase[i] == NodePhase::solid ? 1 : 0);
+        continue;
+      }
+      const bool solid = state.phase[i] == NodePhase::solid;
+      double excess = result.temperature[i] - material.melting_temperature;
+      double near = std::numeric_limits<double>::infinity();
+      for(const PlanePoint &place : heat.sinks.places)
+        near = std::min(near, (place - nodes.position[i]).norm());
+      if(solid && near < sink_reach * h)
+      {
+        double mean = 0;
+        const std::size_t begin = nodes.sample_offsets[i],
+                          end = nodes.sample_offsets[i + 1];
+        for(std::size_t s = begin; s < end; ++s)
+          mean += heat.sinks.value(nodes.samples[s], state.time)
+                  / static_cast<double>(end - begin);
+        excess = state.unknown[i] + mean - material.melting_temperature;
+      }
+      add_heat(solid, nodes.weight[i], excess);
+    }
+    result.latent = material.solid.density * material.latent_heat
+                    * (nodes.area - result.solid_area);
+    return result;
+  }
+} // namespace meltfront::particles::front_tracking

@@ -1,0 +1,106 @@
+#include <particles/front_tracking/plane_measure.h>
+#include <particles/front_tracking/plane_run.h>
+
+#include <fmt/format.h>
+
+namespace meltfront::particles::front_tracking
+{
+  cases::RunDescription PlaneRun::description() const
+  {
+    cases::RunDescription result;
+    result.dimension = 2;
+    result.spacing = nodes.spacing;
+    result.time_step = (scene.end_time - scene.start_time) / parameters.steps;
+    result.unknowns = static_cast<long>(nodes.size() + state.front.size());
+    result.parameters
+        = {{"start", start_in_words, ""},
+           {"nodes", fmt::format("{}", nodes.size()), "1"},
+           {"front particles at the start", fmt::format("{}", state.front.size()), "1"},
+           {"basis order", fmt::format("{}", parameters.basis_order), "1"},
+           {"largest condition number of moment matrices at the front's start",
+            fmt::format("{:.3g}", condition), "1"},
+           {"time scheme",
+            parameters.scheme == TimeScheme::bdf2 ? "bdf2" : "backward-euler", ""}};
+    return result;
+  }
+
+  void PlaneRun::report(cases::Observer &observer, bool always)
+  {
+    watch.without(
+        [&]
+        {
+          for(const auto &[time, event] : events)
+            observer.note(time, event);
+          events.clear();
+          if(observer.wants(step_number, state.time) || always)
+            observe(observer);
+        });
+  }
+
+  /** The scene's own initial state, also where the run starts from a front that was seeded
+   * later: all of it is liquid then. */
+  void PlaneRun::observe_initial(cases::Observer &observer)
+  {
+    observer.wants(0, scene.start_time);
+    if(state.time == scene.start_time)
+    {
+      const PlaneMeasure measured = measure(scene, nodes, heat, state);
+      initial_heat = measured.sensible + measured.latent;
+      observe(observer);
+      return;
+    }
+    PlaneState seeded = std::move(state);
+    state = PlaneState();
+    state.time = scene.start_time;
+    state.phase.assign(nodes.size(), NodePhase::liquid);
+    for(const PlanePoint &place : nodes.position)
+      state.unknown.push_back(
+          scene.initial.temperature({place.x(), place.y(), 0}, scene.start_time));
+    const PlaneMeasure measured = measure(scene, nodes, heat, state);
+    initial_heat = measured.sensible + measured.latent;
+    const long seeded_step = std::exchange(step_number, 0);
+    observe(observer);
+    step_number = seeded_step;
+    state = std::move(seeded);
+  }
+
+  void PlaneRun::observe(cases::Observer &observer)
+  {
+    const PlaneMeasure measured = measure(scene, nodes, heat, state);
+    for(int d = 0; d < 2; ++d)
+    {
+      site_positions[d].clear();
+      front_positions[d].clear();
+      for(const PlanePoint &place : nodes.position)
+        site_positions[d].push_back(place[d]);
+      for(std::size_t p = 0; p < state.front.size(); ++p)
+        if(state.front.active[p])
+          front_positions[d].push_back(state.front.position[p][d]);
+    }
+    cases::Snapshot snapshot;
+    snapshot.step = step_number;
+    snapshot.time = state.time;
+    snapshot.dimension = 2;
+    for(int d = 0; d < 2; ++d)
+    {
+      snapshot.positions[d] = site_positions[d];
+      snapshot.front[d] = front_positions[d];
+    }
+    snapshot.weights = nodes.weight;
+    snapshot.temperature = measured.temperature;
+    snapshot.solid_fraction = measured.solid_fraction;
+    snapshot.obeys_maximum_principle = false;
+    snapshot.heat = {measured.sensible, measured.latent, boundary_heat,
+                     heat.sinks.energy(state.time), initial_heat};
+    observer.observe(snapshot);
+  }
+
+  std::vector<cases::EffectCost> PlaneRun::effect_costs() const
+  {
+    std::vector<cases::EffectCost> result;
+    for(const cases::EffectDecision &decision : effects.decisions())
+      if(decision.on)
+        result.push_back({decision.effect, heat.solves, 0, 0});
+    return result;
+  }
+} // namespace meltfront::particles::front_tracking

@@ -1,0 +1,386 @@
+#include <particles/front_tracking/plane_run.h>
+#include <particles/front_tracking/plane_topology.h>
+
+#include <cases/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace meltfront::particles::front_tracking
+{
+  namespace
+  {
+    /** The first step, of the one that accuracy allows: backward Euler makes it, whose
+     * error is of first order. */
+    constexpr double first_step_share = 1. / 32;
+
+    /** BDF2 is stable for steps that grow by less than 1 + sqrt(2). */
+    constexpr double largest_growth = 1.6;
+
+    /** No particle moves by more than this in a step, in spacings. */
+    constexpr double farthest_move = 1;
+
+    constexpr int most_halvings = 8;
+    constexpr int passes_allowed = 10;
+
+    /** Passes in which nodes change their phases. */
+    constexpr long regrouping_passes = 4;
+
+    /** A step is done when no particle has farther to move, in spacings: the move itself
+     * is made, and what it leaves is smaller by about its square. */
+    constexpr double done = 1e-4;
+
+    /** What is accepted of a step that cannot be halved further. */
+    constexpr double nearly_done = 1e-2;
+
+    /** Distance of front particles in spacings, and the shares of it within which they
+     * may stand. */
+    constexpr double front_spacing = 1.15;
+    constexpr double closest = 0.7, farthest = 1.35;
+
+    /** No step takes a curve nearer to its middle than by this share. */
+    constexpr double share_of_radius = 0.5;
+
+    /** After fronts met, so many steps pass before any meet again: the new neck is to open
+     * first. Bodies that overlap meanwhile count as one anyway. */
+    constexpr long steps_between_meetings = 4;
+
+    constexpr double seed_cells = 3;
+    constexpr double contour_margin = 4;
+
+    /** Share of the span of the bounds by which temperatures may pass them. */
+    constexpr double bounds_slack = 0.1;
+
+    PlaneHeatSettings settings_of(const TrackingParameters &parameters, int threads)
+    {
+      PlaneHeatSettings settings;
+      settings.order = parameters.basis_order;
+      settings.absorption = parameters.absorption;
+      settings.threads = std::max(1, threads);
+      return settings;
+    }
+  } // namespace
+
+  PlaneRun::PlaneRun(const cases::Scene &scene, const cases::EffectSet &effects,
+                     const cases::Resolution &resolution)
+    : scene(scene)
+    , effects(effects)
+    , resolution(resolution)
+    , parameters(read_tracking_parameters(scene, resolution))
+    , nodes(scene, parameters.intervals, {parameters.jitter, resolution.seed})
+    , heat(scene, nodes, settings_of(parameters, resolution.threads))
+    , bounds(cases::temperature_bounds(scene))
+  {
+    if(!(scene.material.latent_heat > 0))
+      throw cases::Refusal(
+          "rkpm-tracked follows a front: it needs a latent heat above zero");
+    if(effects.contains(cases::Effect::liquid_motion))
+      throw cases::Refusal("rkpm-tracked moves liquid of another density along a line "
+                           "only, not in the plane");
+    if(parameters.scheme == TimeScheme::bdf3)
+      throw cases::Refusal("rkpm-tracked steps by bdf2 or backward-euler in the plane");
+  }
+
+  void PlaneRun::start()
+  {
+    const double h = nodes.spacing;
+    const PlaneStart found = find_plane_start(scene, seed_cells * h);
+    start_in_words = found.description;
+    state.time = found.time;
+    const ContourGrid grid
+        = contour_grid(nodes.lower, nodes.upper, contour_margin * h, h / 2);
+    std::vector<double> values;
+    for(long j = 0; j < grid.rows; ++j)
+      for(long i = 0; i < grid.columns; ++i)
+        values.push_back(found.level_set(grid.node(i, j)));
+    const Contours contours = find_contours(grid, std::move(values), found.level_set);
+    state.front
+        = front_on_zeros(contours, found.level_set, front_spacing * h, 4 * h);
+    heat.settings.solid_beyond = contours.solid_beyond;
+    heat.set_front(state);
+    if(state.front.size() == 0)
+      throw cases::Refusal(
+          fmt::format("rkpm-tracked finds no front at the start with nodes {:.3g} m apart; "
+                      "a smaller spacing may resolve it",
+                      h));
+    state.unknown.resize(nodes.size());
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      state.unknown[i]
+          = found.temperature(nodes.position[i])
+            - (state.phase[i] == NodePhase::solid
+                   ? heat.sinks.value(nodes.position[i], state.time)
+                   : 0);
+    heat.expand(state);
+    condition = heat.worst_condition(state);
+    step_number = found.time > scene.start_time ? 1 : 0;
+    check(state);
+  }
+
+  cases::Cost PlaneRun::run(cases::Observer &observer)
+  {
+    start();
+    cases::Cost cost;
+    const auto setup = watch.elapsed();
+    watch.restart();
+    watch.without(
+        [&]
+        {
+          observer.begin(description());
+          observe_initial(observer);
+        });
+    if(state.time > scene.start_time)
+      report(observer, false);
+    while(state.time < scene.end_time)
+    {
+      step();
+      report(observer, state.time == scene.end_time);
+    }
+    const auto stepping = watch.elapsed();
+    cost.setup_wall = setup.wall;
+    cost.setup_cpu = setup.cpu;
+    cost.stepping_wall = stepping.wall;
+    cost.stepping_cpu = stepping.cpu;
+    cost.steps = step_number;
+    cost.unknowns = static_cast<long>(heat.most_unknowns);
+    cost.work = heat.entries;
+    cost.solver_iterations = heat.solves;
+    cost.most_iterations = most_passes;
+    cost.capped_steps = capped_steps;
+    cost.effects = effect_costs();
+    return cost;
+  }
+
+  double PlaneRun::next_step() const
+  {
+    const double whole = scene.end_time - scene.start_time;
+    double step = whole / parameters.steps;
+    const PlaneFront &front = state.front;
+    for(std::size_t c = 0; c < front.curves(); ++c)
+    {
+      double fastest = 0;
+      for(std::size_t p = front.offsets[c]; p < front.offsets[c + 1]; ++p)
+        if(front.active[p])
+          fastest = std::max(fastest, std::abs(front.speed[p]));
+      const double way = std::min(parameters.largest_move * nodes.spacing,
+                                  share_of_radius * curve_radius(front, c));
+      if(fastest > 0)
+        step = std::min(step, way / fastest);
+    }
+    step = fresh ? first_step_share * step : std::min(step, largest_growth * last_step);
+    const double rest = scene.end_time - state.time;
+    if(step >= rest * (1 - 1e-10))
+      return rest;
+    return step > rest / 2 ? rest / 2 : step;
+  }
+
+  /** The front goes on at its speed; expansions come from the particles that were nearest
+   * at the last state. */
+  void PlaneRun::predict(double step, PlaneState &next) const
+  {
+    next.front = state.front;
+    const double farthest_way = farthest_move * nodes.spacing;
+    for(std::size_t p = 0; p < next.front.size(); ++p)
+      next.front.position[p]
+          += std::clamp(step * next.front.speed[p], -farthest_way, farthest_way)
+             * next.front.normal[p];
+    update_geometry(next.front);
+    for(int phase = 0; phase < n_phases; ++phase)
+    {
+      FrontExpansion &expansion = next.expansion[phase];
+      const FrontExpansion &from = state.expansion[phase];
+      expansion = FrontExpansion();
+      for(std::size_t p = 0; p < next.front.size(); ++p)
+      {
+        const PlanePoint &place = state.front.position[p];
+        const long nearest = state.expansion_bins.nearest(place);
+        const PlanePoint offset = place - state.expanded_about[nearest];
+        expansion.value.push_back(from.at(nearest, offset));
+        expansion.gradient.push_back(from.gradient_at(nearest, offset));
+        expansion.second.push_back(from.second[nearest]);
+      }
+    }
+  }
+
+  /** Make the moves that are left. @return whether one of them met its limit. */
+  bool PlaneRun::move(const std::vector<double> &displacement, PlaneState &next,
+                      double &largest) const
+  {
+    const double h = nodes.spacing;
+    bool limited = false;
+    largest = 0;
+    for(std::size_t p = 0; p < displacement.size(); ++p)
+    {
+      if(!std::isfinite(displacement[p]))
+        throw std::runtime_error("a front particle's speed is not finite");
+      PlanePoint &place = next.front.position[p];
+      const PlanePoint moved = place + displacement[p] * next.front.normal[p];
+      const PlanePoint way = moved - state.front.position[p];
+      const bool too_far = way.norm() > farthest_move * h;
+      if(next.front.active[p])
+      {
+        largest = std::max(largest, std::abs(displacement[p]) / h);
+        limited = limited || too_far;
+      }
+      place = too_far ? state.front.position[p] + farthest_move * h * way.normalized()
+                      : moved;
+    }
+    update_geometry(next.front);
+    return limited;
+  }
+
+  bool PlaneRun::attempt(double step, bool last_chance, PlaneState &next)
+  {
+    const double rest = scene.end_time - state.time;
+    next.time = step == rest ? scene.end_time : state.time + step;
+    const bool two_steps = older && parameters.scheme == TimeScheme::bdf2;
+    const PlaneStep times(state, two_steps ? &*older : nullptr, next.time);
+    predict(step, next);
+    double largest = std::numeric_limits<double>::infinity();
+    bool limited = false;
+    long passes = 0;
+    while(largest > done && passes < passes_allowed)
+    {
+      heat.set_front(next, passes >= regrouping_passes);
+      limited = move(heat.solve(times, next), next, largest);
+      ++passes;
+      if(limited && !last_chance)
+        return false;
+    }
+    if(largest > nearly_done || limited)
+    {
+      if(!last_chance)
+        return false;
+      ++capped_steps;
+    }
+    most_passes = std::max(most_passes, passes);
+    return true;
+  }
+
+  void PlaneRun::step()
+  {
+    double step = next_step();
+    PlaneState next;
+    try
+    {
+      for(int halvings = 0; !attempt(step, halvings == most_halvings, next); ++halvings)
+        step /= 2;
+    }
+    catch(const std::runtime_error &error)
+    {
+      if(dynamic_cast<const cases::Refusal *>(&error)
+         || dynamic_cast<const cases::NumericalError *>(&error))
+        throw;
+      throw cases::NumericalError(method_name, step_number + 1, state.time + step,
+                                  "temperature",
+                                  fmt::format("cannot be solved for: {}", error.what()));
+    }
+    last_step = step;
+    accept(std::move(next));
+  }
+
+  void PlaneRun::accept(PlaneState next)
+  {
+    const double before = fresh ? next.wall_power : state.wall_power;
+    boundary_heat += (next.time - state.time) * (before + next.wall_power) / 2;
+    for(std::size_t p = 0; p < next.front.size(); ++p)
+      next.front.displacement[p] = next.front.position[p] - state.front.position[p];
+    older = std::move(state);
+    state = std::move(next);
+    fresh = false;
+    ++step_number;
+    check(state);
+    redistribute(state.front, front_spacing * nodes.spacing, closest, farthest);
+    // Particles that were placed anew may lie beyond a wall.
+    heat.mark_active(state.front);
+    follow_topology();
+  }
+
+  /** Fronts that met or vanished: their latent heat goes into the nodes, and the next step
+   * begins anew. */
+  void PlaneRun::follow_topology()
+  {
+    TopologySettings settings;
+    settings.spacing = nodes.spacing;
+    settings.front_spacing = front_spacing * nodes.spacing;
+    settings.join = step_number >= next_meeting;
+    const std::vector<TopologyEvent> changes = update_topology(
+        state.front, nodes, heat.settings.solid_beyond, settings);
+    if(changes.empty())
+      return;
+    settle_nodes();
+    const double latent = scene.material.solid.density * scene.material.latent_heat;
+    for(const TopologyEvent &change : changes)
+    {
+      if(!change.vanished)
+        next_meeting = step_number + steps_between_meetings;
+      const double energy = latent * change.solid_area;
+      const double booked
+          = book_latent_heat(state, scene, nodes, heat, change.place, energy);
+      events.emplace_back(
+          state.time,
+          fmt::format("{}; {:.3g} m^2 {} by that, of {:.3g} J/m latent heat {:.3g} J/m "
+                      "went into the nodes about it",
+                      change.what, std::abs(change.solid_area),
+                      change.solid_area > 0 ? "froze" : "melted", energy, booked));
+    }
+    older.reset();
+    fresh = true;
+  }
+
+  /** Nodes that changed their phase without a front that passed over them are at the melting
+   * temperature: beyond where the front was, their new phase has no past. */
+  void PlaneRun::settle_nodes()
+  {
+    const double absorbed = parameters.absorption * nodes.spacing;
+    const FrontIndex index(state.front, heat.settings.solid_beyond, nodes.spacing);
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      const PlanePoint &place = nodes.position[i];
+      const double distance = index.signed_distance(place, nodes.spacing);
+      const NodePhase phase = distance < 0 ? NodePhase::solid : NodePhase::liquid;
+      const double kept = state.phase[i] == NodePhase::front ? 1.5 * absorbed : absorbed;
+      if(state.phase[i] == phase || std::abs(distance) < kept)
+        continue;
+      state.phase[i] = phase;
+      state.unknown[i]
+          = scene.material.melting_temperature
+            - (phase == NodePhase::solid ? heat.sinks.value(place, state.time) : 0);
+    }
+  }
+
+  void PlaneRun::check(const PlaneState &checked) const
+  {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if(checked.phase[i] == NodePhase::front)
+        continue;
+      const double value = heat.temperature(checked, i);
+      if(!std::isfinite(value)) // comparisons pass over what is not a number
+      {
+        lowest = highest = value;
+        break;
+      }
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+    }
+    cases::check_temperature(bounds, lowest, highest, method_name, step_number,
+                             checked.time, bounds_slack);
+    for(const PlanePoint &place : heat.sinks.places)
+      if(!(heat.front_index().signed_distance(place, nodes.spacing) < 0))
+        throw cases::Refusal(
+            fmt::format("rkpm-tracked: the source at ({:.6g}, {:.6g}) does not lie in the "
+                        "solid at time {:.6g}",
+                        place.x(), place.y(), checked.time));
+  }
+
+  cases::Cost solve_plane(const cases::Scene &scene, const cases::EffectSet &effects,
+                          const cases::Resolution &resolution, cases::Observer &observer)
+  {
+    return PlaneRun(scene, effects, resolution).run(observer);
+  }
+} // namespace meltfront::particles::front_tracking

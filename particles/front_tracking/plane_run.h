@@ -1,0 +1,75 @@
+#ifndef meltfront_particles_front_tracking_plane_run_h
+#define meltfront_particles_front_tracking_plane_run_h
+
+#include <cases/method.h>
+#include <cases/stopwatch.h>
+#include <particles/front_tracking/plane_heat.h>
+#include <particles/front_tracking/plane_start.h>
+#include <particles/front_tracking/tracking_options.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace meltfront::particles::front_tracking
+{
+  /** A run of `rkpm-tracked` in the plane: start, time steps, events, snapshots. */
+  class PlaneRun
+  {
+  public:
+    PlaneRun(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution);
+
+    cases::Cost run(cases::Observer &observer);
+
+  private:
+    void start();
+    void step();
+    double next_step() const;
+    bool attempt(double step, bool last_chance, PlaneState &next);
+    void predict(double step, PlaneState &next) const;
+    bool move(const std::vector<double> &displacement, PlaneState &next,
+              double &largest) const;
+    void accept(PlaneState next);
+    void follow_topology();
+    void settle_nodes();
+    void check(const PlaneState &checked) const;
+
+    cases::RunDescription description() const;
+    void report(cases::Observer &observer, bool always);
+    void observe(cases::Observer &observer);
+    void observe_initial(cases::Observer &observer);
+    std::vector<cases::EffectCost> effect_costs() const;
+
+    const cases::Scene &scene;
+    const cases::EffectSet &effects;
+    const cases::Resolution &resolution;
+    cases::Stopwatch watch;
+    TrackingParameters parameters;
+    PlaneNodes nodes;
+    PlaneHeat heat;
+    cases::TemperatureBounds bounds;
+    std::string start_in_words;
+    PlaneState state;
+    std::optional<PlaneState> older;
+    double last_step = 0;
+    bool fresh = true; ///< no step was made since the start or an event
+    long step_number = 0, capped_steps = 0, most_passes = 0, next_meeting = 0;
+    double boundary_heat = 0, initial_heat = 0, condition = 0;
+    std::vector<std::pair<double, std::string>> events; ///< not yet told
+
+    std::array<std::vector<double>, 2> site_positions, front_positions;
+  };
+
+  /**
+   * Solve a scene in the plane.
+   * @throws cases::Refusal for a scene that is not treated, cases::NumericalError where a
+   * step fails.
+   */
+  cases::Cost solve_plane(const cases::Scene &scene, const cases::EffectSet &effects,
+                          const cases::Resolution &resolution, cases::Observer &observer);
+} // namespace meltfront::particles::front_tracking
+
+#endif

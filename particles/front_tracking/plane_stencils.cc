@@ -1,0 +1,195 @@
+#include <particles/front_tracking/plane_stencils.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meltfront::particles::front_tracking
+{
+  namespace
+  {
+    constexpr double least_dilation = 2.2; ///< spacings
+    constexpr double beyond_neighbour = 1.3;
+    constexpr double enlargement = 1.2;
+    constexpr int most_enlargements = 4;
+
+    /** Spacings within which neighbours are looked for first. */
+    constexpr double first_search = 3.2;
+    constexpr int most_searches = 4;
+
+    /** Below this ratio of the factor's diagonal entries derivatives are not determined
+     * well: the moment matrix has a condition number of its inverse square. */
+    constexpr double least_ratio = 1e-3;
+
+    /** Spacings by which a line of sight may dip into the other phase. */
+    constexpr double sight_tolerance = 0.1;
+    constexpr double sight_step = 0.3;
+
+    rkpm::MomentSettings settings_of(int order)
+    {
+      rkpm::MomentSettings settings;
+      settings.variant = rkpm::Variant::derivative_free;
+      settings.kernel = KernelShape::cubic_spline;
+      settings.dimension = 2;
+      settings.order = order;
+      settings.derivatives = 2;
+      return settings;
+    }
+  } // namespace
+
+  double PlaneStencil::apply(Derivative derivative, std::span<const double> values) const
+  {
+    double sum = 0;
+    for(std::size_t i = 0; i < columns.size(); ++i)
+      sum += weights[derivative][i] * values[columns[i]];
+    return sum;
+  }
+
+  StencilMaker::StencilMaker(const PlaneNodes &nodes, int order)
+    : nodes(nodes)
+    , order(order)
+  {
+    for(int lower = 1; lower <= order; ++lower)
+      engines.emplace_back(settings_of(lower));
+    points.dimension = 2;
+    for(const PlanePoint &place : nodes.position)
+      points.add({place.x(), place.y(), 0});
+  }
+
+  void StencilMaker::set_front(const PlaneFront &new_front, const FrontIndex &new_index,
+                               std::span<const NodePhase> new_phases)
+  {
+    front = &new_front;
+    index = &new_index;
+    phases = new_phases;
+    for(int d = 0; d < 2; ++d)
+      points.position[d].resize(nodes.size());
+    for(const PlanePoint &place : front->position)
+      points.add({place.x(), place.y(), 0});
+    front_bins = PlaneBins(front->position, nodes.spacing);
+  }
+
+  /** Whether the other phase lies on the way between two points of a phase. */
+  bool StencilMaker::hidden(const PlanePoint &from, const PlanePoint &to,
+                            bool solid) const
+  {
+    const double h = nodes.spacing;
+    const int steps = static_cast<int>((to - from).norm() / (sight_step * h)) + 1;
+    for(int i = 1; i < steps; ++i)
+    {
+      const PlanePoint between = from + (static_cast<double>(i) / steps) * (to - from);
+      if(index->solid(between) == solid)
+        continue;
+      if(std::abs(index->signed_distance(between, 2 * sight_tolerance * h))
+         > sight_tolerance * h)
+        return true;
+    }
+    return false;
+  }
+
+  void StencilMaker::gather(const PlanePoint &centre, NodePhase phase, double radius)
+  {
+    candidates.clear();
+    mixed = false;
+    front_bins.visit(centre, radius,
+                     [&](std::uint32_t particle, double square)
+                     {
+                       mixed = true;
+                       if(front->active[particle])
+                         candidates.push_back({std::sqrt(square),
+                                               static_cast<std::uint32_t>(
+                                                   nodes.size() + particle)});
+                     });
+    nodes.bins.visit(centre, radius,
+                     [&](std::uint32_t node, double square)
+                     {
+                       if(phases[node] == phase)
+                         candidates.push_back({std::sqrt(square), node});
+                       else
+                         mixed = true;
+                     });
+    if(mixed)
+      std::erase_if(candidates,
+                    [&](const Candidate &candidate)
+                    {
+                      const PlanePoint place(points.position[0][candidate.column],
+                                             points.position[1][candidate.column]);
+                      return hidden(centre, place, phase == NodePhase::solid);
+                    });
+    std::ranges::sort(candidates,
+                      [](const Candidate &a, const Candidate &b)
+                      {
+                        return a.distance < b.distance
+                               || (a.distance == b.distance && a.column < b.column);
+                      });
+  }
+
+  bool StencilMaker::fit(const PlanePoint &centre, double dilation, int basis_order)
+  {
+    neighbours.clear();
+    for(const Candidate &candidate : candidates)
+      if(candidate.distance < dilation)
+        neighbours.push_back(candidate.column);
+    std::ranges::sort(neighbours);
+    rkpm::MomentEngine &engine = engines[basis_order - 1];
+    return engine.evaluate({centre.x(), centre.y(), 0}, points, neighbours, dilation)
+           && engine.rank_ratio() >= least_ratio;
+  }
+
+  void StencilMaker::make(const PlanePoint &centre, NodePhase phase,
+                          PlaneStencil &stencil)
+  {
+    const double h = nodes.spacing;
+    const std::size_t wanted = 2 * engines[order - 1].basis().size();
+    stencil.dilation = 0;
+    double radius = first_search * h;
+    for(int search = 0; search < most_searches && stencil.dilation == 0;
+        ++search, radius *= 1.5)
+    {
+      gather(centre, phase, radius);
+      // A particle at the centre itself is not a neighbour.
+      const bool own = !candidates.empty() && candidates.front().distance < 1e-12 * h;
+      const std::size_t place = own ? wanted : wanted - 1;
+      const double dilation
+          = place < candidates.size()
+                ? std::max(least_dilation * h,
+                           beyond_neighbour * candidates[place].distance)
+                : radius;
+      if(dilation < radius || search + 1 == most_searches)
+        stencil.dilation = std::min(dilation, radius);
+    }
+    stencil.pure = !mixed;
+    int used = order;
+    bool determined = fit(centre, stencil.dilation, used);
+    for(int i = 0; !determined && i < most_enlargements; ++i)
+    {
+      record.enlarged += i == 0;
+      stencil.dilation *= enlargement;
+      gather(centre, phase, stencil.dilation);
+      determined = fit(centre, stencil.dilation, used);
+    }
+    while(!determined && --used > 0)
+      determined = fit(centre, stencil.dilation, used);
+    record.lowered += used < order;
+    stencil.order = used;
+    last_engine = used - 1;
+    stencil.columns = neighbours;
+    for(int d = 0; d < 6; ++d)
+    {
+      stencil.weights[d].assign(neighbours.size(), 0.);
+      if(used > 0)
+      {
+        const auto weights = engines[used - 1].weights(d);
+        stencil.weights[d].assign(weights.begin(), weights.end());
+      }
+    }
+    if(used == 0 && !neighbours.empty())
+      std::ranges::fill(stencil.weights[value_of], 1. / neighbours.size());
+  }
+
+  double StencilMaker::condition_number() const
+  {
+    return last_engine < 0 ? std::numeric_limits<double>::infinity()
+                           : engines[last_engine].condition_number();
+  }
+} // namespace meltfront::particles::front_tracking

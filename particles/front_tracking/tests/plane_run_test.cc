@@ -1,0 +1,243 @@
+#include "plane_cases.h"
+
+#include <cases/error.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace meltfront;
+using namespace meltfront::particles::front_tracking;
+
+namespace
+{
+  TEST(PlaneRun, LineSinkConvergesAndStaysRound)
+  {
+    const cases::Scene scene = line_sink_annulus();
+    const std::vector<double> levels{20, 28, 40, 56};
+    std::vector<double> errors;
+    for(const double n : levels)
+    {
+      const PlaneRecord record = run_plane(scene, static_cast<int>(n));
+      const PlaneRecord::Frame &end = record.frames.back();
+      EXPECT_EQ(end.time, scene.end_time);
+      errors.push_back(std::abs(end.mean_radius - 0.6));
+      if(n == 40)
+      {
+        EXPECT_LE(errors.back(), 1.5e-3);
+        EXPECT_LE(end.roundness, 2e-3);
+        EXPECT_LE(record.cost.most_iterations, 4);
+      }
+      EXPECT_EQ(record.cost.capped_steps, 0);
+    }
+    // Least squares in the logarithms.
+    double x = 0, y = 0, xx = 0, xy = 0;
+    for(std::size_t i = 0; i < levels.size(); ++i)
+    {
+      const double a = std::log(1 / levels[i]), b = std::log(errors[i]);
+      x += a / 4;
+      y += b / 4;
+      xx += a * a / 4;
+      xy += a * b / 4;
+    }
+    EXPECT_GT((xy - x * y) / (xx - x * x), 1.9);
+  }
+
+  TEST(PlaneRun, SecondOrderInTime)
+  {
+    cases::Scene scene = line_sink_annulus();
+    const auto radius = [&](const char *scheme, const char *steps)
+    {
+      return run_plane(scene, 24,
+                       {{"scheme", scheme}, {"steps", steps}, {"largest_move", "1"}})
+          .frames.back()
+          .mean_radius;
+    };
+    const double limit = radius("bdf2", "160");
+    EXPECT_LT(std::abs(radius("bdf2", "20") - limit), 3e-4);
+    EXPECT_GT(std::abs(radius("backward-euler", "20") - limit),
+              3 * std::abs(radius("bdf2", "20") - limit));
+  }
+
+  /** Distance of a round body from an origin. */
+  double around(const cases::Position &p)
+  {
+    return std::hypot(p[0], p[1]);
+  }
+
+  double warmth(double distance)
+  {
+    return distance < 0 ? 0. : 1.5 * (1 - std::exp(-4 * distance));
+  }
+
+  void expect_all_molten(const PlaneRecord &record, double defect)
+  {
+    for(std::size_t i = 1; i < record.frames.size(); ++i)
+    {
+      EXPECT_LE(record.frames[i].solid_area, record.frames[i - 1].solid_area + 1e-12);
+      EXPECT_LT(record.frames[i].defect, defect) << record.frames[i].time;
+    }
+    const PlaneRecord::Frame &end = record.frames.back();
+    EXPECT_EQ(end.solid_area, 0);
+    EXPECT_EQ(end.front_points, 0u);
+    EXPECT_GT(end.coldest, 0);
+  }
+
+  TEST(PlaneRun, DiskMeltsToNothingWithItsHeat)
+  {
+    const cases::Scene scene = insulated_box(
+        {1, 1, 0}, [](const auto &p) { return around(p) - 0.5; },
+        [](const auto &p) { return warmth(around(p) - 0.5); }, 0.3);
+    const PlaneRecord record = run_plane(scene, 20);
+    expect_all_molten(record, 3e-3);
+    ASSERT_EQ(record.notes.size(), 1u);
+    EXPECT_NE(record.notes[0].find("vanished"), std::string::npos);
+  }
+
+  TEST(PlaneRun, RingMeltsFromBothSides)
+  {
+    const auto front = [](const auto &p)
+    { return std::max(around(p) - 0.6, 0.35 - around(p)); };
+    const cases::Scene scene = insulated_box(
+        {1, 1, 0}, front, [=](const auto &p) { return warmth(front(p)); }, 0.3);
+    const PlaneRecord record = run_plane(scene, 24);
+    expect_all_molten(record, 4e-2);
+    EXPECT_GE(record.notes.size(), 2u);
+  }
+
+  TEST(PlaneRun, DisksOfIceMerge)
+  {
+    const PlaneRecord record = run_plane(merging_disks(0.25), 40);
+    for(std::size_t i = 1; i < record.frames.size(); ++i)
+      EXPECT_GE(record.frames[i].solid_area,
+                record.frames[i - 1].solid_area * (1 - 1e-9));
+    const auto area_at = [&](double time)
+    {
+      for(std::size_t i = 1; i < record.frames.size(); ++i)
+        if(record.frames[i].time >= time)
+        {
+          const auto &a = record.frames[i - 1], &b = record.frames[i];
+          return a.solid_area
+                 + (b.solid_area - a.solid_area) * (time - a.time) / (b.time - a.time);
+        }
+      return 0.;
+    };
+    // fem-cut, n = 64, before and after the fronts meet.
+    EXPECT_NEAR(area_at(0.1), 0.39540, 0.01 * 0.39540);
+    EXPECT_NEAR(area_at(0.2), 0.70917, 0.01 * 0.70917);
+    EXPECT_NEAR(record.frames.back().solid_area, 0.87184, 0.01 * 0.87184);
+    EXPECT_FALSE(record.notes.empty());
+  }
+
+  TEST(PlaneRun, FrontOnNodesAndBesideThem)
+  {
+    // Nodes of the lattice lie at (0.5, 0), (0, 0.5), (0.3, 0.4) and their images.
+    for(const double beside : {0., 1e-13, -1e-13})
+    {
+      const double radius = 0.5 + beside;
+      const cases::Scene scene = insulated_box(
+          {1, 1, 0}, [=](const auto &p) { return around(p) - radius; },
+          [=](const auto &p) { return warmth(around(p) - radius); }, 0.01);
+      for(const char *absorption : {"0", "0.1"})
+      {
+        const PlaneRecord record
+            = run_plane(scene, 20, {{"absorption", absorption}, {"steps", "4"}});
+        EXPECT_LT(record.frames.back().defect, 3e-3);
+        EXPECT_LT(record.frames.back().solid_area, 0.75);
+      }
+    }
+  }
+
+  TEST(PlaneRun, FrontTurnsBack)
+  {
+    cases::Scene scene;
+    scene.symmetry = cases::Symmetry::none;
+    scene.domain.shape = cases::DomainShape::shell;
+    scene.domain.dimension = 2;
+    scene.domain.radius = 1;
+    scene.domain.inner_radius = 0.3;
+    scene.end_time = 0.4;
+    scene.initial.front
+        = cases::Field{"", [](const auto &p, double) { return around(p) - 0.6; }};
+    scene.initial.temperature = cases::Field::uniform(0);
+    cases::Boundary inner, outer;
+    inner.kind = outer.kind = cases::BoundaryKind::fixed_temperature;
+    inner.value = {"", [](const auto &, double t) { return t < 0.2 ? -1. : -0.02; }};
+    outer.value = {"", [](const auto &, double t) { return t < 0.2 ? 0.02 : 1.; }};
+    scene.boundaries[static_cast<std::size_t>(cases::Side::inner)] = inner;
+    scene.boundaries[static_cast<std::size_t>(cases::Side::outer)] = outer;
+    const PlaneRecord record = run_plane(scene, 24);
+    double largest = 0;
+    for(const auto &frame : record.frames)
+      largest = std::max(largest, frame.mean_radius);
+    EXPECT_GT(largest, record.frames.front().mean_radius + 0.05);
+    EXPECT_LT(record.frames.back().mean_radius, largest - 0.05);
+    EXPECT_LT(record.frames.back().roundness, 0.02);
+    EXPECT_EQ(record.cost.capped_steps, 0);
+  }
+
+  TEST(PlaneRun, SteadyFrontHolds)
+  {
+    cases::Scene scene;
+    scene.symmetry = cases::Symmetry::none;
+    scene.domain.shape = cases::DomainShape::shell;
+    scene.domain.dimension = 2;
+    scene.domain.radius = 1;
+    scene.domain.inner_radius = 0.25;
+    scene.end_time = 200;
+    // Logarithmic profiles that carry the same heat: the front stays at 0.5.
+    const auto profile = [](const auto &p) { return std::log(around(p) / 0.5); };
+    scene.initial.front
+        = cases::Field{"", [=](const auto &p, double) { return profile(p); }};
+    scene.initial.temperature
+        = cases::Field{"", [=](const auto &p, double) { return profile(p); }};
+    for(const cases::Side side : {cases::Side::inner, cases::Side::outer})
+    {
+      cases::Boundary rim;
+      rim.kind = cases::BoundaryKind::fixed_temperature;
+      rim.value = scene.initial.temperature;
+      scene.boundaries[static_cast<std::size_t>(side)] = rim;
+    }
+    const PlaneRecord record = run_plane(scene, 24, {{"steps", "60"}});
+    const std::size_t late = record.frames.size() - 20;
+    EXPECT_NEAR(record.frames.back().solid_area, record.frames[late].solid_area, 1e-8);
+    EXPECT_NEAR(record.frames.back().mean_radius, 0.5, 0.01);
+  }
+
+  TEST(PlaneRun, UndercooledGrowthForAShortTime)
+  {
+    const cases::Scene scene = frank_disk(0.06);
+    const PlaneRecord record = run_plane(scene, 40);
+    EXPECT_NEAR(record.frames.back().mean_radius, std::sqrt(0.06), 0.01);
+    EXPECT_LT(record.frames.back().roundness, 0.02);
+  }
+
+  TEST(PlaneRun, SameBitsForAnyNumberOfThreads)
+  {
+    cases::Scene scene = line_sink_annulus();
+    scene.end_time = scene.start_time + 0.02;
+    const PlaneRecord one = run_plane(scene, 20, {}, 1), three = run_plane(scene, 20, {}, 3);
+    ASSERT_EQ(one.temperature.size(), three.temperature.size());
+    for(std::size_t i = 0; i < one.temperature.size(); ++i)
+      EXPECT_EQ(one.temperature[i], three.temperature[i]);
+  }
+
+  TEST(PlaneRun, RefusesWhatItCannotTreat)
+  {
+    const cases::Scene sink = line_sink_annulus();
+    EXPECT_THROW(run_plane(sink, 20, {{"scheme", "bdf3"}}), cases::Refusal);
+    EXPECT_THROW(run_plane(sink, 4), cases::Refusal);
+    cases::Scene dense = sink;
+    dense.material.solid.density = 0.9;
+    EXPECT_THROW(run_plane(dense, 20), cases::Refusal);
+    cases::Scene uniform = merging_disks(0.1);
+    uniform.sources.clear();
+    uniform.initial.front.reset();
+    uniform.initial.temperature = cases::Field::uniform(1);
+    EXPECT_THROW(run_plane(uniform, 20), cases::Refusal);
+    cases::Scene beside = merging_disks(0.1);
+    beside.sources[0].position = {0, 0, 0};
+    EXPECT_THROW(run_plane(beside, 24), cases::Refusal);
+  }
+} // namespace
