@@ -131,6 +131,8 @@ TEST(Library, ExactFrontsEndWhereTheyAreKnownTo)
   EXPECT_NEAR(front_at_end("alloy-curved-liquidus"), 0.095632577768, 2e-12);
   EXPECT_NEAR(front_at_end("bar-flux"), 0.452097059863568, 1e-12);
   EXPECT_NEAR(front_at_end("annulus"), 0.632047368850, 1e-10);
+  EXPECT_NEAR(front_at_end("bar-sandia"), 0.4096586, 1e-7);
+  EXPECT_NEAR(front_at_end("bar-started"), 0.18, 1e-8);
 }
 
 TEST(Library, SinksDrawWhatTheirSolutionsNeed)
