@@ -44,7 +44,9 @@ namespace meltfront::verification
 
     Markup volume(const ReportContext &context, const CaseRuns &runs)
     {
-      const Plot plot = solid_against_time(runs, context.styles);
+      Plot plot = solid_against_time(runs, context.styles);
+      plot.description = "Area of the region against time, " + runs.record->name;
+      plot.y.label = "area";
       if(nothing_to_draw(plot))
         return {};
       return context.plots.figure(
