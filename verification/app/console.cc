@@ -36,6 +36,10 @@ namespace meltfront::verification
     FirstColumn first_column(const CaseRecord &record,
                              const std::vector<const RunRecord *> &finished)
     {
+      if(record.moving && record.moving->problem == "interface advection")
+        return {"shape_mismatch_end", "mismatch, end"};
+      if(record.moving)
+        return {"solid_end", "solid particles"};
       if(record.exact.empty() && record.reference)
         return {"solid_volume_end_error", "solid, end"};
       if(!record.changes_phase)

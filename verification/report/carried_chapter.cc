@@ -2,6 +2,7 @@
 #include <verification/report/case_parts.h>
 #include <verification/report/case_plots.h>
 #include <verification/report/solid_equations.h>
+#include <verification/report/step_cost.h>
 
 #include <fmt/format.h>
 
@@ -53,6 +54,19 @@ namespace meltfront::verification
           runs.record->name + "-volume", plot,
           text("Area of the region against time, each method's finest run."));
     }
+
+    Markup step_cost(const CaseRuns &runs)
+    {
+      const Table table = step_cost_table(runs);
+      if(table.empty())
+        return {};
+      return element("h3", "What a step costs")
+             + element("p", {{"class", "nothing"}},
+                       text("Processor time of the fastest run. A front of given length "
+                            "crosses a number of cells that grows as n in the plane and "
+                            "as n² in space; the whole grid grows as n² and n³."))
+             + table_markup(table);
+    }
   } // namespace
 
   Markup carried_chapter(const ReportContext &context, const CaseRuns &runs)
@@ -79,7 +93,7 @@ namespace meltfront::verification
                               "Normals and curvature are compared where the exact front "
                               "is smooth and the motion rigid or undone."))
                + convergence(context, runs) + error_plots(context, runs)
-               + volume(context, runs) + all_fronts(context, runs)
+               + step_cost(runs) + volume(context, runs) + all_fronts(context, runs)
                + printed(context, runs) + criteria(context, record) + limits(runs);
     return chapter_of(record, content);
   }
