@@ -2,6 +2,7 @@
 #include <particles/front_tracking/plane_spline.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +13,11 @@ namespace meltfront::particles::front_tracking
     /** Parts of each piece of the spline, for areas and distances: chords then leave the
      * curve by a hundredth of what those between particles do. */
     constexpr int parts_of_piece = 8;
+
+    /** Of two pieces that face each other the normals have at most this cosine. */
+    constexpr double facing_normals = -0.3;
+
+    constexpr std::size_t most_crossings = 8;
 
     std::vector<double> lengths_along(const PlaneFront &front, std::size_t curve)
     {
@@ -287,5 +293,34 @@ namespace meltfront::particles::front_tracking
     bins.visit(place, reach + longest,
                [&](std::uint32_t vertex, double) { try_piece(vertex); });
     return solid(place) ? -std::sqrt(least) : std::sqrt(least);
+  }
+
+  bool FrontIndex::film_between(const PlanePoint &from, const PlanePoint &to) const
+  {
+    const PlanePoint way = to - from;
+    std::array<PlanePoint, most_crossings> normals;
+    std::size_t count = 0;
+    bool film = false;
+    bins.visit((from + to) / 2, way.norm() / 2 + longest,
+               [&](std::uint32_t vertex, double)
+               {
+                 const PlanePoint &start = polygon.vertices[vertex];
+                 const PlanePoint along
+                     = polygon.vertices[following[vertex]] - start;
+                 const double area = cross(way, along);
+                 if(area == 0 || film)
+                   return;
+                 const double on_way = cross(start - from, along) / area,
+                              on_piece = cross(start - from, way) / area;
+                 if(on_way < 0 || on_way > 1 || on_piece < 0 || on_piece >= 1)
+                   return;
+                 const PlanePoint normal
+                     = PlanePoint(-along.y(), along.x()).normalized();
+                 for(std::size_t i = 0; i < count; ++i)
+                   film = film || normals[i].dot(normal) < facing_normals;
+                 if(count < most_crossings)
+                   normals[count++] = normal;
+               });
+    return film;
   }
 } // namespace meltfront::particles::front_tracking

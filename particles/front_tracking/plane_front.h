@@ -117,6 +117,10 @@ namespace meltfront::particles::front_tracking
      */
     double signed_distance(const PlanePoint &place, double reach) const;
 
+    /** Whether the way between two points leads through pieces of the front that face each
+     * other, however near to each other; not so where it cuts across a bend. */
+    bool film_between(const PlanePoint &from, const PlanePoint &to) const;
+
   private:
     FrontPolygon polygon;
     bool solid_beyond;

@@ -21,9 +21,8 @@ namespace meltfront::particles::front_tracking
      * well: the moment matrix has a condition number of its inverse square. */
     constexpr double least_ratio = 1e-3;
 
-    /** Spacings by which a line of sight may dip into the other phase. */
-    constexpr double sight_tolerance = 0.1;
-    constexpr double sight_step = 0.3;
+    /** Spacings inside of its phase from which a front particle looks. */
+    constexpr double sight_offset = 0.02;
 
     rkpm::MomentSettings settings_of(int order)
     {
@@ -69,32 +68,32 @@ namespace meltfront::particles::front_tracking
     front_bins = PlaneBins(front->position, nodes.spacing);
   }
 
-  /** Whether the other phase lies on the way between two points of a phase. */
-  bool StencilMaker::hidden(const PlanePoint &from, const PlanePoint &to,
+  /** Whether a film of the other phase lies between two points of a phase. */
+  bool StencilMaker::hidden(const PlanePoint &from, std::uint32_t column,
                             bool solid) const
   {
-    const double h = nodes.spacing;
-    const int steps = static_cast<int>((to - from).norm() / (sight_step * h)) + 1;
-    for(int i = 1; i < steps; ++i)
-    {
-      const PlanePoint between = from + (static_cast<double>(i) / steps) * (to - from);
-      if(index->solid(between) == solid)
-        continue;
-      if(std::abs(index->signed_distance(between, 2 * sight_tolerance * h))
-         > sight_tolerance * h)
-        return true;
-    }
-    return false;
+    const double inwards = (solid ? 1 : -1) * sight_offset * nodes.spacing;
+    // Points on the front look from a little inside of their phase.
+    const auto seen_from = [&](const PlanePoint &place, std::size_t particle)
+    { return PlanePoint(place + inwards * front->normal[particle]); };
+    const PlanePoint start = own_particle >= 0 ? seen_from(from, own_particle) : from;
+    if(column < nodes.size())
+      return index->film_between(start, nodes.position[column]);
+    const std::size_t particle = column - nodes.size();
+    return index->film_between(start, seen_from(front->position[particle], particle));
   }
 
   void StencilMaker::gather(const PlanePoint &centre, NodePhase phase, double radius)
   {
     candidates.clear();
     mixed = false;
+    own_particle = -1;
     front_bins.visit(centre, radius,
                      [&](std::uint32_t particle, double square)
                      {
                        mixed = true;
+                       if(square == 0)
+                         own_particle = particle;
                        if(front->active[particle])
                          candidates.push_back({std::sqrt(square),
                                                static_cast<std::uint32_t>(
@@ -112,9 +111,8 @@ namespace meltfront::particles::front_tracking
       std::erase_if(candidates,
                     [&](const Candidate &candidate)
                     {
-                      const PlanePoint place(points.position[0][candidate.column],
-                                             points.position[1][candidate.column]);
-                      return hidden(centre, place, phase == NodePhase::solid);
+                      return hidden(centre, candidate.column,
+                                    phase == NodePhase::solid);
                     });
     std::ranges::sort(candidates,
                       [](const Candidate &a, const Candidate &b)

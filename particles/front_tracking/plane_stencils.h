@@ -90,7 +90,7 @@ namespace meltfront::particles::front_tracking
     };
 
     void gather(const PlanePoint &centre, NodePhase phase, double radius);
-    bool hidden(const PlanePoint &from, const PlanePoint &to, bool solid) const;
+    bool hidden(const PlanePoint &from, std::uint32_t column, bool solid) const;
     bool fit(const PlanePoint &centre, double dilation, int order);
 
     const PlaneNodes &nodes;
@@ -105,6 +105,7 @@ namespace meltfront::particles::front_tracking
     std::vector<Candidate> candidates;
     std::vector<std::uint32_t> neighbours;
     bool mixed = false;
+    long own_particle = -1; ///< front particle at the centre
   };
 } // namespace meltfront::particles::front_tracking
 
