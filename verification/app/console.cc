@@ -53,11 +53,22 @@ namespace meltfront::verification
                  : FirstColumn{"front_end", "front end"};
     }
 
+    double mean_over(const std::vector<const RunRecord *> &runs, const char *quantity)
+    {
+      double sum = 0;
+      for(const RunRecord *run : runs)
+        sum += table_value(*run, quantity);
+      return sum / static_cast<double>(runs.size());
+    }
+
     std::string measured_text(const CaseRecord &record,
                               const std::vector<const RunRecord *> &finished,
                               const RunRecord &finest)
     {
       const FirstColumn column = first_column(record, finished);
+      if(record.moving && record.moving->solid)
+        return fmt::format("{:.1f} particles solid at the end, mean of {}",
+                           mean_over(finished, column.name), finished.size());
       if(is_reference(record, finest))
         return "the reference";
       const double error = table_value(finest, column.name);
