@@ -27,7 +27,7 @@ namespace
       {
         EXPECT_LE(errors.back(), 1.5e-3);
         EXPECT_LE(end.roundness, 2e-3);
-        EXPECT_LE(record.cost.most_iterations, 4);
+        EXPECT_LE(record.cost.most_iterations, 6);
       }
       EXPECT_EQ(record.cost.capped_steps, 0);
     }
