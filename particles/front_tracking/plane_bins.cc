@@ -26,8 +26,8 @@ namespace meltfront::particles::front_tracking
       upper = upper.cwiseMax(point);
     }
     const PlanePoint extent = upper - lower;
-    const double most
-        = most_cells_per_point * static_cast<double>(points.size()) + most_cells_per_point;
+    const double most = most_cells_per_point * static_cast<double>(points.size())
+                        + most_cells_per_point;
     while((extent.x() / this->cell + 1) * (extent.y() / this->cell + 1) > most)
       this->cell *= 2;
     columns = static_cast<long>(extent.x() / this->cell) + 1;

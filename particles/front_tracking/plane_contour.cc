@@ -137,8 +137,8 @@ namespace meltfront::particles::front_tracking
       std::map<EdgeNumber, EdgeNumber> following;
     };
 
-    /** Move a point along a direction onto the nearest zero within a reach; it stays where
-     * there is none. */
+    /** Move a point along a direction onto the nearest zero within a reach; it stays
+     * where there is none. */
     PlanePoint onto_zero(const PlaneLevelSet &level_set, const PlanePoint &point,
                          const PlanePoint &into_solid, double reach)
     {
@@ -165,8 +165,7 @@ namespace meltfront::particles::front_tracking
     // Nodes off the middle, where fronts of symmetric scenes like to lie.
     grid.columns = 2 * static_cast<long>(std::ceil(half.x() / spacing)) + 2;
     grid.rows = 2 * static_cast<long>(std::ceil(half.y() / spacing)) + 2;
-    grid.lower
-        = centre - spacing / 2 * PlanePoint(grid.columns - 1, grid.rows - 1);
+    grid.lower = centre - spacing / 2 * PlanePoint(grid.columns - 1, grid.rows - 1);
     return grid;
   }
 
@@ -218,8 +217,8 @@ namespace meltfront::particles::front_tracking
       {
         redistribute(front, last, spacing);
         for(std::size_t p = front.offsets[last]; p < front.offsets[last + 1]; ++p)
-          front.position[p] = onto_zero(level_set, front.position[p], front.normal[p],
-                                        spacing / 2);
+          front.position[p]
+              = onto_zero(level_set, front.position[p], front.normal[p], spacing / 2);
       }
       update_geometry(front);
     }

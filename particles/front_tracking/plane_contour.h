@@ -38,8 +38,8 @@ namespace meltfront::particles::front_tracking
   /**
    * The zeros of a function by marching squares: one point for each grid edge between
    * nodes of opposite signs, found by bisection, chained into closed curves. In a cell
-   * with four of them the value at its middle decides what is joined. What leaves the grid
-   * is closed along its rim, as liquid unless the whole rim is solid.
+   * with four of them the value at its middle decides what is joined. What leaves the
+   * grid is closed along its rim, as liquid unless the whole rim is solid.
    *
    * @param values at the nodes, row by row; a node at exactly zero counts as solid
    * @param level_set for the places on the edges and middles of cells

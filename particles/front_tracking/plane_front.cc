@@ -124,13 +124,14 @@ namespace meltfront::particles::front_tracking
                                             of_curve(front, curve, front.position)),
         displacements(knots, of_curve(front, curve, front.displacement));
     const PeriodicSpline<double> speeds(knots, of_curve(front, curve, front.speed));
-    const auto count = std::max<std::size_t>(fewest_on_curve,
-                                             std::lround(knots.back() / target));
+    const auto count
+        = std::max<std::size_t>(fewest_on_curve, std::lround(knots.back() / target));
     std::vector<PlanePoint> position, displacement;
     std::vector<double> speed;
     for(std::size_t i = 0, piece = 0; i < count; ++i)
     {
-      const double at = knots.back() * static_cast<double>(i) / static_cast<double>(count);
+      const double at
+          = knots.back() * static_cast<double>(i) / static_cast<double>(count);
       while(piece + 2 < knots.size() && knots[piece + 1] <= at)
         ++piece;
       const double share = (at - knots[piece]) / (knots[piece + 1] - knots[piece]);
@@ -185,7 +186,8 @@ namespace meltfront::particles::front_tracking
     for(std::size_t k = 0; k + 1 < knots.size(); ++k)
       for(int g = 0; g < 3; ++g)
         area += weights[g] * (knots[k + 1] - knots[k])
-                * cross(spline.value(k, nodes[g]) - origin, spline.slope(k, nodes[g])) / 2;
+                * cross(spline.value(k, nodes[g]) - origin, spline.slope(k, nodes[g]))
+                / 2;
     return area;
   }
 
@@ -225,8 +227,8 @@ namespace meltfront::particles::front_tracking
     {
       bottom = std::min(bottom, polygon.vertices[v].y());
       top = std::max(top, polygon.vertices[v].y());
-      longest = std::max(
-          longest, (polygon.vertices[following[v]] - polygon.vertices[v]).norm());
+      longest = std::max(longest,
+                         (polygon.vertices[following[v]] - polygon.vertices[v]).norm());
     }
     const auto bands = static_cast<std::size_t>((top - bottom) / cell) + 1;
     const auto band = [&](double y)
@@ -235,8 +237,8 @@ namespace meltfront::particles::front_tracking
     {
       for(std::size_t v = 0; v < following.size(); ++v)
       {
-        const auto [low, high] = std::minmax(polygon.vertices[v].y(),
-                                             polygon.vertices[following[v]].y());
+        const auto [low, high]
+            = std::minmax(polygon.vertices[v].y(), polygon.vertices[following[v]].y());
         for(std::size_t b = band(low); b <= band(high); ++b)
           use(b, v);
       }
@@ -305,8 +307,7 @@ namespace meltfront::particles::front_tracking
                [&](std::uint32_t vertex, double)
                {
                  const PlanePoint &start = polygon.vertices[vertex];
-                 const PlanePoint along
-                     = polygon.vertices[following[vertex]] - start;
+                 const PlanePoint along = polygon.vertices[following[vertex]] - start;
                  const double area = cross(way, along);
                  if(area == 0 || film)
                    return;
@@ -314,8 +315,7 @@ namespace meltfront::particles::front_tracking
                               on_piece = cross(start - from, way) / area;
                  if(on_way < 0 || on_way > 1 || on_piece < 0 || on_piece >= 1)
                    return;
-                 const PlanePoint normal
-                     = PlanePoint(-along.y(), along.x()).normalized();
+                 const PlanePoint normal = PlanePoint(-along.y(), along.x()).normalized();
                  for(std::size_t i = 0; i < count; ++i)
                    film = film || normals[i].dot(normal) < facing_normals;
                  if(count < most_crossings)

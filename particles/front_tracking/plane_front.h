@@ -68,7 +68,8 @@ namespace meltfront::particles::front_tracking
 
   /** The same of all curves of which a distance has left the range (in targets). @return
    * how many */
-  std::size_t redistribute(PlaneFront &front, double target, double least, double largest);
+  std::size_t redistribute(PlaneFront &front, double target, double least,
+                           double largest);
 
   /** Area that a curve encloses, of the spline (m^2); negative if it goes clockwise. */
   double signed_area(const PlaneFront &front, std::size_t curve);
@@ -117,8 +118,8 @@ namespace meltfront::particles::front_tracking
      */
     double signed_distance(const PlanePoint &place, double reach) const;
 
-    /** Whether the way between two points leads through pieces of the front that face each
-     * other, however near to each other; not so where it cuts across a bend. */
+    /** Whether the way between two points leads through pieces of the front that face
+     * each other, however near to each other; not so where it cuts across a bend. */
     bool film_between(const PlanePoint &from, const PlanePoint &to) const;
 
   private:

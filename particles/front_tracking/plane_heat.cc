@@ -143,7 +143,8 @@ namespace meltfront::particles::front_tracking
       PlaneStencil stencil;
 #pragma omp for schedule(static)
       for(std::size_t k = 0; k < wanted.size(); ++k)
-        make_row(makers[omp_get_thread_num()], stencil, state.phase[wanted[k]], wanted[k]);
+        make_row(makers[omp_get_thread_num()], stencil, state.phase[wanted[k]],
+                 wanted[k]);
     }
   }
 

@@ -85,7 +85,8 @@ namespace meltfront::particles::front_tracking
         whole += distance < 0 ? nodes.weight[i] : 0;
         continue;
       }
-      const std::size_t begin = nodes.sample_offsets[i], end = nodes.sample_offsets[i + 1];
+      const std::size_t begin = nodes.sample_offsets[i],
+                        end = nodes.sample_offsets[i + 1];
       for(std::size_t s = begin; s < end; ++s)
         samples.push_back({static_cast<std::uint32_t>(i),
                            index.signed_distance(nodes.samples[s], cut_reach * h),
@@ -137,9 +138,9 @@ namespace meltfront::particles::front_tracking
     {
       if(cut[i])
       {
-        result.solid_fraction[i]
-            = nodes.weight[i] > 0 ? result.solid_fraction[i] / nodes.weight[i]
-                                  : (state.phase[i] == NodePhase::solid ? 1 : 0);
+        result.solid_fraction[i] = nodes.weight[i] > 0
+                                       ? result.solid_fraction[i] / nodes.weight[i]
+                                       : (state.phase[i] == NodePhase::solid ? 1 : 0);
         continue;
       }
       const bool solid = state.phase[i] == NodePhase::solid;

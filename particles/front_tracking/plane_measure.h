@@ -26,8 +26,8 @@ namespace meltfront::particles::front_tracking
 
   /**
    * Measure a state. Areas that the front cuts are summed over points closer than the
-   * nodes, and shifted, all by the same distance, so that the solid's area is exactly that
-   * within the curves; temperatures there come from the expansions about the front.
+   * nodes, and shifted, all by the same distance, so that the solid's area is exactly
+   * that within the curves; temperatures there come from the expansions about the front.
    */
   PlaneMeasure measure(const cases::Scene &scene, const PlaneNodes &nodes,
                        const PlaneHeat &heat, const PlaneState &state);

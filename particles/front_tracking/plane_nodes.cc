@@ -118,8 +118,9 @@ namespace meltfront::particles::front_tracking
         wall.n_pieces = 0;
         for(int d = 0; d < 2; ++d)
         {
-          place[d] = 2 * index[d] <= count[d] ? lower[d] + index[d] * step[d]
-                                              : upper[d] - (count[d] - index[d]) * step[d];
+          place[d] = 2 * index[d] <= count[d]
+                         ? lower[d] + index[d] * step[d]
+                         : upper[d] - (count[d] - index[d]) * step[d];
           if(index[d] != 0 && index[d] != count[d])
             continue;
           WallPiece &piece = wall.pieces[wall.n_pieces++];
@@ -212,10 +213,10 @@ namespace meltfront::particles::front_tracking
       {
         // Written so that the lattice is its own mirror image about the centre.
         const PlanePoint centre = origin - PlanePoint(spacing / 2, spacing / 2);
-        const PlanePoint place
-            = centre
-              + spacing
-                    * PlanePoint(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5);
+        const PlanePoint place = centre
+                                 + spacing
+                                       * PlanePoint(static_cast<double>(i) + 0.5,
+                                                    static_cast<double>(j) + 0.5);
         if(wall_distance(place) < least_wall_distance)
           continue;
         position.push_back(place);
@@ -228,8 +229,8 @@ namespace meltfront::particles::front_tracking
     if(layout.jitter == 0)
       return;
     std::mt19937_64 generator(layout.seed);
-    const auto draw = [&]
-    { return 2 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1; };
+    const auto draw
+        = [&] { return 2 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1; };
     for(std::size_t i = 0; i < size(); ++i)
     {
       if(wall_of_node[i] >= 0)
@@ -253,10 +254,9 @@ namespace meltfront::particles::front_tracking
       {
         const PlanePoint sample
             = lower
-              + PlanePoint((static_cast<double>(i) + 0.5) * size.x()
-                               / static_cast<double>(across),
-                           (static_cast<double>(j) + 0.5) * size.y()
-                               / static_cast<double>(along));
+              + PlanePoint(
+                  (static_cast<double>(i) + 0.5) * size.x() / static_cast<double>(across),
+                  (static_cast<double>(j) + 0.5) * size.y() / static_cast<double>(along));
         if(wall_distance(sample) <= 0)
           continue;
         // Off the lattice's own lines of symmetry, so that no sample is undecided.

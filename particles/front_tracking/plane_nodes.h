@@ -46,8 +46,8 @@ namespace meltfront::particles::front_tracking
     /**
      * @param scene outlives the nodes
      * @param n lattice spacings along the domain's side
-     * @throws cases::Refusal for a domain that is not plane, for periodic walls, and for a
-     * lattice too coarse for the domain
+     * @throws cases::Refusal for a domain that is not plane, for periodic walls, and for
+     * a lattice too coarse for the domain
      */
     PlaneNodes(const cases::Scene &scene, int n, const NodeLayout &layout);
 

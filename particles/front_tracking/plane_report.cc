@@ -37,8 +37,8 @@ namespace meltfront::particles::front_tracking
         });
   }
 
-  /** The scene's own initial state, also where the run starts from a front that was seeded
-   * later: all of it is liquid then. */
+  /** The scene's own initial state, also where the run starts from a front that was
+   * seeded later: all of it is liquid then. */
   void PlaneRun::observe_initial(cases::Observer &observer)
   {
     observer.wants(0, scene.start_time);

@@ -45,8 +45,8 @@ namespace meltfront::particles::front_tracking
     /** No step takes a curve nearer to its middle than by this share. */
     constexpr double share_of_radius = 0.5;
 
-    /** After fronts met, so many steps pass before any meet again: the new neck is to open
-     * first. Bodies that overlap meanwhile count as one anyway. */
+    /** After fronts met, so many steps pass before any meet again: the new neck is to
+     * open first. Bodies that overlap meanwhile count as one anyway. */
     constexpr long steps_between_meetings = 4;
 
     constexpr double seed_cells = 3;
@@ -98,22 +98,20 @@ namespace meltfront::particles::front_tracking
       for(long i = 0; i < grid.columns; ++i)
         values.push_back(found.level_set(grid.node(i, j)));
     const Contours contours = find_contours(grid, std::move(values), found.level_set);
-    state.front
-        = front_on_zeros(contours, found.level_set, front_spacing * h, 4 * h);
+    state.front = front_on_zeros(contours, found.level_set, front_spacing * h, 4 * h);
     heat.settings.solid_beyond = contours.solid_beyond;
     heat.set_front(state);
     if(state.front.size() == 0)
-      throw cases::Refusal(
-          fmt::format("rkpm-tracked finds no front at the start with nodes {:.3g} m apart; "
-                      "a smaller spacing may resolve it",
-                      h));
+      throw cases::Refusal(fmt::format(
+          "rkpm-tracked finds no front at the start with nodes {:.3g} m apart; "
+          "a smaller spacing may resolve it",
+          h));
     state.unknown.resize(nodes.size());
     for(std::size_t i = 0; i < nodes.size(); ++i)
-      state.unknown[i]
-          = found.temperature(nodes.position[i])
-            - (state.phase[i] == NodePhase::solid
-                   ? heat.sinks.value(nodes.position[i], state.time)
-                   : 0);
+      state.unknown[i] = found.temperature(nodes.position[i])
+                         - (state.phase[i] == NodePhase::solid
+                                ? heat.sinks.value(nodes.position[i], state.time)
+                                : 0);
     heat.expand(state);
     condition = heat.worst_condition(state);
     step_number = found.time > scene.start_time ? 1 : 0;
@@ -299,16 +297,16 @@ namespace meltfront::particles::front_tracking
     follow_topology();
   }
 
-  /** Fronts that met or vanished: their latent heat goes into the nodes, and the next step
-   * begins anew. */
+  /** Fronts that met or vanished: their latent heat goes into the nodes, and the next
+   * step begins anew. */
   void PlaneRun::follow_topology()
   {
     TopologySettings settings;
     settings.spacing = nodes.spacing;
     settings.front_spacing = front_spacing * nodes.spacing;
     settings.join = step_number >= next_meeting;
-    const std::vector<TopologyEvent> changes = update_topology(
-        state.front, nodes, heat.settings.solid_beyond, settings);
+    const std::vector<TopologyEvent> changes
+        = update_topology(state.front, nodes, heat.settings.solid_beyond, settings);
     if(changes.empty())
       return;
     settle_nodes();
@@ -331,8 +329,8 @@ namespace meltfront::particles::front_tracking
     fresh = true;
   }
 
-  /** Nodes that changed their phase without a front that passed over them are at the melting
-   * temperature: beyond where the front was, their new phase has no past. */
+  /** Nodes that changed their phase without a front that passed over them are at the
+   * melting temperature: beyond where the front was, their new phase has no past. */
   void PlaneRun::settle_nodes()
   {
     const double absorbed = parameters.absorption * nodes.spacing;
@@ -372,10 +370,10 @@ namespace meltfront::particles::front_tracking
                              checked.time, bounds_slack);
     for(const PlanePoint &place : heat.sinks.places)
       if(!(heat.front_index().signed_distance(place, nodes.spacing) < 0))
-        throw cases::Refusal(
-            fmt::format("rkpm-tracked: the source at ({:.6g}, {:.6g}) does not lie in the "
-                        "solid at time {:.6g}",
-                        place.x(), place.y(), checked.time));
+        throw cases::Refusal(fmt::format(
+            "rkpm-tracked: the source at ({:.6g}, {:.6g}) does not lie in the "
+            "solid at time {:.6g}",
+            place.x(), place.y(), checked.time));
   }
 
   cases::Cost solve_plane(const cases::Scene &scene, const cases::EffectSet &effects,

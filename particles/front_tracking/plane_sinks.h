@@ -11,8 +11,8 @@ namespace meltfront::particles::front_tracking
    *
    *   S(x, t) = - sum_i p_i(t)/(2 pi k_s) ln(|x - x_i|/l),   l the domain's side,
    *
-   * with p_i the power per length (W/m), negative for a sink. T - S is smooth, and is what
-   * is collocated in the solid.
+   * with p_i the power per length (W/m), negative for a sink. T - S is smooth, and is
+   * what is collocated in the solid.
    */
   class PlaneSinks
   {

@@ -64,8 +64,7 @@ namespace meltfront::particles::front_tracking
     void find_second_derivatives()
     {
       const std::size_t n = values.size() - 1;
-      const auto width
-          = [&](std::size_t i) { return knots[i % n + 1] - knots[i % n]; };
+      const auto width = [&](std::size_t i) { return knots[i % n + 1] - knots[i % n]; };
       std::vector<double> diagonal(n), above(n), corner(n, 0.);
       std::vector<Value> right(n);
       for(std::size_t i = 0; i < n; ++i)
@@ -97,8 +96,8 @@ namespace meltfront::particles::front_tracking
         corner[i] = (corner[i] - above[i] * corner[i + 1]) / diagonal[i];
       }
       const double share = link / gamma;
-      const Value along = (right[0] + share * right[n - 1])
-                          / (1 + corner[0] + share * corner[n - 1]);
+      const Value along
+          = (right[0] + share * right[n - 1]) / (1 + corner[0] + share * corner[n - 1]);
       for(std::size_t i = 0; i < n; ++i)
         right[i] = right[i] - corner[i] * along;
       second = std::move(right);

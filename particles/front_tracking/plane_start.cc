@@ -32,8 +32,8 @@ namespace meltfront::particles::front_tracking
 
     /** The solution around a sink that draws a given power (W/m), by bisection for its
      * front constant. */
-    std::shared_ptr<const cases::LineSink> solution_of_strength(const cases::Scene &scene,
-                                                                double far, double strength)
+    std::shared_ptr<const cases::LineSink>
+    solution_of_strength(const cases::Scene &scene, double far, double strength)
     {
       double lower = 1e-4, upper = 5;
       while(upper - lower > 1e-15 * upper)
@@ -196,7 +196,8 @@ namespace meltfront::particles::front_tracking
     {
       const double melting = scene.material.melting_temperature;
       start.description = "where the initial temperature is the melting temperature";
-      start.level_set = [temperature = start.temperature, melting](const PlanePoint &point)
+      start.level_set
+          = [temperature = start.temperature, melting](const PlanePoint &point)
       { return temperature(point) - melting; };
       return start;
     }

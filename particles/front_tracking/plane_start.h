@@ -20,8 +20,8 @@ namespace meltfront::particles::front_tracking
 
   /**
    * The exact solution's front, the scene's level set, where the initial temperature is
-   * the melting temperature, or, around sinks in a uniform liquid, the similarity solution
-   * of each at the time at which the smallest has grown to a radius.
+   * the melting temperature, or, around sinks in a uniform liquid, the similarity
+   * solution of each at the time at which the smallest has grown to a radius.
    * @param seed_radius of that solution (m)
    * @throws cases::Refusal where none of these applies
    */

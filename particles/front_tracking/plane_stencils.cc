@@ -88,17 +88,17 @@ namespace meltfront::particles::front_tracking
     candidates.clear();
     mixed = false;
     own_particle = -1;
-    front_bins.visit(centre, radius,
-                     [&](std::uint32_t particle, double square)
-                     {
-                       mixed = true;
-                       if(square == 0)
-                         own_particle = particle;
-                       if(front->active[particle])
-                         candidates.push_back({std::sqrt(square),
-                                               static_cast<std::uint32_t>(
-                                                   nodes.size() + particle)});
-                     });
+    front_bins.visit(
+        centre, radius,
+        [&](std::uint32_t particle, double square)
+        {
+          mixed = true;
+          if(square == 0)
+            own_particle = particle;
+          if(front->active[particle])
+            candidates.push_back(
+                {std::sqrt(square), static_cast<std::uint32_t>(nodes.size() + particle)});
+        });
     nodes.bins.visit(centre, radius,
                      [&](std::uint32_t node, double square)
                      {
@@ -109,14 +109,11 @@ namespace meltfront::particles::front_tracking
                      });
     if(mixed)
       std::erase_if(candidates,
-                    [&](const Candidate &candidate)
-                    {
-                      return hidden(centre, candidate.column,
-                                    phase == NodePhase::solid);
+                    [&](const Candidate &candidate) {
+                      return hidden(centre, candidate.column, phase == NodePhase::solid);
                     });
     std::ranges::sort(candidates,
-                      [](const Candidate &a, const Candidate &b)
-                      {
+                      [](const Candidate &a, const Candidate &b) {
                         return a.distance < b.distance
                                || (a.distance == b.distance && a.column < b.column);
                       });
@@ -149,10 +146,9 @@ namespace meltfront::particles::front_tracking
       const bool own = !candidates.empty() && candidates.front().distance < 1e-12 * h;
       const std::size_t place = own ? wanted : wanted - 1;
       const double dilation
-          = place < candidates.size()
-                ? std::max(least_dilation * h,
-                           beyond_neighbour * candidates[place].distance)
-                : radius;
+          = place < candidates.size() ? std::max(
+                least_dilation * h, beyond_neighbour * candidates[place].distance)
+                                      : radius;
       if(dilation < radius || search + 1 == most_searches)
         stencil.dilation = std::min(dilation, radius);
     }

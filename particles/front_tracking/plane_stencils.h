@@ -52,12 +52,13 @@ namespace meltfront::particles::front_tracking
   };
 
   /**
-   * Fixed-kernel stencils in one phase: weights of a polynomial fitted to the nodes of the
-   * phase and to the front particles, with the kernel frozen at the centre.
+   * Fixed-kernel stencils in one phase: weights of a polynomial fitted to the nodes of
+   * the phase and to the front particles, with the kernel frozen at the centre.
    *
    * The kernel's radius is max(2.2 h, 1.3 d), d the distance of the 2k-th neighbour and k
    * the number of basis functions. It grows by 1.2 while the points do not determine the
-   * polynomial well; then the order falls. Points that the other phase hides do not count.
+   * polynomial well; then the order falls. Points that the other phase hides do not
+   * count.
    *
    * One for each thread: it owns a workspace.
    */

@@ -107,8 +107,7 @@ namespace meltfront::particles::front_tracking
     {
       const WallPiece &piece = wall.pieces[i];
       if(singular)
-        inflow
-            -= conductivity * sinks.gradient(place, step.time).dot(piece.normal);
+        inflow -= conductivity * sinks.gradient(place, step.time).dot(piece.normal);
       if(piece.boundary->kind == cases::BoundaryKind::insulated)
         continue;
       const double given = piece.boundary->value(position, step.time);
@@ -149,8 +148,8 @@ namespace meltfront::particles::front_tracking
     double known = -rate * way, slope = rate;
     for(const NodePhase phase : phases)
     {
-      const double conductivity = (phase == NodePhase::solid ? 1 : -1)
-                                  * properties(phase).conductivity;
+      const double conductivity
+          = (phase == NodePhase::solid ? 1 : -1) * properties(phase).conductivity;
       const PlaneStencil &stencil = front_stencils[index_of(phase)][particle];
       for(std::size_t e = 0; e < stencil.columns.size(); ++e)
         add(phase, stencil.columns[e],
@@ -220,8 +219,7 @@ namespace meltfront::particles::front_tracking
 
   /** Derivatives at the front particles from a solution, taken along to where they move;
    * speeds from these. */
-  void PlaneHeat::update_expansions(PlaneState &state,
-                                    std::span<const double> solution)
+  void PlaneHeat::update_expansions(PlaneState &state, std::span<const double> solution)
   {
     PlaneFront &front = state.front;
     state.expanded_about.resize(front.size());
@@ -240,13 +238,11 @@ namespace meltfront::particles::front_tracking
         for(std::size_t e = 0; e < stencil.columns.size(); ++e)
         {
           const std::uint32_t column = stencil.columns[e];
-          const double value
-              = column < nodes.size()
-                    ? solution[column]
-                    : front_value(phase, column - nodes.size(), solution);
+          const double value = column < nodes.size()
+                                   ? solution[column]
+                                   : front_value(phase, column - nodes.size(), solution);
           expansion.gradient[p]
-              += value
-                 * PlanePoint(stencil.weights[d_x][e], stencil.weights[d_y][e]);
+              += value * PlanePoint(stencil.weights[d_x][e], stencil.weights[d_y][e]);
           expansion.second[p]
               += value
                  * Eigen::Vector3d(stencil.weights[d_xx][e], stencil.weights[d_xy][e],
@@ -260,9 +256,9 @@ namespace meltfront::particles::front_tracking
     const double latent = scene.material.solid.density * scene.material.latent_heat;
     for(std::size_t p = 0; p < front.size(); ++p)
     {
-      const PlanePoint place = front.position[p]
-                               + nodes.spacing * solution[nodes.size() + p]
-                                     * front.normal[p];
+      const PlanePoint place
+          = front.position[p]
+            + nodes.spacing * solution[nodes.size() + p] * front.normal[p];
       state.expanded_about[p] = place;
       for(const NodePhase phase : phases)
         found[index_of(phase)].value[p]
@@ -305,8 +301,7 @@ namespace meltfront::particles::front_tracking
       front.speed[p] = front.speed[nearest];
       for(FrontExpansion &expansion : state.expansion)
       {
-        const PlanePoint way
-            = state.expanded_about[p] - state.expanded_about[nearest];
+        const PlanePoint way = state.expanded_about[p] - state.expanded_about[nearest];
         expansion.gradient[p] = expansion.gradient_at(nearest, way);
         expansion.second[p] = expansion.second[nearest];
         expansion.value[p] = expansion.at(nearest, way);

@@ -56,26 +56,25 @@ namespace meltfront::particles::front_tracking
       const double search = std::hypot(reach, 0.6 * settings.front_spacing);
       const PlaneBins bins(front.position, settings.front_spacing);
       for(std::size_t p = 0; p < front.size(); ++p)
-        bins.visit(front.position[p], search,
-                   [&](std::uint32_t q, double)
-                   {
-                     if(q <= p || front.normal[p].dot(front.normal[q]) > facing
-                        || are_near_along_curve(front, p, q))
-                       return;
-                     const PlanePoint between = front.position[q] - front.position[p];
-                     const PlanePoint direction
-                         = (front.normal[p] - front.normal[q]).normalized();
-                     const double gap = between.dot(direction);
-                     if(std::abs(gap) > reach)
-                       return;
-                     const PlanePoint middle
-                         = (front.position[p] + front.position[q]) / 2;
-                     // A gap of liquid is gone round by no body of solid, where two
-                     // overlap by two of them.
-                     const int winding = index.winding(middle);
-                     contacts.push_back(
-                         {middle, std::abs(gap), winding == 0 || winding >= 2});
-                   });
+        bins.visit(
+            front.position[p], search,
+            [&](std::uint32_t q, double)
+            {
+              if(q <= p || front.normal[p].dot(front.normal[q]) > facing
+                 || are_near_along_curve(front, p, q))
+                return;
+              const PlanePoint between = front.position[q] - front.position[p];
+              const PlanePoint direction
+                  = (front.normal[p] - front.normal[q]).normalized();
+              const double gap = between.dot(direction);
+              if(std::abs(gap) > reach)
+                return;
+              const PlanePoint middle = (front.position[p] + front.position[q]) / 2;
+              // A gap of liquid is gone round by no body of solid, where two
+              // overlap by two of them.
+              const int winding = index.winding(middle);
+              contacts.push_back({middle, std::abs(gap), winding == 0 || winding >= 2});
+            });
       return contacts;
     }
 
@@ -224,9 +223,11 @@ namespace meltfront::particles::front_tracking
                         phase.volumetric_heat_capacity() * nodes.weight[i],
                         static_cast<std::uint32_t>(i)});
     }
-    std::ranges::sort(stores, [](const Store &a, const Store &b)
-                      { return a.distance < b.distance
-                               || (a.distance == b.distance && a.node < b.node); });
+    std::ranges::sort(stores,
+                      [](const Store &a, const Store &b) {
+                        return a.distance < b.distance
+                               || (a.distance == b.distance && a.node < b.node);
+                      });
     double room = 0;
     std::size_t count = 0;
     while(count < stores.size() && largest_share * room < std::abs(energy))

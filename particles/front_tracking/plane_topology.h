@@ -11,7 +11,7 @@ namespace meltfront::particles::front_tracking
   /** Something that changed how the front's curves are connected. */
   struct TopologyEvent
   {
-    std::string what;   ///< one clause
+    std::string what; ///< one clause
     PlanePoint place{0, 0};
     double solid_area = 0; ///< that appeared, negative where it went (m^2)
     bool vanished = false; ///< a curve went; else curves met
@@ -47,9 +47,9 @@ namespace meltfront::particles::front_tracking
 
   /**
    * Take the latent heat of an area that changed its phase by decree out of the nodes
-   * about it: their temperatures approach the melting temperature, the nearest nodes', and
-   * those of no more nodes than it takes, so that none is changed by more than half its
-   * distance from it.
+   * about it: their temperatures approach the melting temperature, the nearest nodes',
+   * and those of no more nodes than it takes, so that none is changed by more than half
+   * its distance from it.
    * @param energy that is to be added to the nodes (J/m)
    * @return the part of it that was (J/m)
    */

@@ -25,9 +25,8 @@ namespace meltfront::particles::front_tracking
                     const std::shared_ptr<const cases::ExactSolution> &exact)
     {
       scene.initial.exact = exact;
-      scene.initial.temperature
-          = {"exact",
-             [exact](const Position &p, double t) { return exact->temperature(p, t); }};
+      scene.initial.temperature = {"exact", [exact](const Position &p, double t)
+                                   { return exact->temperature(p, t); }};
       cases::Boundary rim;
       rim.kind = cases::BoundaryKind::fixed_temperature;
       rim.exact = true;
@@ -48,8 +47,7 @@ namespace meltfront::particles::front_tracking
     scene.domain.radius = 1;
     scene.domain.inner_radius = 0.2;
     scene.material.solid.conductivity = 2;
-    const auto exact
-        = std::make_shared<cases::LineSink>(scene.material, 0.4206, 0.5);
+    const auto exact = std::make_shared<cases::LineSink>(scene.material, 0.4206, 0.5);
     const double unit = exact->front(1);
     scene.start_time = 0.16 / (unit * unit);
     scene.end_time = 0.36 / (unit * unit);
@@ -97,15 +95,15 @@ namespace meltfront::particles::front_tracking
     constexpr double place = 0.36, radius = 0.15;
     const auto left = [](const Position &p) { return std::hypot(p[0] + place, p[1]); };
     const auto right = [](const Position &p) { return std::hypot(p[0] - place, p[1]); };
-    const auto front = [=](const Position &p)
-    { return std::min(left(p), right(p)) - radius; };
+    const auto front
+        = [=](const Position &p) { return std::min(left(p), right(p)) - radius; };
     const auto temperature = [=](const Position &p)
     {
       const double nearer = std::min(left(p), right(p));
       if(nearer < radius)
         return std::log(std::max(nearer, 1e-12) / radius) / std::numbers::pi;
-      const auto far = [=](double r)
-      { return 1 - std::exp((radius * radius - r * r) / 0.04); };
+      const auto far
+          = [=](double r) { return 1 - std::exp((radius * radius - r * r) / 0.04); };
       return 0.1 * far(left(p)) * far(right(p));
     };
     cases::Scene scene = insulated_box({1, 0.5, 0}, front, temperature, end_time);
@@ -163,8 +161,8 @@ namespace meltfront::particles::front_tracking
     for(const auto &[key, value] : options)
       resolution.options.set(key, value);
     PlaneRecord record;
-    record.cost = method->solve(scene, cases::effects_called_for(scene), resolution,
-                                record);
+    record.cost
+        = method->solve(scene, cases::effects_called_for(scene), resolution, record);
     return record;
   }
 

@@ -76,8 +76,8 @@ namespace
 
   TEST(PlaneContour, BodiesOfEitherPhaseAndTheirOrientation)
   {
-    const PlaneLevelSet ring = [](const PlanePoint &p)
-    { return std::max(p.norm() - 0.6, 0.3 - p.norm()); };
+    const PlaneLevelSet ring
+        = [](const PlanePoint &p) { return std::max(p.norm() - 0.6, 0.3 - p.norm()); };
     const ContourGrid grid = contour_grid({-1, -1}, {1, 1}, 0.1, 0.05);
     const auto sampled = [&](const PlaneLevelSet &level_set)
     {
@@ -107,8 +107,8 @@ namespace
   {
     const cases::Scene annulus = line_sink_annulus();
     const PlaneNodes round(annulus, 40, {});
-    EXPECT_NEAR(std::accumulate(round.weight.begin(), round.weight.end(), 0.),
-                pi * 0.96, 1e-12);
+    EXPECT_NEAR(std::accumulate(round.weight.begin(), round.weight.end(), 0.), pi * 0.96,
+                1e-12);
     double length = 0;
     for(const WallNode &wall : round.walls)
       length += wall.pieces[0].length;

