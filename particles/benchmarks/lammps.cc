@@ -29,9 +29,9 @@ namespace meltfront::particles::benchmarks
     public:
       WorkFolder()
       {
-        std::string name
-            = (std::filesystem::temp_directory_path() / "meltfront-lammps-XXXXXX")
-                  .string();
+        std::string name = (std::filesystem::temp_directory_path()
+                            / ("meltfront-lammps-" + std::string(6, 'X')))
+                               .string();
         if(!mkdtemp(name.data()))
           throw cases::OutputError("no temporary folder can be made for LAMMPS");
         path = name;

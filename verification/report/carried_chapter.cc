@@ -92,8 +92,8 @@ namespace meltfront::verification
                               "L1: the same over the length of the front, in spacings. "
                               "Normals and curvature are compared where the exact front "
                               "is smooth and the motion rigid or undone."))
-               + convergence(context, runs) + error_plots(context, runs)
-               + step_cost(runs) + volume(context, runs) + all_fronts(context, runs)
+               + convergence(context, runs) + error_plots(context, runs) + step_cost(runs)
+               + volume(context, runs) + all_fronts(context, runs)
                + printed(context, runs) + criteria(context, record) + limits(runs);
     return chapter_of(record, content);
   }

@@ -171,7 +171,9 @@ namespace
           EXPECT_LT(around.maker.condition_number(), 1e5);
           for(const std::uint32_t column : stencil.columns)
             if(column < around.nodes.size())
+            {
               EXPECT_EQ(around.phases[column], phase);
+            }
         }
     }
   }
@@ -303,7 +305,9 @@ namespace
       EXPECT_GE(state.unknown[i], 0.1 - 1e-15);
       sum += nodes.weight[i] * (state.unknown[i] - 0.2);
       if(nodes.position[i].norm() > 3 * nodes.spacing)
+      {
         EXPECT_EQ(state.unknown[i], 0.2);
+      }
     }
     EXPECT_NEAR(sum, -1e-3, 1e-15);
     // Nothing there that could freeze.
