@@ -3,6 +3,7 @@
 #include <verification/report/convergence_table.h>
 #include <verification/report/equations.h>
 #include <verification/report/scene_picture.h>
+#include <verification/report/seed_curves.h>
 #include <verification/report/table.h>
 #include <verification/report/tracked_front.h>
 
@@ -110,6 +111,19 @@ namespace meltfront::verification
                        "There is no exact solution: errors against one cannot be given.");
     }
 
+    /** Of a case that holds the squares against a straight line. */
+    Markup front_squared(const ReportContext &context, const CaseRuns &runs)
+    {
+      if(!runs.has("front_square_slope"))
+        return {};
+      return context.plots.figure(
+          runs.record->name + "-front-squared",
+          front_squared_against_time(runs, context.styles),
+          text("Square of the front against time, each method's finest n; where a method "
+               "ran with several seeds, their mean and a band of one standard "
+               "deviation."));
+    }
+
     Markup front_plots(const ReportContext &context, const CaseRuns &runs)
     {
       return pair(context.plots.figure(
@@ -124,7 +138,7 @@ namespace meltfront::verification
                       text(runs.record->exact.empty()
                                ? "Volume that is solid against time."
                                : "Its error against time.")))
-             + front_frames(context, runs);
+             + front_squared(context, runs) + front_frames(context, runs);
     }
 
     /** Front of every resolution of one method: of the first that was published, else of

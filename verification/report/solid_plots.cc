@@ -1,4 +1,5 @@
 #include <verification/report/plot_data.h>
+#include <verification/report/seed_curves.h>
 #include <verification/report/solid_plots.h>
 
 #include <verification/measure/order_fit.h>
@@ -13,38 +14,9 @@ namespace meltfront::verification
 {
   namespace
   {
-    /** Mean and standard deviation over those runs that were sampled at the same times.
-     */
-    Curve mean_curve(const Level &level)
+    double solid_particles(const RunSeries &series, const std::size_t i)
     {
-      const RunSeries &first = level.finished->series;
-      Curve curve;
-      for(std::size_t i = 0; i < first.time.size(); ++i)
-      {
-        double sum = 0, squares = 0;
-        int count = 0;
-        for(const RunRecord *run : level.runs)
-          if(run->status == RunStatus::finished
-             && run->series.time.size() == first.time.size())
-          {
-            const double value = entry(run->series.solid_volume, i);
-            sum += value;
-            squares += value * value;
-            ++count;
-          }
-        const double mean = sum / count;
-        curve.x.push_back(first.time[i]);
-        curve.y.push_back(mean);
-        curve.spread.push_back(
-            count > 1
-                ? std::sqrt(std::max(0., squares - count * mean * mean) / (count - 1))
-                : 0);
-      }
-      curve.band = level.finished_count > 1;
-      if(!curve.band)
-        curve.spread.clear();
-      curve.markers = false;
-      return curve;
+      return entry(series.solid_volume, i);
     }
 
     /** The frames of a paper that say how many particles are solid. */
@@ -106,7 +78,7 @@ namespace meltfront::verification
       for(const Level &level : label.levels)
         if(level.finished)
         {
-          Curve curve = mean_curve(level);
+          Curve curve = mean_over_runs(level, solid_particles);
           curve.label = label.label;
           curve.style = styles.style(label.label);
           plot.curves.push_back(std::move(curve));
