@@ -53,7 +53,7 @@ namespace meltfront::particles::front_tracking
     constexpr double contour_margin = 4;
 
     /** Share of the span of the bounds by which temperatures may pass them. */
-    constexpr double bounds_slack = 0.1;
+    constexpr double bounds_slack = 0.02;
 
     PlaneHeatSettings settings_of(const TrackingParameters &parameters, int threads)
     {
