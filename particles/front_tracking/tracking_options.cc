@@ -110,7 +110,16 @@ namespace meltfront::particles::front_tracking
          "The phase that gives way where the densities differ; the other is at rest.",
          0,
          0,
-         {"liquid", "solid"}}};
+         {"liquid", "solid"}},
+        {"closure",
+         "",
+         std::string("given-walls"),
+         "When the front makes up for heat that collocation lost, in the plane: where "
+         "the "
+         "heat through all walls is given or none, never, or always.",
+         0,
+         0,
+         {"given-walls", "never", "always"}}};
   }
 
   int simulated_dimension(const cases::Scene &scene, const cases::Options &options)
@@ -170,6 +179,10 @@ namespace meltfront::particles::front_tracking
     result.exact_history = options.get_string("history") == "exact";
     result.displaced = options.get_string("displaced") == "liquid" ? Displaced::liquid
                                                                    : Displaced::solid;
+    const std::string &closure = options.get_string("closure");
+    result.closure = closure == "never"    ? Closure::never
+                     : closure == "always" ? Closure::always
+                                           : Closure::given_walls;
     return result;
   }
 } // namespace meltfront::particles::front_tracking

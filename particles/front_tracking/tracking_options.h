@@ -40,6 +40,14 @@ namespace meltfront::particles::front_tracking
     solid
   };
 
+  /** When lost heat is made up for by the front, in the plane. */
+  enum class Closure
+  {
+    never,
+    given_walls, ///< where the heat through all walls is given
+    always
+  };
+
   /** A run's options, read. */
   struct TrackingParameters
   {
@@ -56,6 +64,7 @@ namespace meltfront::particles::front_tracking
     Start start = Start::automatic;
     bool exact_history = true; ///< before the start, where the start is exact
     Displaced displaced = Displaced::liquid;
+    Closure closure = Closure::given_walls;
   };
 
   /** All options of the method. */
