@@ -1,12 +1,12 @@
 #include <cases/exact/line_sink.h>
 #include <cases/exact/planar_neumann.h>
 #include <cases/exact/point_sink.h>
+#include <particles/sph/discretisation.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/tests/scenes.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace meltfront::particles::testing
 {
@@ -228,9 +228,9 @@ namespace meltfront::particles::testing
       void observe(const Snapshot &snapshot) override
       {
         const Symmetry symmetry = problem.scene.symmetry;
-        const double hole
-            = std::numbers::pi * std::pow(problem.scene.domain.inner_radius, 2);
-        double solid = hole, ice_radius = 0, heat_loss_radius = 0;
+        const RoundWall hole{nullptr, problem.scene.domain.inner_radius, true};
+        double solid = hole.enclosed(snapshot.dimension), ice_radius = 0,
+               heat_loss_radius = 0;
         outcome.distance.clear();
         for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
         {

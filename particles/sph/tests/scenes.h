@@ -75,7 +75,7 @@ namespace meltfront::particles::testing
     double largest_defect = 0;      ///< of the heat budget
     double steepest_retreat = 0;    ///< of the front between two steps (m)
     double lowest = 0, highest = 0; ///< temperature, over all steps
-    std::vector<double> distance; ///< of the particles from the origin (m)
+    std::vector<double> distance;   ///< of the particles from the origin (m)
     std::vector<double> position_x, weights, temperature, solid_fraction; ///< at the end
     std::vector<double> fronts; ///< after each step
     cases::HeatBudget heat;     ///< at the end
