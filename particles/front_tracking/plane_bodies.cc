@@ -11,20 +11,21 @@ namespace meltfront::particles::front_tracking
     /** Samples beyond a wall that go with a body at it: some two spacings. */
     constexpr int layers_beyond_walls = 12;
 
-    /** Call use(neighbour) for the up to four neighbours of a sample. */
+    /** Samples between two that are connected: half a spacing. */
+    constexpr long connecting = 3;
+
+    /** Call use(neighbour) for the samples no farther along each coordinate. */
     template <typename Use>
-    void visit_neighbours(const SampleLattice &lattice, std::size_t sample, Use &&use)
+    void visit_neighbours(const SampleLattice &lattice, std::size_t sample, long reach,
+                          Use &&use)
     {
-      const long i = static_cast<long>(sample) % lattice.columns,
-                 j = static_cast<long>(sample) / lattice.columns;
-      if(i > 0)
-        use(sample - 1);
-      if(i + 1 < lattice.columns)
-        use(sample + 1);
-      if(j > 0)
-        use(sample - lattice.columns);
-      if(j + 1 < lattice.rows)
-        use(sample + lattice.columns);
+      const long column = static_cast<long>(sample) % lattice.columns,
+                 row = static_cast<long>(sample) / lattice.columns;
+      for(long j = std::max(row - reach, 0L);
+          j <= std::min(row + reach, lattice.rows - 1); ++j)
+        for(long i = std::max(column - reach, 0L);
+            i <= std::min(column + reach, lattice.columns - 1); ++i)
+          use(static_cast<std::size_t>(j * lattice.columns + i));
     }
   } // namespace
 
@@ -45,7 +46,10 @@ namespace meltfront::particles::front_tracking
     std::vector<signed char> side(lattice.inside.size(), 0); // 0: beyond, or done with
     for(std::size_t s = 0; s < side.size(); ++s)
       if(lattice.inside[s])
+      {
         side[s] = level_set(lattice.place(s)) <= 0 ? -1 : 1;
+        ++(side[s] < 0 ? n_solid : n_liquid);
+      }
     std::vector<std::size_t> members;
     for(std::size_t first = 0; first < side.size(); ++first)
     {
@@ -58,7 +62,7 @@ namespace meltfront::particles::front_tracking
       for(std::size_t m = 0; m < members.size(); ++m)
       {
         sum += lattice.place(members[m]);
-        visit_neighbours(lattice, members[m],
+        visit_neighbours(lattice, members[m], connecting,
                          [&](std::size_t neighbour)
                          {
                            if(side[neighbour] != phase)
@@ -86,7 +90,7 @@ namespace meltfront::particles::front_tracking
     {
       next.clear();
       for(const std::size_t sample : layer)
-        visit_neighbours(nodes.lattice, sample,
+        visit_neighbours(nodes.lattice, sample, 1,
                          [&](std::size_t neighbour)
                          {
                            if(nodes.lattice.inside[neighbour] || body_of[neighbour] != 0)

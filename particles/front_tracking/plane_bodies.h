@@ -19,7 +19,8 @@ namespace meltfront::particles::front_tracking
 
   /**
    * The bodies that are smaller than an area, also those cut off by walls, whose curves
-   * go on beyond: connected sets of the nodes' samples on which a level set has one sign.
+   * go on beyond: sets of the nodes' samples on which a level set has one sign, connected
+   * across gaps of up to half a spacing, so that a film's pieces between samples are one.
    */
   class SmallBodies
   {
@@ -34,6 +35,12 @@ namespace meltfront::particles::front_tracking
       return found;
     }
 
+    /** Whether all samples are solid, or liquid. */
+    bool all(bool solid) const
+    {
+      return solid ? n_liquid == 0 : n_solid == 0;
+    }
+
     /** The small body at a place within it or beyond the wall that it lies at; null
      * elsewhere. */
     const Body *at(const PlanePoint &place) const;
@@ -43,6 +50,7 @@ namespace meltfront::particles::front_tracking
     void spread_beyond_walls();
 
     const PlaneNodes &nodes;
+    std::size_t n_solid = 0, n_liquid = 0; ///< samples
     std::vector<Body> found;
     std::vector<std::uint32_t> body_of; ///< of samples, 1 + the number; 0: none
   };

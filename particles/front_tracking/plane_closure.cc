@@ -60,4 +60,18 @@ namespace meltfront::particles::front_tracking
     update_geometry(front);
     return made_up;
   }
+
+  double warm_nodes(const cases::Scene &scene, const PlaneNodes &nodes, PlaneState &state,
+                    double missing)
+  {
+    double capacity = 0;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      capacity += nodes.weight[i]
+                  * (state.phase[i] == NodePhase::solid ? scene.material.solid
+                                                        : scene.material.liquid)
+                        .volumetric_heat_capacity();
+    for(double &unknown : state.unknown)
+      unknown += missing / capacity;
+    return missing;
+  }
 } // namespace meltfront::particles::front_tracking

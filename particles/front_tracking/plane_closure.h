@@ -19,11 +19,16 @@ namespace meltfront::particles::front_tracking
    * than by half of its way from there, so that none turns back
    * @param missing heat by which the state's budget is short (J/m)
    * @param farthest no particle goes farther (m)
-   * @return the heat that is made up for by that (J/m)
+   * @return the heat that is made up for by that (J/m); none without an active particle
    */
   double close_budget(const cases::Scene &scene, const PlaneSinks &sinks,
                       const PlaneFront &before, PlaneState &state, double missing,
                       double farthest);
+  /** Warm all nodes alike by the missing heat, where there is no front to take it: the
+   * mean temperature is then right, gradients stay.
+   * @return the missing heat (J/m) */
+  double warm_nodes(const cases::Scene &scene, const PlaneNodes &nodes, PlaneState &state,
+                    double missing);
 } // namespace meltfront::particles::front_tracking
 
 #endif

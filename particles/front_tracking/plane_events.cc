@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace meltfront::particles::front_tracking
 {
@@ -18,6 +19,10 @@ namespace meltfront::particles::front_tracking
     /** Changes of a node's solid fraction that count as a place where something
      * happened. */
     constexpr double noticeable = 0.02;
+
+    /** Of the heat that flows to the front, the part from which on ripples are spoken
+     * of. */
+    constexpr double noticeable_drive = 0.1;
   } // namespace
 
   TopologySettings PlaneRun::topology_settings() const
@@ -71,6 +76,54 @@ namespace meltfront::particles::front_tracking
                        std::abs(area), area > 0 ? "froze" : "melted", energy, booked);
     older.reset();
     fresh = true;
+  }
+
+  /** Once: whether ripples of the front grow. One of wave number k does where, n into the
+   * solid, k_l dT_l/dn + k_s dT_s/dn > (k_s + k_l) T_m Gamma k^2 (Mullins and Sekerka
+   * 1963, quasi-steady, plane). */
+  void PlaneRun::warn_of_ripples()
+  {
+    if(warned_of_ripples)
+      return;
+    const cases::Material &material = scene.material;
+    const double k_solid = material.solid.conductivity,
+                 k_liquid = material.liquid.conductivity;
+    const PlaneFront &front = state.front;
+    double drive = 0, flow = 0;
+    std::size_t worst = 0;
+    for(std::size_t p = 0; p < front.size(); ++p)
+    {
+      if(!front.active[p])
+        continue;
+      const PlanePoint solid = state.expansion[1].gradient[p]
+                               + heat.sinks.gradient(front.position[p], state.time);
+      const double from_solid = k_solid * solid.dot(front.normal[p]),
+                   from_liquid
+                   = k_liquid * state.expansion[0].gradient[p].dot(front.normal[p]);
+      flow = std::max({flow, std::abs(from_solid), std::abs(from_liquid)});
+      if(from_solid + from_liquid > drive)
+      {
+        drive = from_solid + from_liquid;
+        worst = p;
+      }
+    }
+    if(drive <= noticeable_drive * flow)
+      return;
+    warned_of_ripples = true;
+    const double shortest
+        = 2 * std::numbers::pi
+          * std::sqrt((k_solid + k_liquid) * heat.settings.capillarity / drive);
+    events.emplace_back(
+        state.time,
+        fmt::format(
+            "the front grows into undercooled liquid or superheated solid at "
+            "({:.6g}, {:.6g}): ripples longer than {:.3g} m grow there, {}",
+            front.position[worst].x(), front.position[worst].y(), shortest,
+            shortest > 0
+                ? fmt::format("{:.3g} spacings", shortest / nodes.spacing)
+                : "for want of a Gibbs-Thomson coefficient the faster the shorter "
+                  "they are; only short times mean anything, and finer nodes make "
+                  "it worse"));
   }
 
   /** Nodes that changed their phase without a front that passed over them are at the

@@ -27,6 +27,12 @@ namespace meltfront::particles::front_tracking
                           static_cast<double>(number / columns) * step.y());
     }
 
+    /** Any sample within the domain. */
+    std::size_t first_inside() const
+    {
+      return std::find(inside.begin(), inside.end(), 1) - inside.begin();
+    }
+
     /** The sample nearest to a place, also for places beyond all. */
     std::size_t nearest(const PlanePoint &place) const
     {

@@ -297,9 +297,12 @@ namespace meltfront::particles::front_tracking
     const PlaneMeasure measured = measure(scene, nodes, heat, state);
     const double missing = initial_heat + boundary_heat + heat.sinks.energy(state.time)
                            - measured.sensible - measured.latent;
+    const PlaneFront &front = state.front;
+    const bool gone = std::ranges::none_of(front.active, [](char on) { return on; });
     closed_heat
-        += front_tracking::close_budget(scene, heat.sinks, older->front, state, missing,
-                                        farthest_closure * nodes.spacing);
+        += gone ? warm_nodes(scene, nodes, state, missing)
+                : front_tracking::close_budget(scene, heat.sinks, older->front, state,
+                                               missing, farthest_closure * nodes.spacing);
   }
 
   /** The level set goes along; then the particles are put onto its zeros. */
@@ -328,6 +331,7 @@ namespace meltfront::particles::front_tracking
     ++step_number;
     widen_bounds();
     check(state);
+    warn_of_ripples();
     close_budget();
     follow_level_set();
     redistribute(state.front, front_spacing * nodes.spacing, closest, farthest);

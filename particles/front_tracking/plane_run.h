@@ -42,6 +42,7 @@ namespace meltfront::particles::front_tracking
     void follow_level_set();
     void follow_topology();
     TopologySettings topology_settings() const;
+    void warn_of_ripples();
     void settle_nodes();
     void widen_bounds();
     void check(const PlaneState &checked) const;
@@ -66,6 +67,7 @@ namespace meltfront::particles::front_tracking
     PlaneState state;
     std::optional<PlaneState> older;
     double last_step = 0;
+    bool warned_of_ripples = false;
     bool fresh = true; ///< no step was made since the start or an event
     long step_number = 0, capped_steps = 0, most_passes = 0, next_meeting = 0;
     double boundary_heat = 0, initial_heat = 0, condition = 0;

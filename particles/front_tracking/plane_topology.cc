@@ -109,6 +109,14 @@ namespace meltfront::particles::front_tracking
               true};
     }
 
+    /** One phase fills the domain. */
+    TopologyEvent fill(PlaneFront &front, bool solid, bool &solid_beyond)
+    {
+      front = PlaneFront();
+      solid_beyond = solid;
+      return {fmt::format("all is {}", solid ? "solid" : "liquid"), true};
+    }
+
     std::vector<TopologyEvent> remove_vanished(PlaneFront &front, const PlaneNodes &nodes,
                                                const TopologySettings &settings)
     {
@@ -228,6 +236,15 @@ namespace meltfront::particles::front_tracking
       {
         const double radius = settings.least_radius * settings.spacing;
         const SmallBodies small(nodes, value, std::numbers::pi * radius * radius);
+        for(const bool solid : {false, true})
+          if(small.all(solid))
+          {
+            events.push_back(
+                {fmt::format("all is {}", solid ? "solid" : "liquid"), true});
+            front = PlaneFront();
+            solid_beyond = solid;
+            return events;
+          }
         for(const Body &body : small.bodies())
           events.push_back(vanished(body.solid, body.centre));
         if(!events.empty())
@@ -268,6 +285,15 @@ namespace meltfront::particles::front_tracking
                                              const TopologySettings &settings)
   {
     std::vector<TopologyEvent> events = remove_vanished(front, nodes, settings);
+    const bool all_beyond
+        = std::ranges::all_of(front.position, [&](const PlanePoint &place)
+                              { return nodes.wall_distance(place) < 0; });
+    if(front.size() > 0 && all_beyond)
+    {
+      const FrontIndex index(front, solid_beyond, settings.spacing);
+      const bool solid = index.solid(nodes.lattice.place(nodes.lattice.first_inside()));
+      events.push_back(fill(front, solid, solid_beyond));
+    }
     if(front.size() > 0)
       for(TopologyEvent &event :
           follow_level_set(front, nodes, marked, solid_beyond, settings))
