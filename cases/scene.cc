@@ -172,7 +172,8 @@ namespace meltfront::cases
   TemperatureBounds temperature_bounds(const Scene &scene)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    if(!scene.conducts_heat())
+    // How cold or warm a curved front gets depends on how it bends.
+    if(!scene.conducts_heat() || scene.material.gibbs_thomson_coefficient != 0)
       return {};
     double lower = infinity, upper = -infinity;
     const auto include = [&](double temperature)

@@ -19,6 +19,17 @@ namespace meltfront::particles::front_tracking
     /** Front particles so much beyond a wall, in spacings, take no part. */
     constexpr double beyond_wall = 0.05;
 
+    /** Curvature of the circle through three points (1/m), positive if it is gone round
+     * counter-clockwise. */
+    double curvature_of_three(const PlanePoint &a, const PlanePoint &b,
+                              const PlanePoint &c)
+    {
+      const PlanePoint first = b - a, second = c - b;
+      const double product = first.norm() * second.norm() * (c - a).norm();
+      return product > 0 ? 2 * (first.x() * second.y() - first.y() * second.x()) / product
+                         : 0;
+    }
+
     constexpr NodePhase phases[] = {NodePhase::liquid, NodePhase::solid};
   } // namespace
 
@@ -57,11 +68,10 @@ namespace meltfront::particles::front_tracking
     return scene.material.melting_temperature - settings.capillarity * curvature;
   }
 
-  double PlaneHeat::front_temperature_near(const PlaneFront &front,
-                                           std::size_t node) const
+  double PlaneHeat::front_temperature_near(std::size_t node) const
   {
     const long nearest = front_bins.nearest(nodes.position[node]);
-    return front_temperature(nearest < 0 ? 0 : front.curvature[nearest]);
+    return front_temperature(nearest < 0 ? 0 : bend[nearest]);
   }
 
   double PlaneHeat::temperature(const PlaneState &state, std::size_t node) const
@@ -97,11 +107,14 @@ namespace meltfront::particles::front_tracking
     }
     before.resize(front.size());
     after.resize(front.size());
+    bend.resize(front.size());
     for(std::size_t c = 0; c < front.curves(); ++c)
       for(std::size_t p = front.offsets[c]; p < front.offsets[c + 1]; ++p)
       {
         before[p] = front.previous(c, p);
         after[p] = front.next(c, p);
+        bend[p] = curvature_of_three(front.position[before[p]], front.position[p],
+                                     front.position[after[p]]);
       }
     for(StencilMaker &maker : makers)
       maker.set_front(front, *index, state.phase);
@@ -185,7 +198,7 @@ namespace meltfront::particles::front_tracking
                            ? 0.
                            : expansion.gradient[p].dot(front.normal[p]);
         FrontValue &value = values[p];
-        value.constant = front_temperature(front.curvature[p]);
+        value.constant = front_temperature(bend[p]);
         if(phase == NodePhase::solid && !sinks.empty())
         {
           value.constant -= sinks.value(front.position[p], state.time);
@@ -198,11 +211,11 @@ namespace meltfront::particles::front_tracking
         // Moving along n changes the curvature by kappa^2 d + d'' along the curve.
         const double left = (front.position[p] - front.position[before[p]]).norm(),
                      right = (front.position[after[p]] - front.position[p]).norm();
-        const double bend = 2 * settings.capillarity / (left + right);
-        value.own -= settings.capillarity * front.curvature[p] * front.curvature[p]
-                     - bend * (1 / left + 1 / right);
-        value.before = -bend / left;
-        value.after = -bend / right;
+        const double stiffness = 2 * settings.capillarity / (left + right);
+        value.own -= settings.capillarity * bend[p] * bend[p]
+                     - stiffness * (1 / left + 1 / right);
+        value.before = -stiffness / left;
+        value.after = -stiffness / right;
       }
     }
   }

@@ -80,7 +80,7 @@ namespace meltfront::particles::front_tracking
     double front_temperature(double curvature) const;
 
     /** The same at a node that counts as on the front, by the nearest particle. */
-    double front_temperature_near(const PlaneFront &front, std::size_t node) const;
+    double front_temperature_near(std::size_t node) const;
 
     /** Temperature at a node. */
     double temperature(const PlaneState &state, std::size_t node) const;
@@ -152,6 +152,10 @@ namespace meltfront::particles::front_tracking
     std::array<std::vector<PlaneStencil>, n_phases> front_stencils;
     std::array<std::vector<FrontValue>, n_phases> front_values;
     std::vector<std::size_t> before, after; ///< neighbours along the curves
+    /** Curvature of the circle through a particle and its neighbours: its change with
+     * their moves is what the matrix holds, where that of the spline for the shortest
+     * ripples is three times as large, and Newton's method then overshoots. */
+    std::vector<double> bend;
 
     CompressedRows matrix;
     std::vector<double> right_side;

@@ -122,7 +122,6 @@ namespace meltfront::particles::front_tracking
     marked.seed(state.front, heat.settings.solid_beyond);
     condition = heat.worst_condition(state);
     step_number = found.time > scene.start_time ? 1 : 0;
-    widen_bounds();
     check(state);
   }
 
@@ -329,7 +328,6 @@ namespace meltfront::particles::front_tracking
     state = std::move(next);
     fresh = false;
     ++step_number;
-    widen_bounds();
     check(state);
     warn_of_ripples();
     close_budget();
@@ -338,21 +336,6 @@ namespace meltfront::particles::front_tracking
     // Particles that were placed anew may lie beyond a wall.
     heat.mark_active(state.front);
     follow_topology();
-  }
-
-  /** Where it is curved the front itself is colder or warmer than all that was given. */
-  void PlaneRun::widen_bounds()
-  {
-    if(heat.settings.capillarity == 0)
-      return;
-    const double melting = scene.material.melting_temperature;
-    for(const double curvature : state.front.curvature)
-    {
-      const double shift = heat.front_temperature(curvature) - melting;
-      const double slack = bounds_slack * std::abs(shift);
-      bounds.lower = std::min(bounds.lower, melting + shift - slack);
-      bounds.upper = std::max(bounds.upper, melting + shift + slack);
-    }
   }
 
   void PlaneRun::check(const PlaneState &checked) const

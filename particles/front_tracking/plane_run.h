@@ -44,7 +44,6 @@ namespace meltfront::particles::front_tracking
     TopologySettings topology_settings() const;
     void warn_of_ripples();
     void settle_nodes();
-    void widen_bounds();
     void check(const PlaneState &checked) const;
 
     cases::RunDescription description() const;

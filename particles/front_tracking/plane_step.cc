@@ -56,7 +56,7 @@ namespace meltfront::particles::front_tracking
     if(phase == NodePhase::front)
     {
       add(phase, column, 1);
-      finish_row(front_temperature_near(next.front, node));
+      finish_row(front_temperature_near(node));
       return;
     }
     if(nodes.wall_of_node[node] >= 0)
@@ -276,7 +276,7 @@ namespace meltfront::particles::front_tracking
       state.expanded_about[p] = place;
       for(const NodePhase phase : phases)
         found[index_of(phase)].value[p]
-            = front_temperature(front.curvature[p])
+            = front_temperature(bend[p])
               - (phase == NodePhase::solid ? sinks.value(place, state.time) : 0);
       if(!front.active[p])
         continue;

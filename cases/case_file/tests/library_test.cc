@@ -75,6 +75,7 @@ TEST(Library, HoldsTheCasesThatOthersRelyOn)
                           "merging-disks",
                           "line-sink-annulus",
                           "ring-melting",
+                          "capillary-disk",
                           "bar-flux",
                           "alloy-sodium-nitrate",
                           "alloy-sodium-nitrate-diffusion",
