@@ -248,8 +248,8 @@ namespace meltfront::verification
       const cases::PhaseProperties &phase
           = c.exact->solid_at_origin() ? material.solid : material.liquid;
       const double wall = c.exact->temperature(0., c.scene.end_time);
-      return phase.specific_heat_capacity
-             * std::abs(wall - material.melting_temperature) / material.latent_heat;
+      return phase.specific_heat_capacity * std::abs(wall - material.melting_temperature)
+             / material.latent_heat;
     }
   } // namespace
 

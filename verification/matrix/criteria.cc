@@ -161,8 +161,7 @@ namespace meltfront::verification
     const bool all
         = criterion.n_from <= 0 && criterion.n_to == std::numeric_limits<int>::max();
     return fmt::format(
-        "{} {}{}",
-        criterion.statistic == cases::Statistic::order ? "order of" : "worst",
+        "{} {}{}", criterion.statistic == cases::Statistic::order ? "order of" : "worst",
         criterion.quantity,
         all ? "" : fmt::format(" over n={}..{}", criterion.n_from, criterion.n_to));
   }
@@ -263,7 +262,7 @@ namespace meltfront::verification
         result.passed = result.passed && passed;
       }
     result.findings = judge_findings(result, result.claims);
-    result.passed = result.passed
-                    && std::ranges::all_of(result.findings, &FindingResult::holds);
+    result.passed
+        = result.passed && std::ranges::all_of(result.findings, &FindingResult::holds);
   }
 } // namespace meltfront::verification

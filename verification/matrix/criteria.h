@@ -37,8 +37,8 @@ namespace meltfront::verification
                          const cases::Criterion &criterion);
 
   /**
-   * Hold the criteria of every case of a matrix and its findings against its runs; fills `criteria`,
-   * `findings` and `passed`, and appends to `omissions`.
+   * Hold the criteria of every case of a matrix and its findings against its runs; fills
+   * `criteria`, `findings` and `passed`, and appends to `omissions`.
    *
    * A criterion concerns the runs whose label is its method, options in brackets in any
    * order; without brackets, those with no option set by the matrix. Orders are over h,

@@ -24,9 +24,9 @@ namespace meltfront::verification
            && why_not_judged(result, record, evidence.criterion).empty())
         {
           const double value = criterion_value(result, record, evidence.criterion);
-          judged.values.push_back({record.name, value,
-                                   value >= evidence.criterion.lower
-                                       && value <= evidence.criterion.upper});
+          judged.values.push_back(
+              {record.name, value,
+               value >= evidence.criterion.lower && value <= evidence.criterion.upper});
         }
       return judged;
     }
@@ -78,13 +78,13 @@ namespace meltfront::verification
         pieces.push_back({claim.substr(begin, open - begin), -1});
       if(open == claim.size())
         break;
-      const std::size_t close = std::min(claim.find('}', open), claim.size());
+      const std::size_t close = std::min(claim.find('}', open), claim.size() - 1);
       const std::string inside = claim.substr(open + 1, close - open - 1);
       std::size_t number = 0;
       const auto [end, failure]
           = std::from_chars(inside.data(), inside.data() + inside.size(), number);
-      if(failure != std::errc() || end != inside.data() + inside.size() || number < 1
-         || number > evidence_count)
+      if(failure != std::errc() || end != inside.data() + inside.size()
+         || claim[close] != '}' || number < 1 || number > evidence_count)
         throw cases::InputError(fmt::format(
             "holds '{{{}}}', which is not the number in braces of what it rests on, 1 to "
             "{}",
@@ -98,8 +98,7 @@ namespace meltfront::verification
   std::string claim_text(const FindingResult &finding)
   {
     std::string text;
-    for(const ClaimPiece &piece :
-        pieces_of_claim(finding.claim, finding.evidence.size()))
+    for(const ClaimPiece &piece : pieces_of_claim(finding.claim, finding.evidence.size()))
       text += piece.evidence < 0
                   ? piece.words
                   : measured_text(

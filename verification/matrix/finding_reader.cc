@@ -104,8 +104,9 @@ namespace meltfront::verification
     for(int i = 1; i <= most_pictures; ++i)
     {
       const std::string here = fmt::format("Picture {}", i);
-      const auto declare = [&](const char *key, const char *value, const char *sentence)
-      { prm.declare(here, {key, PrmKind::text, value, "", sentence}); };
+      const auto declare = [&](const char *key, const char *value, const char *sentence) {
+        prm.declare(here, {key, PrmKind::text, value, "", sentence});
+      };
       declare("caption", "", "What is to be seen in the picture.");
       declare("cases", "", "A case; * for any value of a varied key.");
       declare("runs", "", "Labels, with semicolons; * for any value of an option.");

@@ -66,8 +66,8 @@ namespace meltfront::verification
      * the names of files. */
     std::string short_key(const MatrixBlock &block, const CaseAxis &axis)
     {
-      const auto last_part = [](const std::string &path)
-      { return path.substr(path.rfind('/') + 1); };
+      const auto last_part
+          = [](const std::string &path) { return path.substr(path.rfind('/') + 1); };
       std::string name = last_part(axis.key);
       const auto alike
           = std::ranges::count_if(block.variations, [&](const CaseAxis &other)

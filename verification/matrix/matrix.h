@@ -38,9 +38,9 @@ namespace meltfront::verification
     std::vector<std::string> methods;
     std::vector<int> resolutions;
     std::vector<OptionAxis> options;
-    std::vector<CaseAxis> variations; ///< empty: the cases as they are written
     std::vector<std::uint64_t> seeds{1};
     std::vector<int> threads{1};
+    std::vector<CaseAxis> variations{}; ///< empty: the cases as they are written
   };
 
   /** Cases x methods x resolutions: what is to be run. */
@@ -52,8 +52,8 @@ namespace meltfront::verification
     bool hard_cases = false; ///< the report shows the table held / refused / failed
     double time_limit = 600; ///< of one run (wall s)
     std::vector<MatrixBlock> blocks;
-    std::vector<Finding> findings; ///< what the runs are claimed to show
-    std::vector<Picture> pictures; ///< what its report draws
+    std::vector<Finding> findings{}; ///< what the runs are claimed to show
+    std::vector<Picture> pictures{}; ///< what its report draws
   };
 
   /** A case of a matrix: as written, or with values that the matrix gives to its keys. */

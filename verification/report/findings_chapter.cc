@@ -1,9 +1,10 @@
 #include <verification/matrix/label.h>
-#include <verification/report/chapters.h>
 #include <verification/report/case_parts.h>
+#include <verification/report/chapters.h>
 #include <verification/report/convergence_table.h>
 #include <verification/report/curve_labels.h>
 #include <verification/report/plot_data.h>
+#include <verification/report/plot_layout.h>
 #include <verification/report/variation_plots.h>
 
 #include <fmt/format.h>
@@ -30,10 +31,10 @@ namespace meltfront::verification
       Markup words;
       for(const ClaimPiece &piece :
           pieces_of_claim(finding.claim, finding.evidence.size()))
-        words += piece.evidence < 0
-                     ? text(piece.words)
-                     : measured(
-                         finding.evidence[static_cast<std::size_t>(piece.evidence)]);
+        words
+            += piece.evidence < 0
+                   ? text(piece.words)
+                   : measured(finding.evidence[static_cast<std::size_t>(piece.evidence)]);
       return (finding.holds() ? badge("good", "holds")
                               : badge("bad", "not borne out by this run"))
              + text(" ") + words;
@@ -62,17 +63,16 @@ namespace meltfront::verification
               if(!value.passed)
                 remark += fmt::format("{}{}: {}", remark.empty() ? "" : "; ",
                                       value.case_name, plain_number(value.value));
-          rows += element("tr", element("td", evidence.passed() ? badge("good", "PASS")
-                                                                : badge("bad", "FAIL"))
-                                    + element("td", std::to_string(f + 1))
-                                    + element("td", evidence.evidence.cases)
-                                    + element("td", criterion.method)
-                                    + element("td", evidence.quantity)
-                                    + element("td", {{"class", "number"}},
-                                              measured(evidence))
-                                    + element("td", {{"class", "number"}},
-                                              bound_of(bound))
-                                    + element("td", remark))
+          rows += element("tr",
+                          element("td", evidence.passed() ? badge("good", "PASS")
+                                                          : badge("bad", "FAIL"))
+                              + element("td", std::to_string(f + 1))
+                              + element("td", evidence.evidence.cases)
+                              + element("td", criterion.method)
+                              + element("td", evidence.quantity)
+                              + element("td", {{"class", "number"}}, measured(evidence))
+                              + element("td", {{"class", "number"}}, bound_of(bound))
+                              + element("td", remark))
                   + Markup("\n");
         }
       return element("div", {{"class", "scroll plain"}},
@@ -82,13 +82,18 @@ namespace meltfront::verification
 
     std::string axis_label(const CaseRecord &record, const std::string &quantity)
     {
+      if(quantity == "cpu_seconds")
+        return "CPU time (s)"; // also where the case's own quantities have no unit
       for(const Quantity &known : table_quantities())
         if(known.name == quantity)
-          return with_unit(known.heading,
-                           known.unit == "s" && quantity == "cpu_seconds"
-                               ? "s"
-                               : (known.unit == "relative" ? ""
-                                                           : unit_of(record, known.unit)));
+        {
+          const std::string words = known.name == "h"    ? "spacing h"
+                                    : known.name == "dt" ? "time step dt"
+                                    : known.error        ? "error of " + known.heading
+                                                         : known.heading;
+          return with_unit(words,
+                           known.unit == "relative" ? "" : unit_of(record, known.unit));
+        }
       return quantity;
     }
 
@@ -131,15 +136,27 @@ namespace meltfront::verification
           }
       }
       shorten_labels(plot);
-      std::vector<std::string> names;
-      for(const Curve &curve : plot.curves)
-        names.push_back(curve.label);
-      const MethodStyles styles(names);
-      for(Curve &curve : plot.curves)
-        curve.style = styles.style(curve.label);
       if(picture.against == "h" || picture.against == "dt")
         plot.guides = {{1, picture.against}, {2, picture.against}};
       return plot;
+    }
+
+    /** Curves of one method have colours of their own here; a key where their labels do
+     * not fit beside the lines. */
+    Markup figure_of(const ReportContext &context, const std::vector<CaseRuns> &all,
+                     const Picture &picture, const std::string &name)
+    {
+      Plot plot = plot_of(all, picture);
+      std::vector<std::string> labels;
+      for(const Curve &curve : plot.curves)
+        labels.push_back(curve.label);
+      const MethodStyles styles(labels);
+      for(Curve &curve : plot.curves)
+        curve.style = styles.style(curve.label);
+      const bool fits = std::ranges::all_of(labels, [](const std::string &label)
+                                            { return label.size() <= longest_label; });
+      return context.plots.figure(
+          name, plot, text(picture.caption) + (fits ? Markup() : styles.legend(labels)));
     }
 
     Markup pictures(const ReportContext &context)
@@ -147,11 +164,9 @@ namespace meltfront::verification
       std::vector<CaseRuns> all = context.runs;
       all.insert(all.end(), context.variations.begin(), context.variations.end());
       std::vector<Markup> figures;
-      int number = 0;
       for(const Picture &picture : context.result.pictures)
-        figures.push_back(context.plots.figure(fmt::format("finding-{}", ++number),
-                                               plot_of(all, picture),
-                                               text(picture.caption)));
+        figures.push_back(figure_of(context, all, picture,
+                                    fmt::format("finding-{}", figures.size() + 1)));
       Markup content;
       for(std::size_t i = 0; i < figures.size(); i += 2)
         content += pair(figures[i], i + 1 < figures.size() ? figures[i + 1] : Markup());
@@ -167,9 +182,10 @@ namespace meltfront::verification
           fmt::format("Map of the error of {} over {}", label, group.title()),
           text(fmt::format("{}, {}: for each pair of values the front's error on the "
                            "finest level (root mean square over the exact front at the "
-                           "end; darker: larger), the order fitted over all levels, and "
-                           "in grey V h/α: above 1 the thermal layer at the front is "
-                           "thinner than the spacing.",
+                           "end; darker: larger), the order fitted over all levels or "
+                           "what keeps them from having one, and in brackets V h/α: "
+                           "above 1 the thermal layer at the front is thinner than the "
+                           "spacing.",
                            group.title(), label)));
     }
 
@@ -211,7 +227,6 @@ namespace meltfront::verification
     content += pictures(context) + maps(context);
     if(content.empty())
       return content;
-    return element("section", {{"id", "findings"}},
-                   element("h2", "Findings") + content);
+    return element("section", {{"id", "findings"}}, element("h2", "Findings") + content);
   }
 } // namespace meltfront::verification

@@ -115,9 +115,12 @@ namespace meltfront::verification
     make_directory(directory + "/tables");
     make_directory(directory + "/plots");
     const std::vector<CaseRuns> all = collect_runs(result);
-    const ReportContext context{result, chosen(all, false), chosen(all, true),
+    const ReportContext context{result,
+                                chosen(all, false),
+                                chosen(all, true),
                                 MethodStyles(labels_of(result)),
-                                PlotFolder(directory + "/plots"), directory};
+                                PlotFolder(directory + "/plots"),
+                                directory};
     write_text_tables(context);
     write_file(directory + "/report.html", page(context).html() + "\n");
   }

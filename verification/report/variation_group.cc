@@ -43,9 +43,9 @@ namespace meltfront::verification
     bool same_keys(const VariationGroup &group, const CaseRecord &record)
     {
       return group.base == record.variation_of
-             && std::ranges::equal(
-                 group.axes, record.variation, [](const auto &axis, const auto &setting)
-                 { return axis.key == setting.first; });
+             && std::ranges::equal(group.axes, record.variation,
+                                   [](const auto &axis, const auto &setting)
+                                   { return axis.key == setting.first; });
     }
 
     VariationGroup &group_of(std::vector<VariationGroup> &groups,
@@ -108,9 +108,8 @@ namespace meltfront::verification
 
   double front_peclet_number(const CaseRecord &record, const RunRecord &run)
   {
-    const auto diffusivity = [](const cases::PhaseProperties &phase) {
-      return phase.conductivity / (phase.density * phase.specific_heat_capacity);
-    };
+    const auto diffusivity = [](const cases::PhaseProperties &phase)
+    { return phase.conductivity / (phase.density * phase.specific_heat_capacity); };
     const RunSeries &series = run.series;
     const std::vector<double> &front
         = series.front_exact.empty() ? series.front : series.front_exact;

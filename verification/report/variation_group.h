@@ -11,8 +11,8 @@ namespace meltfront::verification
   /** What a matrix varies in a case. */
   struct VariationAxis
   {
-    std::string key;     ///< with its subsections
-    std::string heading; ///< `Stefan number`, `k_s/k_l`, or the key alone
+    std::string key;                 ///< with its subsections
+    std::string heading;             ///< `Stefan number`, `k_s/k_l`, or the key alone
     std::vector<std::string> values; ///< as shown, in the matrix's order
   };
 
@@ -50,7 +50,7 @@ namespace meltfront::verification
   /** Something that runs noted between snapshots, and at which n. */
   struct RunWarning
   {
-    std::string words; ///< without its numbers: what stands before the first colon
+    std::string words;       ///< without its numbers: what stands before the first colon
     std::string resolutions; ///< `40, 80`
   };
 

@@ -36,6 +36,14 @@ namespace meltfront::verification
       return "'" + heading + "'";
     }
 
+    /** `h^{1.98}`, or what is wrong with the sequence of errors. */
+    std::string order_words(const OrderFit &fit, const std::string &symbol)
+    {
+      return fit.verdict == OrderVerdict::clean
+                 ? fmt::format("{}^{{{:.2f}}}", symbol, fit.order)
+                 : fmt::format("{{/*0.8 {}}}", to_string(fit.verdict));
+    }
+
     double shade(double error)
     {
       const double share = std::log(error / faintest) / std::log(darkest / faintest);
@@ -59,17 +67,15 @@ namespace meltfront::verification
       fmt::format_to(out,
                      "set object rectangle from {},{} to {},{} fc rgb '{}' fs "
                      "transparent solid {:.3f} noborder\n",
-                     x - 0.48, y - 0.47, x + 0.48, y + 0.47, palette()[shade_colour].light,
+                     x - 0.48, y - 0.47, x + 0.48, y + 0.47,
+                     palette()[shade_colour].light,
                      std::isfinite(error) ? shade(error) : 0);
       fmt::format_to(out, "set label '{}' at {},{} center offset 0,1.25\n",
                      enhanced(error, 2), x, y);
-      if(std::isfinite(fit.order))
-        fmt::format_to(out, "set label '{}^{{{}}}' at {},{} center\n",
-                       runs.refinement.symbol(),
-                       with_minus_sign(fmt::format("{:.2f}", fit.order)), x, y);
-      fmt::format_to(
-          out, "set label '{}' at {},{} center offset 0,-1.25 tc rgb '{}'\n",
-          enhanced(front_peclet_number(record, *finest), 2), x, y, plot_colours::axis);
+      fmt::format_to(out, "set label '{}' at {},{} center\n",
+                     order_words(fit, runs.refinement.symbol()), x, y);
+      fmt::format_to(out, "set label '{{/*0.85 ({})}}' at {},{} center offset 0,-1.25\n",
+                     enhanced(front_peclet_number(record, *finest), 2), x, y);
     }
 
     void write_tics(Script out, char name, const VariationAxis &axis, bool downwards)

@@ -8,14 +8,15 @@
 
 namespace meltfront::verification
 {
-  /** The error of the front of a case (root mean square over the run) over the exact front
-   * at the end. */
+  /** The error of the front of a case (root mean square over the run) over the exact
+   * front at the end. */
   double relative_front_error(const CaseRecord &record, const Level &level);
 
   /**
    * A script that draws the map of a group with two axes: for each pair of values the
    * relative error of the front on the finest level, which also gives the shade, the
-   * fitted order and V h/alpha there.
+   * fitted order (or what keeps the errors from having one) and, in brackets, V h/alpha
+   * there.
    */
   std::string variation_map_script(const VariationGroup &group, const std::string &label);
 

@@ -141,8 +141,7 @@ namespace meltfront::verification
           {
             csv += csv_field(variation.runs->record->name);
             for(std::size_t i = 0; i < group.axes.size(); ++i)
-              csv.append(",").append(
-                  csv_field(group.axes[i].values[variation.place[i]]));
+              csv.append(",").append(csv_field(group.axes[i].values[variation.place[i]]));
             csv += fmt::format(",{},{},{:.12g},{:.12g}", csv_field(runs.label), level.n,
                                level.value("h"), level.value("dt"));
             for(const char *error : errors)

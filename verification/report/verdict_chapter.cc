@@ -104,8 +104,9 @@ namespace meltfront::verification
       const auto held = std::ranges::count_if(findings, &FindingResult::holds);
       const auto all = static_cast<long>(findings.size());
       return element("p", {{"class", held == all ? "verdict good" : "verdict bad"}},
-                     text(held == all ? fmt::format("All {} findings hold", all)
-                                      : fmt::format("{} of {} findings hold", held, all)));
+                     text(held == all
+                              ? fmt::format("All {} findings hold", all)
+                              : fmt::format("{} of {} findings hold", held, all)));
     }
 
     Markup facts(const MatrixResult &result)
