@@ -59,6 +59,18 @@ namespace meltfront::verification
       std::vector<std::string> list;
     };
 
+    /** With blanks at which no line breaks, but behind a semicolon. */
+    std::string kept_together(const std::string &words)
+    {
+      std::string result;
+      for(const char letter : words)
+        if(letter == ' ' && !result.ends_with(';'))
+          result += "\u00a0";
+        else
+          result += letter;
+      return result;
+    }
+
     std::string notes_of(const LabelRuns &runs, Notes &notes)
     {
       std::string words;
@@ -69,7 +81,7 @@ namespace meltfront::verification
       for(const Level &level : runs.levels)
         if(level.status() != "finished")
           add(fmt::format("n = {} {}", level.n, level.status()));
-      return words;
+      return kept_together(words);
     }
 
     std::vector<Cell> row_of(const VariationGroup &group, const Variation &variation,
@@ -82,7 +94,8 @@ namespace meltfront::verification
         row.push_back({group.axes[i].values[variation.place[i]]});
       const RunRecord *finest = runs.finest();
       row.push_back(
-          {number_text(finest ? front_peclet_number(record, *finest) : std::nan(""), 2)});
+          {number_text(finest ? front_peclet_number(record, *finest) : std::nan(""), 2,
+                       Notation::scientific)});
       row.push_back({notes_of(runs, notes)});
       for(const char *error : errors)
       {
