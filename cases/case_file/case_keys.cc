@@ -31,6 +31,14 @@ namespace meltfront::cases
                            "axis, the distance from the origin, or everything."));
       prm.declare("Scene", number_key("start time", "0", "s", "When the scene begins."));
       prm.declare("Scene", number_key("end time", "", "s", "When the scene ends."));
+      prm.declare("Scene", number_key("start front", "", "m",
+                                      "Where the front of Neumann's solution is when the "
+                                      "scene begins, in place of 'start time'.",
+                                      above_zero));
+      prm.declare("Scene", number_key("end front", "", "m",
+                                      "Where it is when the scene ends, in place of 'end "
+                                      "time'.",
+                                      above_zero));
       const std::string domain = "Scene/Domain";
       prm.declare(
           domain,

@@ -6,6 +6,7 @@
 #include <cases/case_file/interface_reader.h>
 #include <cases/case_file/particle_solid_reader.h>
 #include <cases/case_file/scene_reader.h>
+#include <cases/case_file/times_reader.h>
 
 #include <fmt/format.h>
 
@@ -259,22 +260,6 @@ namespace meltfront::cases
               { return sign * exact->signed_distance(p, time); }};
     }
 
-    void read_times(const PrmFile &prm, Scene &scene)
-    {
-      if(scene.problem == ProblemKind::poisson)
-      {
-        for(const char *key : {"start time", "end time"})
-          prm.forbid("Scene", key, "the scene is steady");
-        return;
-      }
-      scene.start_time = prm.get_number("Scene", "start time");
-      scene.end_time = prm.get_number("Scene", "end time");
-      if(!(scene.start_time < scene.end_time))
-        throw prm.error("Scene", "end time",
-                        fmt::format("({}) must come after 'start time' ({})",
-                                    scene.end_time, scene.start_time));
-    }
-
     /** Of a scene that conducts heat. */
     void read_heat(const PrmFile &prm, Scene &scene)
     {
@@ -334,6 +319,7 @@ namespace meltfront::cases
 
   void complete_scene(const PrmFile &prm, const KnownSolution &known, Scene &scene)
   {
+    take_times_from_fronts(prm, known, scene);
     const auto require_solution = [&](const std::string &here, const std::string &key)
     {
       if(!known.solution)

@@ -1,4 +1,5 @@
 #include <cases/case_file/case_file.h>
+#include <cases/case_file/vary_case.h>
 #include <cases/error.h>
 #include <verification/app/commands.h>
 #include <verification/app/console.h>
@@ -50,6 +51,7 @@ namespace meltfront::verification
         result.stability = judge_stability(result);
         result.passed = std::all_of(result.criteria.begin(), result.criteria.end(),
                                     [](const CriterionResult &c) { return c.passed; })
+                        && std::ranges::all_of(result.findings, &FindingResult::holds)
                         && std::none_of(result.stability.begin(), result.stability.end(),
                                         [](const StabilityVerdict &v)
                                         { return v.verdict == "failed"; });
@@ -104,6 +106,8 @@ namespace meltfront::verification
       options.program_version = program_version;
       options.command_line = command_line;
       options.progress = stderr;
+      options.vary_case = [](const cases::Case &base, const PlannedCase &planned)
+      { return cases::vary_case(base, planned.name, planned.settings); };
       int status = all_well;
       options.conclude
           = [&](MatrixResult &result) { status = conclude(result, directory); };

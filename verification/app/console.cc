@@ -135,6 +135,28 @@ namespace meltfront::verification
                              : "; known shortfall: " + criterion.known_shortfall);
     }
 
+    std::string findings_text(const MatrixResult &result)
+    {
+      std::string text = result.findings.empty() ? "" : "Findings:\n";
+      for(const FindingResult &finding : result.findings)
+        text += fmt::format("  {}  {}\n", finding.holds() ? "HOLDS" : "FAILS",
+                            claim_text(finding));
+      return text;
+    }
+
+    /** The varied cases, which have too many rows for a terminal. */
+    std::string variations_text(const MatrixResult &result)
+    {
+      std::map<std::string, int> count;
+      for(const CaseRecord &c : result.cases)
+        if(!c.variation.empty())
+          ++count[c.variation_of];
+      std::string text;
+      for(const auto &[name, variations] : count)
+        text += fmt::format("{}: {} variations, in the report\n", name, variations);
+      return text;
+    }
+
     std::string stability_text(const MatrixResult &result)
     {
       std::map<std::string, int> count;
@@ -176,10 +198,13 @@ namespace meltfront::verification
     std::string text;
     for(const CaseRecord &c : result.cases)
     {
+      if(!c.variation.empty())
+        continue;
       text += fmt::format("{}\n", c.name);
       for(const std::string &label : labels_of(result, c.name))
         text += convergence_line(result, c, label);
     }
+    text += variations_text(result);
     if(result.hard_cases)
       text += stability_text(result);
     long passed = 0;
@@ -190,7 +215,7 @@ namespace meltfront::verification
       passed += criterion.passed;
       text += criterion_line(criterion);
     }
-    text += omissions_text(result);
+    text += findings_text(result) + omissions_text(result);
     if(!result.criteria.empty())
       text += fmt::format("{} of {} criteria hold\n", passed, result.criteria.size());
     text += fmt::format("{}: {}\n", result.name, result.passed ? "PASSED" : "FAILED");

@@ -1,9 +1,12 @@
 #include <verification/matrix/case_record.h>
+#include <verification/matrix/criterion_record.h>
 #include <verification/matrix/hash.h>
 #include <verification/matrix/json_values.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <cmath>
 
 namespace meltfront::verification
 {
@@ -42,33 +45,6 @@ namespace meltfront::verification
       default:
         return "ball";
       }
-    }
-
-    const char *name_of(cases::Statistic statistic)
-    {
-      switch(statistic)
-      {
-      case cases::Statistic::value:
-        return "value";
-      case cases::Statistic::median:
-        return "median";
-      case cases::Statistic::order:
-        return "order";
-      case cases::Statistic::failure:
-        return "failure";
-      default:
-        return "worst";
-      }
-    }
-
-    cases::Statistic statistic_named(const std::string &name)
-    {
-      for(const cases::Statistic statistic :
-          {cases::Statistic::value, cases::Statistic::median, cases::Statistic::order,
-           cases::Statistic::failure})
-        if(name == name_of(statistic))
-          return statistic;
-      return cases::Statistic::worst;
     }
 
     std::string words(const cases::Boundary &boundary)
@@ -200,36 +176,6 @@ namespace meltfront::verification
       return m;
     }
 
-    json json_of(const cases::Criterion &c)
-    {
-      return {{"text", c.text},
-              {"method", c.method},
-              {"quantity", c.quantity},
-              {"statistic", name_of(c.statistic)},
-              {"n", c.n},
-              {"n_from", c.n_from},
-              {"n_to", c.n_to},
-              {"lower", json_of(c.lower)},
-              {"upper", json_of(c.upper)},
-              {"known_shortfall", c.known_shortfall}};
-    }
-
-    cases::Criterion criterion_in(const json &json)
-    {
-      cases::Criterion criterion;
-      criterion.text = json.at("text");
-      criterion.method = json.at("method");
-      criterion.quantity = json.at("quantity");
-      criterion.statistic = statistic_named(json.at("statistic"));
-      criterion.n = json.at("n");
-      criterion.n_from = json.at("n_from");
-      criterion.n_to = json.at("n_to");
-      criterion.lower = number_in(json.at("lower"));
-      criterion.upper = number_in(json.at("upper"));
-      criterion.known_shortfall = json.at("known_shortfall");
-      return criterion;
-    }
-
     json json_of(const cases::PrintedValue &p)
     {
       return {{"source", p.source},
@@ -292,6 +238,19 @@ namespace meltfront::verification
       visit("heat_release", record.heat_release);
       visit("inclusion", record.inclusion);
     }
+    /** Of the phase at the wall x = 0 of a plane exact solution, else NaN. */
+    double stefan_number(const cases::Case &c)
+    {
+      if(!c.exact || !c.exact->has_front() || !c.scene.changes_phase()
+         || c.exact->symmetry() != cases::Symmetry::planar)
+        return std::numeric_limits<double>::quiet_NaN();
+      const cases::Material &material = c.scene.material;
+      const cases::PhaseProperties &phase
+          = c.exact->solid_at_origin() ? material.solid : material.liquid;
+      const double wall = c.exact->temperature(0., c.scene.end_time);
+      return phase.specific_heat_capacity * std::abs(wall - material.melting_temperature)
+             / material.latent_heat;
+    }
   } // namespace
 
   CaseRecord make_case_record(const cases::Case &c)
@@ -342,6 +301,7 @@ namespace meltfront::verification
     record.front_exact_end = c.exact ? c.exact->front(scene.end_time)
                                      : std::numeric_limits<double>::quiet_NaN();
     record.reference = c.reference;
+    record.stefan_number = stefan_number(c);
     record.measurement = c.measurement;
     record.criteria = c.criteria;
     record.printed = c.printed;
@@ -375,6 +335,9 @@ namespace meltfront::verification
     json["start_time"] = json_of(record.start_time);
     json["end_time"] = json_of(record.end_time);
     json["front_exact_end"] = json_of(record.front_exact_end);
+    json["stefan_number"] = json_of(record.stefan_number);
+    json["variation_of"] = record.variation_of;
+    json["variation"] = record.variation;
     json["measurement"] = json_of(record.measurement);
     for(const char *list : {"source_positions", "criteria", "printed"})
       json[list] = nlohmann::json::array();
@@ -418,6 +381,12 @@ namespace meltfront::verification
     record.start_time = number_in(json.at("start_time"));
     record.end_time = number_in(json.at("end_time"));
     record.front_exact_end = number_in(json.at("front_exact_end"));
+    if(json.contains("variation")) // older records lack it
+    {
+      record.stefan_number = number_in(json.at("stefan_number"));
+      record.variation_of = json.at("variation_of");
+      json.at("variation").get_to(record.variation);
+    }
     record.measurement = measurement_in(json.at("measurement"));
     for(const auto &position : json.at("source_positions"))
       record.source_positions.push_back(position_in(position));

@@ -7,9 +7,11 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace meltfront::verification
@@ -47,6 +49,12 @@ namespace meltfront::verification
     std::string inclusion;      ///< where, and its conductivity; empty: none
     std::string exact;          ///< description of the exact solution; empty: none
     double front_exact_end = 0; ///< exact front at the end time (NaN: none)
+    /** Heat capacity of the phase at the wall x = 0 times that wall's difference from the
+     * melting point, over the latent heat; NaN without a plane exact solution. */
+    double stefan_number = std::numeric_limits<double>::quiet_NaN();
+    std::string variation_of; ///< the case that a matrix varies to this one; empty: none
+    /** Keys with their subsections, and the values that the matrix gives them. */
+    std::vector<std::pair<std::string, std::string>> variation;
     std::optional<cases::Reference> reference; ///< where there is no exact solution
     cases::Measurement measurement;
     std::vector<cases::Criterion> criteria;

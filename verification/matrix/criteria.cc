@@ -68,34 +68,6 @@ namespace meltfront::verification
       return false;
     }
 
-    std::string quantity_text(const cases::Criterion &criterion)
-    {
-      if(criterion.statistic == cases::Statistic::failure)
-        return fmt::format("fails at n={}", criterion.n);
-      if(criterion.statistic == cases::Statistic::value)
-        return fmt::format("{} at n={}", criterion.quantity, criterion.n);
-      if(criterion.statistic == cases::Statistic::median)
-        return fmt::format("median {} at n={}", criterion.quantity, criterion.n);
-      const bool all
-          = criterion.n_from <= 0 && criterion.n_to == std::numeric_limits<int>::max();
-      return fmt::format(
-          "{} {}{}",
-          criterion.statistic == cases::Statistic::order ? "order of" : "worst",
-          criterion.quantity,
-          all ? "" : fmt::format(" over n={}..{}", criterion.n_from, criterion.n_to));
-    }
-
-    /** Why the matrix says nothing on a criterion; empty if it does. */
-    std::string reason_not_judged(const Runs &runs, const cases::Criterion &criterion)
-    {
-      if(runs.empty())
-        return "the matrix has no such run";
-      if(criterion.statistic == cases::Statistic::order
-         && different_resolutions(runs) < fewest_levels)
-        return "an order needs four resolutions and the matrix has fewer";
-      return {};
-    }
-
     double order_over(const CaseRecord &record, const Runs &runs,
                       const std::string &quantity)
     {
@@ -178,6 +150,40 @@ namespace meltfront::verification
     }
   } // namespace
 
+  std::string quantity_text(const cases::Criterion &criterion)
+  {
+    if(criterion.statistic == cases::Statistic::failure)
+      return fmt::format("fails at n={}", criterion.n);
+    if(criterion.statistic == cases::Statistic::value)
+      return fmt::format("{} at n={}", criterion.quantity, criterion.n);
+    if(criterion.statistic == cases::Statistic::median)
+      return fmt::format("median {} at n={}", criterion.quantity, criterion.n);
+    const bool all
+        = criterion.n_from <= 0 && criterion.n_to == std::numeric_limits<int>::max();
+    return fmt::format(
+        "{} {}{}", criterion.statistic == cases::Statistic::order ? "order of" : "worst",
+        criterion.quantity,
+        all ? "" : fmt::format(" over n={}..{}", criterion.n_from, criterion.n_to));
+  }
+
+  std::string why_not_judged(const MatrixResult &result, const CaseRecord &record,
+                             const cases::Criterion &criterion)
+  {
+    const Runs runs = runs_of(result, record, criterion);
+    if(runs.empty())
+      return "the matrix has no such run";
+    if(criterion.statistic == cases::Statistic::order
+       && different_resolutions(runs) < fewest_levels)
+      return "an order needs four resolutions and the matrix has fewer";
+    return {};
+  }
+
+  double criterion_value(const MatrixResult &result, const CaseRecord &record,
+                         const cases::Criterion &criterion)
+  {
+    return value_of(record, runs_of(result, record, criterion), criterion);
+  }
+
   std::map<std::string, double> run_columns(const RunRecord &run)
   {
     const cases::Cost &cost = run.cost;
@@ -240,8 +246,7 @@ namespace meltfront::verification
     for(const CaseRecord &record : result.cases)
       for(const cases::Criterion &criterion : record.criteria)
       {
-        const Runs runs = runs_of(result, record, criterion);
-        const std::string reason = reason_not_judged(runs, criterion);
+        const std::string reason = why_not_judged(result, record, criterion);
         if(!reason.empty())
         {
           result.omissions.push_back(fmt::format("{}, {}: {}: not judged: {}",
@@ -249,12 +254,15 @@ namespace meltfront::verification
                                                  quantity_text(criterion), reason));
           continue;
         }
-        const double value = value_of(record, runs, criterion);
+        const double value = criterion_value(result, record, criterion);
         const bool passed = value >= criterion.lower && value <= criterion.upper;
         result.criteria.push_back({record.name, criterion.method,
                                    quantity_text(criterion), value, criterion.lower,
                                    criterion.upper, passed, criterion.known_shortfall});
         result.passed = result.passed && passed;
       }
+    result.findings = judge_findings(result, result.claims);
+    result.passed
+        = result.passed && std::ranges::all_of(result.findings, &FindingResult::holds);
   }
 } // namespace meltfront::verification

@@ -24,9 +24,21 @@ namespace meltfront::verification
   /** The names that table_value() knows: what a criterion may ask of. */
   std::vector<std::string> table_value_names();
 
+  /** What a criterion asks of: `front_rms at n=40`, `order of front_rms`. */
+  std::string quantity_text(const cases::Criterion &criterion);
+
+  /** Why a matrix says nothing on a criterion in a case; empty if it does. */
+  std::string why_not_judged(const MatrixResult &result, const CaseRecord &record,
+                             const cases::Criterion &criterion);
+
+  /** The value that a criterion bounds in a case, as evaluate() explains; NaN where a
+   * run that it needs is missing or failed. */
+  double criterion_value(const MatrixResult &result, const CaseRecord &record,
+                         const cases::Criterion &criterion);
+
   /**
-   * Hold the criteria of every case of a matrix against its runs; fills `criteria` and
-   * `passed`, and appends to `omissions`.
+   * Hold the criteria of every case of a matrix and its findings against its runs; fills
+   * `criteria`, `findings` and `passed`, and appends to `omissions`.
    *
    * A criterion concerns the runs whose label is its method, options in brackets in any
    * order; without brackets, those with no option set by the matrix. Orders are over h,
@@ -40,8 +52,8 @@ namespace meltfront::verification
    * method saw itself. Any other run that failed, was refused at the criterion's n or is
    * missing makes the value NaN, which does not pass.
    *
-   * `passed` asks that every criterion judged passes and that no run failed that is not
-   * known to, or is missing.
+   * `passed` asks that every criterion judged passes, that every finding holds, and that
+   * no run failed that is not known to, or is missing.
    *
    * Omissions are the refused, failed and missing runs with their reasons, and the
    * criteria that were not judged.

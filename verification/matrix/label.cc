@@ -56,6 +56,18 @@ namespace meltfront::verification
             fmt::format("there is no option '{}'; the nearest is '{}'", key,
                         cases::nearest_name(key, keys)));
     }
+    /** The values that a value of a pattern stands for: `a|b`. */
+    std::vector<std::string> alternatives(const std::string &value)
+    {
+      std::vector<std::string> values;
+      for(std::size_t begin = 0; begin <= value.size();)
+      {
+        const std::size_t end = std::min(value.find('|', begin), value.size());
+        values.push_back(without_blanks(value.substr(begin, end - begin)));
+        begin = end + 1;
+      }
+      return values;
+    }
   } // namespace
 
   std::string method_of(const std::string &label)
@@ -102,9 +114,11 @@ namespace meltfront::verification
     return std::ranges::equal(wanted, given,
                               [](const auto &one, const auto &other)
                               {
+                                const auto values = alternatives(one.second);
                                 return one.first == other.first
                                        && (one.second == any_value
-                                           || one.second == other.second);
+                                           || std::ranges::find(values, other.second)
+                                                  != values.end());
                               });
   }
 
@@ -112,18 +126,19 @@ namespace meltfront::verification
   {
     check_brackets(label);
     cases::Options options(methods(method_of(label)).option_declarations());
-    for(const auto &[key, value] : options_of(label))
-    {
-      int threads = 0;
-      if(value == any_value)
-        check_key(options, key);
-      else if(key != "threads")
-        options.set(key, value);
-      else if(std::from_chars(value.data(), value.data() + value.size(), threads).ec
-                  != std::errc()
-              || threads < 1)
-        throw cases::InputError(
-            fmt::format("'{}': a run needs at least 1 thread", label));
-    }
+    for(const auto &[key, written] : options_of(label))
+      for(const std::string &value : alternatives(written))
+      {
+        int threads = 0;
+        if(value == any_value)
+          check_key(options, key);
+        else if(key != "threads")
+          options.set(key, value);
+        else if(std::from_chars(value.data(), value.data() + value.size(), threads).ec
+                    != std::errc()
+                || threads < 1)
+          throw cases::InputError(
+              fmt::format("'{}': a run needs at least 1 thread", label));
+      }
   }
 } // namespace meltfront::verification

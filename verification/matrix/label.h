@@ -27,7 +27,7 @@ namespace meltfront::verification
   inline constexpr const char *any_value = "*";
 
   /** Whether a label is one that a pattern means: the same method and options, each with
-   * the same value or with any_value in the pattern. */
+   * the same value, with any_value in the pattern, or with one of several, `a|b`. */
   bool label_matches(const std::string &pattern, const std::string &label);
 
   /**

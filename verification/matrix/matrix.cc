@@ -61,6 +61,59 @@ namespace meltfront::verification
       }
     }
 
+    /** What a varied key is called in a case's name: its last words, with the subsection
+     * before them where another axis has the same; blanks and slashes would be awkward in
+     * the names of files. */
+    std::string short_key(const MatrixBlock &block, const CaseAxis &axis)
+    {
+      const auto last_part
+          = [](const std::string &path) { return path.substr(path.rfind('/') + 1); };
+      std::string name = last_part(axis.key);
+      const auto alike
+          = std::ranges::count_if(block.variations, [&](const CaseAxis &other)
+                                  { return last_part(other.key) == name; });
+      if(alike > 1)
+        name = axis.key;
+      std::ranges::replace(name, ' ', '_');
+      std::ranges::replace(name, '/', '.');
+      return name;
+    }
+
+    std::string varied_name(const MatrixBlock &block, const PlannedCase &planned)
+    {
+      if(planned.settings.empty())
+        return short_case_name(planned.base);
+      std::map<std::string, std::string> values;
+      for(std::size_t i = 0; i < block.variations.size(); ++i)
+        values[short_key(block, block.variations[i])] = planned.settings[i].second;
+      std::string inside;
+      for(const auto &[key, value] : values)
+        inside += fmt::format("{}{}={}", inside.empty() ? "" : ",", key, value);
+      std::ranges::replace(inside, '/', '_');
+      return fmt::format("{}[{}]", short_case_name(planned.base), inside);
+    }
+
+    /** A case with every combination of the values that a block gives to its keys. */
+    std::vector<PlannedCase> planned_cases(const MatrixBlock &block,
+                                           const std::string &case_name)
+    {
+      std::vector<PlannedCase> result{{"", case_name, {}}};
+      for(const CaseAxis &axis : block.variations)
+      {
+        std::vector<PlannedCase> extended;
+        for(const PlannedCase &planned : result)
+          for(const std::string &value : axis.values)
+          {
+            extended.push_back(planned);
+            extended.back().settings.emplace_back(axis.key, value);
+          }
+        result = std::move(extended);
+      }
+      for(PlannedCase &planned : result)
+        planned.name = varied_name(block, planned);
+      return result;
+    }
+
     void add_runs(const MatrixBlock &block, const std::string &case_name,
                   const MethodLookup &methods, std::vector<PlannedRun> &runs)
     {
@@ -108,15 +161,38 @@ namespace meltfront::verification
     return names;
   }
 
+  std::vector<PlannedCase> planned_cases(const Matrix &matrix)
+  {
+    std::vector<PlannedCase> result;
+    std::set<std::string> known;
+    for(const std::string &name : case_names(matrix))
+      for(const MatrixBlock &block : matrix.blocks)
+      {
+        if(std::ranges::find(block.cases, name) == block.cases.end())
+          continue;
+        for(const CaseAxis &axis : block.variations)
+          if(axis.values.empty())
+            throw cases::InputError(fmt::format(
+                "matrix '{}': '{}' is varied without a value", matrix.name, axis.key));
+        for(PlannedCase &planned : planned_cases(block, name))
+          if(known.insert(planned.base + "\n" + planned.name).second)
+            result.push_back(std::move(planned));
+      }
+    return result;
+  }
+
   std::vector<PlannedRun> plan_runs(const Matrix &matrix, const MethodLookup &methods)
   {
     for(const MatrixBlock &block : matrix.blocks)
       check(matrix, block);
     std::vector<PlannedRun> runs;
-    for(const std::string &name : case_names(matrix))
+    for(const PlannedCase &planned : planned_cases(matrix))
       for(const MatrixBlock &block : matrix.blocks)
-        if(std::ranges::find(block.cases, name) != block.cases.end())
-          add_runs(block, short_case_name(name), methods, runs);
+        if(std::ranges::find(block.cases, planned.base) != block.cases.end()
+           && std::ranges::any_of(planned_cases(block, planned.base),
+                                  [&planned](const PlannedCase &of_block)
+                                  { return of_block.settings == planned.settings; }))
+          add_runs(block, planned.name, methods, runs);
     std::set<std::string> known;
     std::erase_if(runs, [&](const PlannedRun &run)
                   { return !known.insert(run.file()).second; });

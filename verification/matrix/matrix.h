@@ -3,11 +3,13 @@
 
 #include <cases/case.h>
 #include <cases/method.h>
+#include <verification/matrix/finding.h>
 
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace meltfront::verification
@@ -20,8 +22,16 @@ namespace meltfront::verification
     std::vector<std::string> values;
   };
 
-  /** Every case with every method at every resolution, with every combination of the
-   * option values that are the method's. */
+  /** Values that a matrix gives to a key of its cases. */
+  struct CaseAxis
+  {
+    std::string key; ///< with its subsections: `Scene/Material/latent heat`
+    std::vector<std::string> values;
+  };
+
+  /** Every case, with every combination of the values of its keys, with every method at
+   * every resolution, with every combination of the option values that are the method's.
+   */
   struct MatrixBlock
   {
     std::vector<std::string> cases; ///< by name, or by the path of a file
@@ -30,6 +40,7 @@ namespace meltfront::verification
     std::vector<OptionAxis> options;
     std::vector<std::uint64_t> seeds{1};
     std::vector<int> threads{1};
+    std::vector<CaseAxis> variations{}; ///< empty: the cases as they are written
   };
 
   /** Cases x methods x resolutions: what is to be run. */
@@ -41,6 +52,18 @@ namespace meltfront::verification
     bool hard_cases = false; ///< the report shows the table held / refused / failed
     double time_limit = 600; ///< of one run (wall s)
     std::vector<MatrixBlock> blocks;
+    std::vector<Finding> findings{}; ///< what the runs are claimed to show
+    std::vector<Picture> pictures{}; ///< what its report draws
+  };
+
+  /** A case of a matrix: as written, or with values that the matrix gives to its keys. */
+  struct PlannedCase
+  {
+    /** `bar`, or `bar[conductivity=10,latent_heat=7]`: the keys without their
+     * subsections, as far as that tells them apart, sorted. */
+    std::string name;
+    std::string base; ///< the case as the matrix names it, by name or path
+    std::vector<std::pair<std::string, std::string>> settings; ///< keys and their values
   };
 
   /** One cell of a matrix. */
@@ -58,6 +81,10 @@ namespace meltfront::verification
   /** Finds a case by name. @throws InputError */
   using CaseLoader = std::function<cases::Case(const std::string &name)>;
 
+  /** Gives other values to keys of a case. @throws InputError */
+  using CaseVariation
+      = std::function<cases::Case(const cases::Case &base, const PlannedCase &planned)>;
+
   /** Finds a method by name. @throws InputError */
   using MethodLookup = std::function<const cases::Method &(const std::string &name)>;
 
@@ -69,15 +96,26 @@ namespace meltfront::verification
    * first named. */
   std::vector<std::string> case_names(const Matrix &matrix);
 
+  /** The cases of a matrix with what it varies in them, each once, in the same order.
+   * @throws InputError for a key that is varied without any value. */
+  std::vector<PlannedCase> planned_cases(const Matrix &matrix);
+
   /**
-   * The runs of a matrix, each once: by case as first named, then by method, option
-   * values, resolution and seed as written.
+   * The runs of a matrix, each once: by case as planned_cases() orders them, then by
+   * method, option values, resolution and seed as written.
    *
    * @throws InputError for a method that there is not, an option that the method does not
    * have or a value that it does not take, options of a method that the block does not
    * name, a resolution or number of threads below 1, and a block without any run.
    */
   std::vector<PlannedRun> plan_runs(const Matrix &matrix, const MethodLookup &methods);
+
+  /**
+   * Hold the names in a matrix's findings and pictures against what there is.
+   * @throws InputError for a case that the matrix does not have, a method, option or
+   * value that there is not, and a quantity that no table has.
+   */
+  void check_findings(const Matrix &matrix, const MethodLookup &methods);
 } // namespace meltfront::verification
 
 #endif

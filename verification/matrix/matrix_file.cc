@@ -1,5 +1,6 @@
 #include <cases/case_file/prm_file.h>
 #include <cases/error.h>
+#include <verification/matrix/finding_reader.h>
 #include <verification/matrix/matrix_file.h>
 
 #include <fmt/format.h>
@@ -44,10 +45,14 @@ namespace meltfront::verification
         declare("options", "",
                 "Values of options, METHOD.KEY = VALUE | VALUE, with semicolons; every "
                 "combination is run.");
+        declare("variations", "",
+                "Values of keys of the cases, SUBSECTION/KEY = VALUE | VALUE, with "
+                "semicolons; every combination is a case of its own.");
         declare("seeds", "1",
                 "Seeds of random arrangements, with commas; 1..200 for all between.");
         declare("threads", "1", "Threads of a run; several numbers with commas.");
       }
+      declare_findings(prm);
       return prm;
     }
 
@@ -125,6 +130,42 @@ namespace meltfront::verification
       return axis;
     }
 
+    /** `SUBSECTION/KEY = VALUE | VALUE` */
+    CaseAxis case_axis(const PrmFile &prm, const std::string &block,
+                       const std::string &text)
+    {
+      const std::size_t equals = text.find('=');
+      if(equals == std::string::npos || equals == 0)
+        throw prm.error(block, "variations",
+                        fmt::format("holds '{}', which is not of the form SUBSECTION/KEY "
+                                    "= VALUE | VALUE",
+                                    cases::quotable(text)));
+      CaseAxis axis{cases::trimmed(text.substr(0, equals)),
+                    cases::split_list(text.substr(equals + 1), '|')};
+      if(std::ranges::any_of(axis.values, &std::string::empty))
+        throw prm.error(block, "variations",
+                        fmt::format("gives no value to '{}'", cases::quotable(axis.key)));
+      return axis;
+    }
+
+    std::vector<CaseAxis> read_variations(const PrmFile &prm, const std::string &block)
+    {
+      std::vector<CaseAxis> axes;
+      if(prm.get_text(block, "variations").empty())
+        return axes;
+      for(const std::string &text :
+          cases::split_list(prm.get_text(block, "variations"), ';'))
+      {
+        CaseAxis axis = case_axis(prm, block, text);
+        if(std::ranges::find(axes, axis.key, &CaseAxis::key) != axes.end())
+          throw prm.error(
+              block, "variations",
+              fmt::format("names '{}' a second time", cases::quotable(axis.key)));
+        axes.push_back(std::move(axis));
+      }
+      return axes;
+    }
+
     MatrixBlock read_block(const PrmFile &prm, const std::string &name)
     {
       MatrixBlock block;
@@ -137,6 +178,7 @@ namespace meltfront::verification
         for(const std::string &text :
             cases::split_list(prm.get_text(name, "options"), ';'))
           block.options.push_back(option_axis(prm, name, text));
+      block.variations = read_variations(prm, name);
       block.seeds = seeds_of(prm, name);
       block.threads = integers<int>(prm, name, "threads");
       return block;
@@ -154,6 +196,8 @@ namespace meltfront::verification
       for(int i = 1; i <= most_blocks; ++i)
         if(prm.opened(block_name(i)))
           matrix.blocks.push_back(read_block(prm, block_name(i)));
+      matrix.findings = read_findings(prm);
+      matrix.pictures = read_pictures(prm);
       if(matrix.blocks.empty())
         throw cases::InputError(
             fmt::format("{}: the matrix has no subsection 'Block 1', so "

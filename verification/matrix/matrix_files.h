@@ -23,7 +23,7 @@ namespace meltfront::verification
    * Write DIR/summary.json: `passed`, `criteria` (each with `case`, `method`, `quantity`,
    * `value`, `bound`, `passed`, `known_shortfall`; `bound` is a number where one side is
    * bounded, which one says `relation`, `<=` or `>=`; and [lower, upper] with `in`),
-   * `omissions`.
+   * `findings` (each with `claim` and `holds`), `omissions`.
    */
   void write_summary(const std::string &directory, const MatrixResult &result);
 } // namespace meltfront::verification

@@ -75,6 +75,8 @@ namespace meltfront::verification
                                             {"date", current_date()},
                                             {"program_version", program_version},
                                             {"cases", names},
+                                            {"findings", matrix.findings},
+                                            {"pictures", matrix.pictures},
                                             {"runs", list}});
   }
 
@@ -90,11 +92,15 @@ namespace meltfront::verification
                           {"relation", relation_of(criterion)},
                           {"passed", criterion.passed},
                           {"known_shortfall", criterion.known_shortfall}});
+    json findings = json::array();
+    for(const FindingResult &finding : result.findings)
+      findings.push_back({{"claim", claim_text(finding)}, {"holds", finding.holds()}});
     write_json(directory + "/summary.json", {{"matrix", result.name},
                                              {"date", result.date},
                                              {"program_version", result.program_version},
                                              {"passed", result.passed},
                                              {"criteria", criteria},
+                                             {"findings", findings},
                                              {"omissions", result.omissions}});
   }
 
@@ -111,6 +117,11 @@ namespace meltfront::verification
       result.hard_cases = matrix.at("hard_cases");
       result.date = matrix.at("date");
       result.program_version = matrix.at("program_version");
+      if(matrix.contains("findings")) // older plans lack them
+      {
+        matrix.at("findings").get_to(result.claims);
+        matrix.at("pictures").get_to(result.pictures);
+      }
       for(const auto &name : matrix.at("cases"))
         result.cases.push_back(
             read_json(fmt::format("{}/cases/{}.json", directory, name.get<std::string>()))

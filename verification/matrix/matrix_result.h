@@ -2,6 +2,7 @@
 #define meltfront_verification_matrix_matrix_result_h
 
 #include <verification/matrix/case_record.h>
+#include <verification/matrix/finding.h>
 #include <verification/matrix/run_record.h>
 #include <verification/measure/grid_convergence.h>
 
@@ -58,6 +59,9 @@ namespace meltfront::verification
     std::vector<CaseRecord> cases; ///< in the matrix's order
     std::vector<RunRecord> runs;   ///< in the matrix's order
     std::vector<CriterionResult> criteria;
+    std::vector<Finding> claims;         ///< findings as the matrix states them
+    std::vector<FindingResult> findings; ///< the same, held against the runs
+    std::vector<Picture> pictures;
     std::vector<ReferenceTrust> references;  ///< of cases that name a reference run
     std::vector<StabilityVerdict> stability; ///< of a matrix of hard cases, else empty
     std::vector<std::string>

@@ -222,16 +222,40 @@ namespace meltfront::verification
       return options;
     }
 
-    std::map<std::string, cases::Case> load_cases(const Matrix &matrix,
-                                                  const CaseLoader &load_case)
+    cases::Case varied(const cases::Case &base, const PlannedCase &planned,
+                       const CaseVariation &vary_case)
     {
-      std::map<std::string, cases::Case> loaded;
+      if(planned.settings.empty())
+        return base;
+      if(!vary_case)
+        throw std::logic_error("there is nothing that could vary a case");
+      return vary_case(base, planned);
+    }
+
+    std::map<std::string, cases::Case> load_cases(const Matrix &matrix,
+                                                  const CaseLoader &load_case,
+                                                  const CaseVariation &vary_case)
+    {
+      std::map<std::string, cases::Case> written, planned_ones;
       for(const std::string &name : case_names(matrix))
-        if(!loaded.emplace(short_case_name(name), load_case(name)).second)
-          throw cases::InputError(
-              fmt::format("matrix '{}' has two cases of the name '{}'", matrix.name,
-                          short_case_name(name)));
-      return loaded;
+        written.emplace(name, load_case(name));
+      for(const PlannedCase &planned : planned_cases(matrix))
+        if(!planned_ones
+                .emplace(planned.name,
+                         varied(written.at(planned.base), planned, vary_case))
+                .second)
+          throw cases::InputError(fmt::format(
+              "matrix '{}' has two cases of the name '{}'", matrix.name, planned.name));
+      return planned_ones;
+    }
+
+    CaseRecord record_of(const cases::Case &c, const PlannedCase &planned)
+    {
+      CaseRecord record = make_case_record(c);
+      if(!planned.settings.empty())
+        record.variation_of = short_case_name(planned.base);
+      record.variation = planned.settings;
+      return record;
     }
   } // namespace
 
@@ -239,14 +263,15 @@ namespace meltfront::verification
                           const CaseLoader &load_case, const MethodLookup &methods)
   {
     const std::vector<PlannedRun> plan = plan_runs(matrix, methods);
+    check_findings(matrix, methods);
     const std::map<std::string, cases::Case> cases_by_name
-        = load_cases(matrix, load_case);
+        = load_cases(matrix, load_case, given.vary_case);
     const RunnerOptions options = completed(given);
     const DirectoryLock lock(options.directory);
 
     std::vector<CaseRecord> case_records;
-    for(const std::string &name : case_names(matrix))
-      case_records.push_back(make_case_record(cases_by_name.at(short_case_name(name))));
+    for(const PlannedCase &planned : planned_cases(matrix))
+      case_records.push_back(record_of(cases_by_name.at(planned.name), planned));
     write_plan(options.directory, matrix, case_records, plan, options.program_version);
 
     std::deque<Job> jobs;

@@ -20,6 +20,7 @@ namespace meltfront::verification
     std::string program_hash; ///< empty: the SHA-256 of the running program's file
     std::string command_line;
     std::FILE *progress = nullptr; ///< null: say nothing
+    CaseVariation vary_case{};     ///< for matrices that give values to keys of cases
     RepeatPolicy repeats{};
     /** What is to be done with the result while the directory is still held against other
      * processes: the report, for one. */
@@ -44,7 +45,7 @@ namespace meltfront::verification
    * Written: matrix.json, cases/CASE.json, runs/CASE/LABEL/n=N/run.json (and run.log, if
    * the run printed something), summary.json.
    *
-   * @param load_case is called once for each case, before any run
+   * @param load_case is called once for each case as it is named, before any run
    * @throws InputError if a case or the matrix is wrong, before any run; OutputError if
    * the directory cannot be written to or another process is at work in it.
    */

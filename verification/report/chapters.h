@@ -15,7 +15,8 @@ namespace meltfront::verification
   struct ReportContext
   {
     const MatrixResult &result;
-    std::vector<CaseRuns> runs; ///< one per case, in the matrix's order
+    std::vector<CaseRuns> runs;       ///< one per case as written, in the matrix's order
+    std::vector<CaseRuns> variations; ///< one per varied case
     MethodStyles styles;
     PlotFolder plots;
     std::string directory;
@@ -25,6 +26,14 @@ namespace meltfront::verification
   };
 
   Markup verdict_chapter(const ReportContext &context);
+
+  /** The matrix's findings and its pictures, and maps of what it varies; empty where it
+   * has none of them. */
+  Markup findings_chapter(const ReportContext &context);
+
+  /** One table for each case that is varied: errors, orders, warnings of every
+   * combination; empty where none is. */
+  Markup variations_chapter(const ReportContext &context);
 
   /** The cheapest method for wanted errors, and all work-precision diagrams. */
   Markup cost_chapter(const ReportContext &context);

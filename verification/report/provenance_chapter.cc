@@ -96,8 +96,12 @@ namespace meltfront::verification
     Markup case_files(const std::vector<CaseRecord> &records)
     {
       Markup content;
+      std::set<std::string> varied;
       for(const CaseRecord &record : records)
       {
+        // Of the variations of a case one text says it all, beside their table.
+        if(!record.variation.empty() && !varied.insert(record.variation_of).second)
+          continue;
         const Markup summary
             = text(record.name + "  ")
               + element("span", {{"class", "hash"}}, text("SHA-256 " + record.hash));

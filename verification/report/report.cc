@@ -18,6 +18,25 @@ namespace meltfront::verification
       return labels;
     }
 
+    bool is_variation(const CaseRuns &runs)
+    {
+      return !runs.record->variation.empty();
+    }
+
+    /** The varied cases, or the others. */
+    std::vector<CaseRuns> chosen(std::vector<CaseRuns> runs, bool variations)
+    {
+      std::erase_if(runs, [variations](const CaseRuns &one)
+                    { return is_variation(one) != variations; });
+      return runs;
+    }
+
+    bool has_findings(const ReportContext &context)
+    {
+      return !context.result.findings.empty() || !context.result.pictures.empty()
+             || !context.variations.empty();
+    }
+
     Markup navigation(const ReportContext &context)
     {
       const auto link = [](const std::string &anchor, const std::string &words) {
@@ -25,6 +44,8 @@ namespace meltfront::verification
       };
       Markup links
           = element("a", {{"href", "#verdict"}, {"class", "mark"}}, text("meltfront"))
+            + (has_findings(context) ? link("findings", "Findings") : Markup())
+            + (context.variations.empty() ? Markup() : link("variations", "Variations"))
             + link("cost", "Cost");
       if(!context.result.stability.empty())
         links += link("stability", "Stability");
@@ -75,7 +96,8 @@ namespace meltfront::verification
             + void_element("meta", {{"name", "color-scheme"}, {"content", "light dark"}})
             + element("title", title) + element("style", Markup(page_style()));
       Markup body = marker_definitions() + navigation(context);
-      Markup chapters = verdict_chapter(context) + cost_chapter(context)
+      Markup chapters = verdict_chapter(context) + findings_chapter(context)
+                        + variations_chapter(context) + cost_chapter(context)
                         + stability_chapter(context) + effects_chapter(context)
                         + orders_chapter(context);
       for(const CaseRuns &runs : context.runs)
@@ -92,9 +114,13 @@ namespace meltfront::verification
   {
     make_directory(directory + "/tables");
     make_directory(directory + "/plots");
-    const ReportContext context{result, collect_runs(result),
+    const std::vector<CaseRuns> all = collect_runs(result);
+    const ReportContext context{result,
+                                chosen(all, false),
+                                chosen(all, true),
                                 MethodStyles(labels_of(result)),
-                                PlotFolder(directory + "/plots"), directory};
+                                PlotFolder(directory + "/plots"),
+                                directory};
     write_text_tables(context);
     write_file(directory + "/report.html", page(context).html() + "\n");
   }

@@ -97,6 +97,18 @@ namespace meltfront::verification
                      text(words));
     }
 
+    Markup findings_line(const std::vector<FindingResult> &findings)
+    {
+      if(findings.empty())
+        return {};
+      const auto held = std::ranges::count_if(findings, &FindingResult::holds);
+      const auto all = static_cast<long>(findings.size());
+      return element("p", {{"class", held == all ? "verdict good" : "verdict bad"}},
+                     text(held == all
+                              ? fmt::format("All {} findings hold", all)
+                              : fmt::format("{} of {} findings hold", held, all)));
+    }
+
     Markup facts(const MatrixResult &result)
     {
       int finished = 0, refused = 0, failed = 0;
@@ -182,7 +194,8 @@ namespace meltfront::verification
     Markup content
         = element("p", {{"class", "kicker"}}, text(kicker))
           + element("h1", result.title.empty() ? "Matrix " + result.name : result.title)
-          + verdict_line(result) + text(" ") + stability_line(result.stability);
+          + verdict_line(result) + text(" ") + stability_line(result.stability)
+          + text(" ") + findings_line(result.findings);
     if(!result.description.empty())
       content += element("p", {{"class", "lead"}}, text(result.description));
     content += facts(result);

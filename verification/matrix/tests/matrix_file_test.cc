@@ -1,4 +1,5 @@
 #include <cases/case_file/case_file.h>
+#include <cases/case_file/vary_case.h>
 #include <cases/error.h>
 #include <verification/matrix/matrix_file.h>
 
@@ -87,6 +88,69 @@ namespace meltfront::verification
       EXPECT_THROW(read_matrix_text("set title = Nothing\n", "x.prm"), cases::InputError);
     }
 
+    const std::string study
+        = "set title = A study\n"
+          "subsection Block 1\n"
+          "  set cases = bar\n"
+          "  set methods = sph\n"
+          "  set resolutions = 20, 40\n"
+          "  set variations = Scene/Material/latent heat = 7 | 70; Scene/end front = 1\n"
+          "end\n"
+          "subsection Finding 1\n"
+          "  set claim = The order is {1}, and {2}.\n"
+          "  set evidence 1 = bar[latent_heat=*]: sph: order of front_rms >= 1.5\n"
+          "  set evidence 2 = bar: sph[jitter=0.2]: front_rms at n=20 <= 1\n"
+          "end\n"
+          "subsection Picture 1\n"
+          "  set caption = Errors.\n"
+          "  set cases = bar\n"
+          "  set runs = sph; sph[jitter=*]\n"
+          "  set against = cpu_seconds\n"
+          "end\n";
+
+    TEST(MatrixFile, ReadsVariationsFindingsAndPictures)
+    {
+      const Matrix matrix = read_matrix_text(study, "study.prm");
+      const std::vector<CaseAxis> &axes = matrix.blocks.at(0).variations;
+      ASSERT_EQ(axes.size(), 2u);
+      EXPECT_EQ(axes[0].key, "Scene/Material/latent heat");
+      EXPECT_EQ(axes[0].values, (std::vector<std::string>{"7", "70"}));
+      EXPECT_EQ(axes[1].values, (std::vector<std::string>{"1"}));
+      ASSERT_EQ(matrix.findings.size(), 1u);
+      const Finding &finding = matrix.findings[0];
+      EXPECT_EQ(finding.claim, "The order is {1}, and {2}.");
+      ASSERT_EQ(finding.evidence.size(), 2u);
+      EXPECT_EQ(finding.evidence[0].cases, "bar[latent_heat=*]");
+      EXPECT_EQ(finding.evidence[0].criterion.statistic, cases::Statistic::order);
+      EXPECT_EQ(finding.evidence[0].criterion.lower, 1.5);
+      EXPECT_EQ(finding.evidence[1].criterion.method, "sph[jitter=0.2]");
+      ASSERT_EQ(matrix.pictures.size(), 1u);
+      EXPECT_EQ(matrix.pictures[0].runs,
+                (std::vector<std::string>{"sph", "sph[jitter=*]"}));
+      EXPECT_EQ(matrix.pictures[0].quantity, "front_rms");
+      EXPECT_EQ(matrix.pictures[0].against, "cpu_seconds");
+    }
+
+    TEST(MatrixFile, SaysWhatIsWrongWithAStudy)
+    {
+      const auto expect
+          = [](const std::string &from, const std::string &to, const std::string &part)
+      {
+        const std::string message = message_of(study, from, to);
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+      };
+      expect("latent heat = 7 | 70", "latent heat", "two.prm:6:");
+      expect("7 | 70", "7 | ", "no value");
+      expect("Scene/end front = 1", "Scene/Material/latent heat = 1", "second time");
+      expect("and {2}", "and {3}", "two.prm:9:");
+      expect("bar: sph[jitter=0.2]: front_rms at n=20", "front_rms", "CASE: METHOD");
+      expect("order of front_rms >= 1.5", "order of front_rms", "two.prm:10:");
+      expect("evidence 2", "evidence 3", "without 'evidence 2'");
+      expect("  set claim = The order is {1}, and {2}.\n", "", "claim");
+      expect("  set caption = Errors.\n", "", "caption");
+      expect("subsection Finding 1", "subsection Found 1", "Found 1");
+    }
+
     TEST(MatrixLibrary, HoldsMatricesOfCasesThatThereAre)
     {
       const std::vector<std::string> names = matrix_names();
@@ -97,6 +161,12 @@ namespace meltfront::verification
       {
         const Matrix matrix = load_matrix(name);
         EXPECT_EQ(matrix.name, name);
+        for(const PlannedCase &planned : planned_cases(matrix))
+          if(!planned.settings.empty())
+          {
+            EXPECT_NO_THROW(cases::vary_case(cases::load_case(planned.base), planned.name,
+                                             planned.settings));
+          }
         for(const std::string &case_name : case_names(matrix))
           EXPECT_NE(std::ranges::find(known, case_name), known.end()) << case_name;
       }
