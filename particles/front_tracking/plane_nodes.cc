@@ -242,6 +242,20 @@ namespace meltfront::particles::front_tracking
     }
   }
 
+  void PlaneNodes::move(const std::vector<PlanePoint> &places)
+  {
+    position = places;
+    bins = PlaneBins(position, spacing);
+    areas_are_old = true;
+  }
+
+  void PlaneNodes::refresh_areas()
+  {
+    if(areas_are_old)
+      share_area();
+    areas_are_old = false;
+  }
+
   void PlaneNodes::share_area()
   {
     sample_spacing = spacing / samples_across;
@@ -264,6 +278,7 @@ namespace meltfront::particles::front_tracking
         of_node[bins.nearest(sample + nudge * PlanePoint(golden, 1 - golden))].push_back(
             sample);
       }
+    samples.clear();
     sample_offsets.assign(1, 0);
     for(const auto &own : of_node)
     {

@@ -62,6 +62,12 @@ namespace meltfront::particles::front_tracking
     /** Distance to the nearest wall (m), negative outside of the domain. */
     double wall_distance(const PlanePoint &point) const;
 
+    /** Put the nodes to other places. Their areas are old until refresh_areas(). */
+    void move(const std::vector<PlanePoint> &places);
+
+    /** Share the area among the nodes anew if they have moved. */
+    void refresh_areas();
+
     /** Corners of the domain's bounding box (m). */
     PlanePoint lower{0, 0}, upper{0, 0};
 
@@ -89,6 +95,7 @@ namespace meltfront::particles::front_tracking
     void share_area();
 
     const cases::Scene &scene;
+    bool areas_are_old = false;
   };
 } // namespace meltfront::particles::front_tracking
 

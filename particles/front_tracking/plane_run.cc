@@ -73,6 +73,7 @@ namespace meltfront::particles::front_tracking
     , parameters(read_tracking_parameters(scene, resolution))
     , nodes(scene, parameters.intervals, {parameters.jitter, resolution.seed})
     , heat(scene, nodes, settings_of(parameters, resolution.threads))
+    , relaxation(scene, nodes, parameters.relax_rule, std::max(1, resolution.threads))
     , bounds(cases::temperature_bounds(scene))
   {
     if(!(scene.material.latent_heat > 0))
@@ -295,6 +296,20 @@ namespace meltfront::particles::front_tracking
     // Particles that were placed anew may lie beyond a wall.
     heat.mark_active(state.front);
     follow_topology();
+    if(parameters.relax > 0 && step_number % parameters.relax == 0)
+      relax_nodes();
+  }
+
+  void PlaneRun::relax_nodes()
+  {
+    const std::vector<PlanePoint> places = relaxation.places(
+        state, heat.settings.solid_beyond, parameters.relax * last_step);
+    relaxation.resample(places, heat, state);
+    if(older)
+      relaxation.resample(places, heat, *older);
+    const std::vector<PlanePoint> before = nodes.position;
+    nodes.move(places);
+    heat.nodes_moved(before);
   }
 
   /** Fronts that met or vanished: their latent heat goes into the nodes, and the next
@@ -309,6 +324,7 @@ namespace meltfront::particles::front_tracking
         = update_topology(state.front, nodes, heat.settings.solid_beyond, settings);
     if(changes.empty())
       return;
+    nodes.refresh_areas();
     settle_nodes();
     const double latent = scene.material.solid.density * scene.material.latent_heat;
     for(const TopologyEvent &change : changes)

@@ -4,6 +4,7 @@
 #include <cases/method.h>
 #include <cases/stopwatch.h>
 #include <particles/front_tracking/plane_heat.h>
+#include <particles/front_tracking/plane_relax.h>
 #include <particles/front_tracking/plane_start.h>
 #include <particles/front_tracking/tracking_options.h>
 
@@ -33,6 +34,7 @@ namespace meltfront::particles::front_tracking
     bool move(const std::vector<double> &displacement, PlaneState &next,
               double &largest) const;
     void accept(PlaneState next);
+    void relax_nodes();
     void follow_topology();
     void settle_nodes();
     void check(const PlaneState &checked) const;
@@ -50,6 +52,7 @@ namespace meltfront::particles::front_tracking
     TrackingParameters parameters;
     PlaneNodes nodes;
     PlaneHeat heat;
+    PlaneRelaxation relaxation;
     cases::TemperatureBounds bounds;
     std::string start_in_words;
     PlaneState state;

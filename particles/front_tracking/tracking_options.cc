@@ -110,7 +110,19 @@ namespace meltfront::particles::front_tracking
          "The phase that gives way where the densities differ; the other is at rest.",
          0,
          0,
-         {"liquid", "solid"}}};
+         {"liquid", "solid"}},
+        {"relax", "1", 0L,
+         "Inner nodes are relaxed every so many steps, so that they keep their distance "
+         "from the front as it moves through them; 0: they stay.",
+         0, 1e6},
+        {"relax_rule",
+         "",
+         std::string("homing"),
+         "What relaxed nodes obey: repulsion among nodes and front with springs to where "
+         "they were laid, or the Lennard-Jones energy alone as published.",
+         0,
+         0,
+         {"homing", "lennard-jones"}}};
   }
 
   int simulated_dimension(const cases::Scene &scene, const cases::Options &options)
@@ -170,6 +182,10 @@ namespace meltfront::particles::front_tracking
     result.exact_history = options.get_string("history") == "exact";
     result.displaced = options.get_string("displaced") == "liquid" ? Displaced::liquid
                                                                    : Displaced::solid;
+    result.relax = static_cast<int>(options.get_integer("relax"));
+    result.relax_rule = options.get_string("relax_rule") == "homing"
+                            ? RelaxRule::homing
+                            : RelaxRule::lennard_jones;
     return result;
   }
 } // namespace meltfront::particles::front_tracking
