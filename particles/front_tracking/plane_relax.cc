@@ -22,8 +22,6 @@ namespace meltfront::particles::front_tracking
     constexpr double wall_clearance = 0.5;
     /** No node comes nearer to another one. */
     constexpr double least_distance = 0.3;
-    /** Up to which way a polynomial about a node's place goes on to its new one. */
-    constexpr double short_way = 0.3;
 
     constexpr double coincidence = 1e-9;
   } // namespace
@@ -216,8 +214,7 @@ namespace meltfront::particles::front_tracking
 #pragma omp for schedule(static)
       for(std::size_t i = 0; i < nodes.size(); ++i)
       {
-        const PlanePoint way = places[i] - nodes.position[i];
-        if(way == PlanePoint(0, 0))
+        if(places[i] == nodes.position[i])
           continue;
         const double distance
             = index.signed_distance(places[i], std::max(absorbed, coincidence * h));
@@ -231,18 +228,16 @@ namespace meltfront::particles::front_tracking
         const std::vector<double> &known = values[index_of(phase)];
         StencilMaker &maker = makers[omp_get_thread_num()];
         state.phase[i] = phase;
-        if(phase != phase_before[i] || way.norm() > short_way * h)
+        if(phase != phase_before[i])
         {
           maker.make(places[i], phase, stencil);
           state.unknown[i] = stencil.apply(value_of, known);
           continue;
         }
-        maker.make(nodes.position[i], phase, stencil);
-        state.unknown[i] += way.x() * stencil.apply(d_x, known)
-                            + way.y() * stencil.apply(d_y, known)
-                            + way.x() * way.x() / 2 * stencil.apply(d_xx, known)
-                            + way.x() * way.y() * stencil.apply(d_xy, known)
-                            + way.y() * way.y() / 2 * stencil.apply(d_yy, known);
+        const PlanePoint way = places[i] - nodes.position[i];
+        maker.make(nodes.position[i] + way / 2, phase, stencil);
+        state.unknown[i]
+            += way.x() * stencil.apply(d_x, known) + way.y() * stencil.apply(d_y, known);
       }
     }
   }

@@ -32,9 +32,9 @@ namespace meltfront::particles::front_tracking
                                    double time);
 
     /**
-     * Give a state its temperatures at other places of the nodes: by the polynomial about
-     * each node in its phase, one order above that of the collocation, or about its new
-     * place where that was in another phase at the state's time.
+     * Give a state its temperatures at other places of the nodes: by a polynomial about
+     * the new place, one order above that of the collocation, fitted to the points of the
+     * phase in which it lies at the state's time. Nodes that stay keep theirs.
      */
     void resample(const std::vector<PlanePoint> &places, const PlaneHeat &heat,
                   PlaneState &state) const;
