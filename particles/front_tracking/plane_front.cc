@@ -10,10 +10,6 @@ namespace meltfront::particles::front_tracking
 {
   namespace
   {
-    /** Parts of each piece of the spline, for areas and distances: chords then leave the
-     * curve by a hundredth of what those between particles do. */
-    constexpr int parts_of_piece = 8;
-
     /** Of two pieces that face each other the normals have at most this cosine. */
     constexpr double facing_normals = -0.3;
 
@@ -119,6 +115,7 @@ namespace meltfront::particles::front_tracking
 
   void redistribute(PlaneFront &front, std::size_t curve, double target)
   {
+    const double area = signed_area(front, curve);
     const std::vector<double> knots = lengths_along(front, curve);
     const PeriodicSpline<PlanePoint> places(knots,
                                             of_curve(front, curve, front.position)),
@@ -148,6 +145,11 @@ namespace meltfront::particles::front_tracking
     replace(front.active, first, last, std::vector<char>(count, 1));
     for(std::size_t c = curve + 1; c < front.offsets.size(); ++c)
       front.offsets[c] = front.offsets[c] + count - (last - first);
+    update_curve(front, curve);
+    // Cut corners are given back, so that redistribution melts and freezes nothing.
+    const double shift = (area - signed_area(front, curve)) / knots.back();
+    for(std::size_t p = first; p < first + count; ++p)
+      front.position[p] -= shift * front.normal[p];
     update_curve(front, curve);
   }
 
@@ -207,6 +209,23 @@ namespace meltfront::particles::front_tracking
           vertices.push_back(spline.value(k, static_cast<double>(part) / parts));
       offsets.push_back(vertices.size());
     }
+  }
+
+  std::vector<PlanePoint> along_polygon(const PlaneFront &front,
+                                        const std::vector<PlanePoint> &values)
+  {
+    constexpr int parts = FrontIndex::parts_of_piece;
+    std::vector<PlanePoint> result;
+    for(std::size_t curve = 0; curve < front.curves(); ++curve)
+    {
+      const PeriodicSpline<PlanePoint> spline(lengths_along(front, curve),
+                                              of_curve(front, curve, values));
+      const std::size_t pieces = front.offsets[curve + 1] - front.offsets[curve];
+      for(std::size_t k = 0; k < pieces; ++k)
+        for(int part = 0; part < parts; ++part)
+          result.push_back(spline.value(k, static_cast<double>(part) / parts));
+    }
+    return result;
   }
 
   FrontIndex::FrontIndex(const PlaneFront &front, bool solid_beyond, double cell)
@@ -279,22 +298,31 @@ namespace meltfront::particles::front_tracking
     return winding;
   }
 
-  double FrontIndex::signed_distance(const PlanePoint &place, double reach) const
+  FrontPlace FrontIndex::closest(const PlanePoint &place, double reach) const
   {
-    double least = reach * reach;
-    const auto try_piece = [&](std::size_t v)
-    {
-      const PlanePoint &a = polygon.vertices[v], &b = polygon.vertices[following[v]];
-      const PlanePoint along = b - a;
-      const double square = along.squaredNorm();
-      const double share
-          = square > 0 ? std::clamp((place - a).dot(along) / square, 0., 1.) : 0.;
-      least = std::min(least, (a + share * along - place).squaredNorm());
-    };
+    FrontPlace found;
+    found.square = reach * reach;
     // Each piece is tried from the vertex that it begins at, which may be farther.
     bins.visit(place, reach + longest,
-               [&](std::uint32_t vertex, double) { try_piece(vertex); });
-    return solid(place) ? -std::sqrt(least) : std::sqrt(least);
+               [&](std::uint32_t v, double)
+               {
+                 const PlanePoint &a = polygon.vertices[v];
+                 const PlanePoint along = polygon.vertices[following[v]] - a;
+                 const double length = along.squaredNorm();
+                 const double share
+                     = length > 0 ? std::clamp((place - a).dot(along) / length, 0., 1.)
+                                  : 0.;
+                 const double square = (a + share * along - place).squaredNorm();
+                 if(square < found.square)
+                   found = {v, following[v], share, square};
+               });
+    return found;
+  }
+
+  double FrontIndex::signed_distance(const PlanePoint &place, double reach) const
+  {
+    const double distance = std::sqrt(closest(place, reach).square);
+    return solid(place) ? -distance : distance;
   }
 
   bool FrontIndex::film_between(const PlanePoint &from, const PlanePoint &to) const

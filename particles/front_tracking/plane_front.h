@@ -63,7 +63,8 @@ namespace meltfront::particles::front_tracking
   inline constexpr std::size_t fewest_on_curve = 8;
 
   /** Place a curve's particles at equal distances along its spline, near the target (m),
-   * with speeds and displacements interpolated; normals and curvatures anew. */
+   * so that it encloses the same area as before, with speeds and displacements
+   * interpolated; normals and curvatures anew. */
   void redistribute(PlaneFront &front, std::size_t curve, double target);
 
   /** The same of all curves of which a distance has left the range (in targets). @return
@@ -89,10 +90,29 @@ namespace meltfront::particles::front_tracking
     std::vector<PlanePoint> vertices;
   };
 
+  /** A place on a FrontPolygon: `share` of the way from a vertex to the one after it. */
+  struct FrontPlace
+  {
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+    std::size_t vertex = none, following = none;
+    double share = 0;
+    double square = 0; ///< of the distance from the point that was asked for (m^2)
+  };
+
+  /** Vectors of the particles, splines between them, at the vertices of a FrontPolygon of
+   * FrontIndex::parts_of_piece. */
+  std::vector<PlanePoint> along_polygon(const PlaneFront &front,
+                                        const std::vector<PlanePoint> &values);
+
   /** Who is where: winding numbers and distances, from the polygons of the splines. */
   class FrontIndex
   {
   public:
+    /** Parts of each piece of the spline, for areas and distances: chords then leave the
+     * curve by a hundredth of what those between particles do. */
+    static constexpr int parts_of_piece = 8;
+
     /**
      * @param solid_beyond whether what no curve encloses is solid
      * @param cell side of the search's cells (m), about the particles' distance
@@ -117,6 +137,9 @@ namespace meltfront::particles::front_tracking
      * @param reach beyond which only the sign and `reach` are returned
      */
     double signed_distance(const PlanePoint &place, double reach) const;
+
+    /** The nearest place on the front within a reach (m). */
+    FrontPlace closest(const PlanePoint &place, double reach) const;
 
     /** Whether the way between two points leads through pieces of the front that face
      * each other, however near to each other; not so where it cuts across a bend. */

@@ -123,19 +123,20 @@ namespace meltfront::particles::front_tracking
     maker.make(nodes.position[node], phase, stencil);
     row.columns = stencil.columns;
     row.weights.resize(stencil.columns.size());
-    PlanePoint direction(0, 0);
     const std::int32_t wall = nodes.wall_of_node[node];
+    PlanePoint outwards(0, 0);
+    double area = -1; // of the Laplacian
     if(wall >= 0)
     {
       const WallNode &on_wall = nodes.walls[wall];
       for(int i = 0; i < on_wall.n_pieces; ++i)
-        direction += (on_wall.held() ? on_wall.pieces[i].length : 1.)
-                     * on_wall.pieces[i].normal;
+        outwards += on_wall.pieces[i].length * on_wall.pieces[i].normal;
+      area = nodes.weight[node];
     }
     for(std::size_t e = 0; e < row.columns.size(); ++e)
-      row.weights[e] = wall >= 0 ? direction.x() * stencil.weights[d_x][e]
-                                       + direction.y() * stencil.weights[d_y][e]
-                                 : stencil.weights[d_xx][e] + stencil.weights[d_yy][e];
+      row.weights[e] = outwards.x() * stencil.weights[d_x][e]
+                       + outwards.y() * stencil.weights[d_y][e]
+                       - area * (stencil.weights[d_xx][e] + stencil.weights[d_yy][e]);
     row.reach = stencil.pure ? stencil.dilation + nodes.spacing : 0;
   }
 
@@ -226,7 +227,9 @@ namespace meltfront::particles::front_tracking
                     + value.after * moved(after[particle]));
   }
 
-  double PlaneHeat::wall_power(const PlaneState &state,
+  /** Where the temperature is held the power is what the balance of the wall node's area
+   * asks for: with the conduction away from the wall, what heats that area. */
+  double PlaneHeat::wall_power(const PlaneStep &step, const PlaneState &state,
                                std::span<const double> solution) const
   {
     double power = 0;
@@ -253,6 +256,7 @@ namespace meltfront::particles::front_tracking
         }
         continue;
       }
+      const cases::PhaseProperties &material = properties(phase);
       const Row &row = rows[wall.node];
       double sum = 0;
       for(std::size_t e = 0; e < row.columns.size(); ++e)
@@ -263,8 +267,12 @@ namespace meltfront::particles::front_tracking
       if(phase == NodePhase::solid && !sinks.empty())
         for(int i = 0; i < wall.n_pieces; ++i)
           sum += wall.pieces[i].length
-                 * sinks.gradient(place, state.time).dot(wall.pieces[i].normal);
-      power += properties(phase).conductivity * sum;
+                 * sinks.gradient(place, step.time).dot(wall.pieces[i].normal);
+      power += material.conductivity * sum
+               + nodes.weight[wall.node]
+                     * (material.volumetric_heat_capacity() / step.step * step.a
+                            * solution[wall.node]
+                        - known_rate(step, phase, wall.node));
     }
     return power;
   }

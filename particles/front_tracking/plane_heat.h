@@ -108,8 +108,8 @@ namespace meltfront::particles::front_tracking
     std::size_t most_unknowns = 0;
 
   private:
-    /** What is collocated at a node: the Laplacian inside, the outward derivative on a
-     * wall (times the wall's length where the temperature is held: for the power). */
+    /** What is collocated at a node: the Laplacian inside; on a wall the outward
+     * derivative times the wall's length, less the Laplacian times the node's area. */
     struct Row
     {
       std::vector<std::uint32_t> columns;
@@ -132,6 +132,7 @@ namespace meltfront::particles::front_tracking
     void make_front_stencils(const PlaneState &state);
     void find_front_values(const PlaneState &state);
     void add_node(const PlaneStep &step, const PlaneState &next, std::size_t node);
+    double known_rate(const PlaneStep &step, NodePhase phase, std::size_t node) const;
     void add_wall(const PlaneStep &step, const PlaneState &next, const WallNode &wall);
     void add_front(const PlaneStep &step, const PlaneState &next, std::size_t particle);
     void add(NodePhase phase, std::uint32_t column, double weight);
@@ -140,7 +141,8 @@ namespace meltfront::particles::front_tracking
     void extrapolate_inactive(PlaneState &state) const;
     double front_value(NodePhase phase, std::size_t particle,
                        std::span<const double> solution) const;
-    double wall_power(const PlaneState &state, std::span<const double> solution) const;
+    double wall_power(const PlaneStep &step, const PlaneState &state,
+                      std::span<const double> solution) const;
 
     const cases::Scene &scene;
     const PlaneNodes &nodes;

@@ -1,4 +1,5 @@
 #include <particles/front_tracking/plane_relax.h>
+#include <particles/front_tracking/plane_run.h>
 
 #include <omp.h>
 
@@ -227,18 +228,35 @@ namespace meltfront::particles::front_tracking
         const NodePhase phase = distance < 0 ? NodePhase::solid : NodePhase::liquid;
         const std::vector<double> &known = values[index_of(phase)];
         StencilMaker &maker = makers[omp_get_thread_num()];
-        state.phase[i] = phase;
-        if(phase != phase_before[i])
-        {
-          maker.make(places[i], phase, stencil);
-          state.unknown[i] = stencil.apply(value_of, known);
-          continue;
-        }
         const PlanePoint way = places[i] - nodes.position[i];
-        maker.make(nodes.position[i] + way / 2, phase, stencil);
-        state.unknown[i]
-            += way.x() * stencil.apply(d_x, known) + way.y() * stencil.apply(d_y, known);
+        const bool stayed = phase == phase_before[i];
+        maker.make(stayed ? PlanePoint(places[i] - way / 2) : places[i], phase, stencil);
+        const double found = stayed ? known[i] + way.x() * stencil.apply(d_x, known)
+                                          + way.y() * stencil.apply(d_y, known)
+                                    : stencil.apply(value_of, known);
+        // Few points in a thin body may bend a polynomial beyond their values.
+        double lowest = found, highest = found;
+        for(std::size_t e = 0; e < stencil.columns.size(); ++e)
+        {
+          const double value = known[stencil.columns[e]];
+          lowest = e == 0 ? value : std::min(lowest, value);
+          highest = e == 0 ? value : std::max(highest, value);
+        }
+        state.phase[i] = phase;
+        state.unknown[i] = std::clamp(found, lowest, highest);
       }
     }
+  }
+
+  void PlaneRun::relax_nodes()
+  {
+    const std::vector<PlanePoint> places = relaxation.places(
+        state, heat.settings.solid_beyond, parameters.relax * last_step);
+    relaxation.resample(places, heat, state);
+    if(older)
+      relaxation.resample(places, heat, *older);
+    const std::vector<PlanePoint> before = nodes.position;
+    nodes.move(places);
+    heat.nodes_moved(before);
   }
 } // namespace meltfront::particles::front_tracking

@@ -66,7 +66,6 @@ namespace meltfront::particles::front_tracking
 
   void PlaneRun::observe(cases::Observer &observer)
   {
-    nodes.refresh_areas();
     const PlaneMeasure measured = measure(scene, nodes, heat, state);
     for(int d = 0; d < 2; ++d)
     {

@@ -1,3 +1,5 @@
+#include <particles/front_tracking/plane_closure.h>
+#include <particles/front_tracking/plane_measure.h>
 #include <particles/front_tracking/plane_run.h>
 #include <particles/front_tracking/plane_topology.h>
 
@@ -37,19 +39,17 @@ namespace meltfront::particles::front_tracking
     /** What is accepted of a step that cannot be halved further. */
     constexpr double nearly_done = 1e-2;
 
-    /** Distance of front particles in spacings, and the shares of it within which they
-     * may stand. */
-    constexpr double front_spacing = 1.15;
+    /** Shares of their distance within which front particles may stand. */
     constexpr double closest = 0.7, farthest = 1.35;
 
     /** No step takes a curve nearer to its middle than by this share. */
     constexpr double share_of_radius = 0.5;
 
-    /** After fronts met, so many steps pass before any meet again: the new neck is to
-     * open first. Bodies that overlap meanwhile count as one anyway. */
-    constexpr long steps_between_meetings = 4;
+    /** No particle makes up for lost heat by more than this in a step, in spacings. */
+    constexpr double farthest_closure = 0.05;
 
-    constexpr double seed_cells = 3;
+    /** Largest and smallest radius of a seed around a sink, in spacings. */
+    constexpr double largest_seed = 3, smallest_seed = 0.75;
     constexpr double contour_margin = 4;
 
     /** Share of the span of the bounds by which temperatures may pass them. */
@@ -74,6 +74,10 @@ namespace meltfront::particles::front_tracking
     , nodes(scene, parameters.intervals, {parameters.jitter, resolution.seed})
     , heat(scene, nodes, settings_of(parameters, resolution.threads))
     , relaxation(scene, nodes, parameters.relax_rule, std::max(1, resolution.threads))
+    , marked(nodes, std::max(1, resolution.threads))
+    , closes_budget(
+          parameters.closure == Closure::always
+          || (parameters.closure == Closure::given_walls && wall_heat_is_given(scene)))
     , bounds(cases::temperature_bounds(scene))
   {
     if(!(scene.material.latent_heat > 0))
@@ -89,7 +93,7 @@ namespace meltfront::particles::front_tracking
   void PlaneRun::start()
   {
     const double h = nodes.spacing;
-    const PlaneStart found = find_plane_start(scene, seed_cells * h);
+    const PlaneStart found = find_plane_start(scene, smallest_seed * h, largest_seed * h);
     start_in_words = found.description;
     state.time = found.time;
     const ContourGrid grid
@@ -114,6 +118,7 @@ namespace meltfront::particles::front_tracking
                                 ? heat.sinks.value(nodes.position[i], state.time)
                                 : 0);
     heat.expand(state);
+    marked.seed(state.front, heat.settings.solid_beyond);
     condition = heat.worst_condition(state);
     step_number = found.time > scene.start_time ? 1 : 0;
     check(state);
@@ -169,6 +174,7 @@ namespace meltfront::particles::front_tracking
       if(fastest > 0)
         step = std::min(step, way / fastest);
     }
+    step = std::min(step, longest_step_of_films(front, topology_settings()));
     step = fresh ? first_step_share * step : std::min(step, largest_growth * last_step);
     const double rest = scene.end_time - state.time;
     if(step >= rest * (1 - 1e-10))
@@ -281,89 +287,52 @@ namespace meltfront::particles::front_tracking
     accept(std::move(next));
   }
 
+  /** Heat that the scheme lost in the step is made up for by the front. */
+  void PlaneRun::close_budget()
+  {
+    if(!closes_budget)
+      return;
+    const PlaneMeasure measured = measure(scene, nodes, heat, state);
+    const double missing = initial_heat + boundary_heat + heat.sinks.energy(state.time)
+                           - measured.sensible - measured.latent;
+    closed_heat
+        += front_tracking::close_budget(scene, heat.sinks, older->front, state, missing,
+                                        farthest_closure * nodes.spacing);
+  }
+
+  /** The level set goes along; then the particles are put onto its zeros. */
+  void PlaneRun::follow_level_set()
+  {
+    PlaneFront &front = state.front;
+    const auto ways = [&]
+    {
+      for(std::size_t p = 0; p < front.size(); ++p)
+        front.displacement[p] = front.position[p] - older->front.position[p];
+    };
+    ways();
+    marked.carry(older->front, front.displacement, step_number, state.time);
+    mismatch = std::max(mismatch, marked.mismatch(front) / nodes.spacing);
+    marked.reproject(front, front.displacement);
+    ways();
+  }
+
   void PlaneRun::accept(PlaneState next)
   {
     const double before = fresh ? next.wall_power : state.wall_power;
     boundary_heat += (next.time - state.time) * (before + next.wall_power) / 2;
-    for(std::size_t p = 0; p < next.front.size(); ++p)
-      next.front.displacement[p] = next.front.position[p] - state.front.position[p];
     older = std::move(state);
     state = std::move(next);
     fresh = false;
     ++step_number;
     check(state);
+    close_budget();
+    follow_level_set();
     redistribute(state.front, front_spacing * nodes.spacing, closest, farthest);
     // Particles that were placed anew may lie beyond a wall.
     heat.mark_active(state.front);
     follow_topology();
-    if(parameters.relax > 0 && step_number % parameters.relax == 0)
+    if(parameters.relax > 0 && !fresh && step_number % parameters.relax == 0)
       relax_nodes();
-  }
-
-  void PlaneRun::relax_nodes()
-  {
-    const std::vector<PlanePoint> places = relaxation.places(
-        state, heat.settings.solid_beyond, parameters.relax * last_step);
-    relaxation.resample(places, heat, state);
-    if(older)
-      relaxation.resample(places, heat, *older);
-    const std::vector<PlanePoint> before = nodes.position;
-    nodes.move(places);
-    heat.nodes_moved(before);
-  }
-
-  /** Fronts that met or vanished: their latent heat goes into the nodes, and the next
-   * step begins anew. */
-  void PlaneRun::follow_topology()
-  {
-    TopologySettings settings;
-    settings.spacing = nodes.spacing;
-    settings.front_spacing = front_spacing * nodes.spacing;
-    settings.join = step_number >= next_meeting;
-    const std::vector<TopologyEvent> changes
-        = update_topology(state.front, nodes, heat.settings.solid_beyond, settings);
-    if(changes.empty())
-      return;
-    nodes.refresh_areas();
-    settle_nodes();
-    const double latent = scene.material.solid.density * scene.material.latent_heat;
-    for(const TopologyEvent &change : changes)
-    {
-      if(!change.vanished)
-        next_meeting = step_number + steps_between_meetings;
-      const double energy = latent * change.solid_area;
-      const double booked
-          = book_latent_heat(state, scene, nodes, heat, change.place, energy);
-      events.emplace_back(
-          state.time,
-          fmt::format("{}; {:.3g} m^2 {} by that, of {:.3g} J/m latent heat {:.3g} J/m "
-                      "went into the nodes about it",
-                      change.what, std::abs(change.solid_area),
-                      change.solid_area > 0 ? "froze" : "melted", energy, booked));
-    }
-    older.reset();
-    fresh = true;
-  }
-
-  /** Nodes that changed their phase without a front that passed over them are at the
-   * melting temperature: beyond where the front was, their new phase has no past. */
-  void PlaneRun::settle_nodes()
-  {
-    const double absorbed = parameters.absorption * nodes.spacing;
-    const FrontIndex index(state.front, heat.settings.solid_beyond, nodes.spacing);
-    for(std::size_t i = 0; i < nodes.size(); ++i)
-    {
-      const PlanePoint &place = nodes.position[i];
-      const double distance = index.signed_distance(place, nodes.spacing);
-      const NodePhase phase = distance < 0 ? NodePhase::solid : NodePhase::liquid;
-      const double kept = state.phase[i] == NodePhase::front ? 1.5 * absorbed : absorbed;
-      if(state.phase[i] == phase || std::abs(distance) < kept)
-        continue;
-      state.phase[i] = phase;
-      state.unknown[i]
-          = scene.material.melting_temperature
-            - (phase == NodePhase::solid ? heat.sinks.value(place, state.time) : 0);
-    }
   }
 
   void PlaneRun::check(const PlaneState &checked) const

@@ -4,8 +4,10 @@
 #include <cases/method.h>
 #include <cases/stopwatch.h>
 #include <particles/front_tracking/plane_heat.h>
+#include <particles/front_tracking/plane_marked_front.h>
 #include <particles/front_tracking/plane_relax.h>
 #include <particles/front_tracking/plane_start.h>
+#include <particles/front_tracking/plane_topology.h>
 #include <particles/front_tracking/tracking_options.h>
 
 #include <array>
@@ -16,6 +18,9 @@
 
 namespace meltfront::particles::front_tracking
 {
+  /** Distance of front particles along their curves, in spacings. */
+  inline constexpr double front_spacing = 1.15;
+
   /** A run of `rkpm-tracked` in the plane: start, time steps, events, snapshots. */
   class PlaneRun
   {
@@ -35,7 +40,10 @@ namespace meltfront::particles::front_tracking
               double &largest) const;
     void accept(PlaneState next);
     void relax_nodes();
+    void close_budget();
+    void follow_level_set();
     void follow_topology();
+    TopologySettings topology_settings() const;
     void settle_nodes();
     void check(const PlaneState &checked) const;
 
@@ -53,6 +61,8 @@ namespace meltfront::particles::front_tracking
     PlaneNodes nodes;
     PlaneHeat heat;
     PlaneRelaxation relaxation;
+    MarkedFront marked;
+    bool closes_budget;
     cases::TemperatureBounds bounds;
     std::string start_in_words;
     PlaneState state;
@@ -61,6 +71,9 @@ namespace meltfront::particles::front_tracking
     bool fresh = true; ///< no step was made since the start or an event
     long step_number = 0, capped_steps = 0, most_passes = 0, next_meeting = 0;
     double boundary_heat = 0, initial_heat = 0, condition = 0;
+    double closed_heat = 0;  ///< that the front made up for (J/m)
+    double decreed_heat = 0; ///< latent, of areas that changed phase by decree (J/m)
+    double mismatch = 0;     ///< largest of level set and particles, in spacings
     std::vector<std::pair<double, std::string>> events; ///< not yet told
 
     std::array<std::vector<double>, 2> site_positions, front_positions;

@@ -15,7 +15,10 @@ namespace meltfront::particles::front_tracking
   namespace
   {
     /** Neighbours and walls must change a similarity solution by less than this part. */
-    constexpr double negligible = 1e-6;
+    constexpr double negligible = 1e-5;
+
+    /** A seed that is felt is tried again with this share of its radius. */
+    constexpr double smaller = 0.9;
 
     constexpr int samples_across = 33;
 
@@ -68,41 +71,57 @@ namespace meltfront::particles::front_tracking
       return least;
     }
 
-    void require_independence(const cases::Scene &scene, const std::vector<Seed> &seeds,
-                              double clock)
+    /** Whether walls or other sinks feel what is around a sink. */
+    bool felt(const cases::Scene &scene, const std::vector<Seed> &seeds, double clock)
     {
       const double diffusivity = scene.material.liquid.diffusivity();
-      const auto felt = [&](double distance)
-      { return std::exp(-distance * distance / (4 * diffusivity * clock)) > negligible; };
+      double least = std::numeric_limits<double>::infinity();
       for(std::size_t i = 0; i < seeds.size(); ++i)
       {
-        double least = wall_distance(scene, seeds[i].place);
+        least = std::min(least, wall_distance(scene, seeds[i].place));
         for(std::size_t j = 0; j < i; ++j)
           least = std::min(least, (seeds[i].place - seeds[j].place).norm() / 2);
-        if(felt(least))
-          throw cases::Refusal("rkpm-tracked cannot seed the front of a sink: walls or "
-                               "other sinks feel it before it has grown to the spacing's "
-                               "size; take more nodes or give the initial front");
+      }
+      return std::exp(-least * least / (4 * diffusivity * clock)) > negligible;
+    }
+
+    /** When the smallest seed has grown to the largest radius that none feels (s). */
+    double seeding_clock(const cases::Scene &scene, const std::vector<Seed> &seeds,
+                         double smallest_radius, double largest_radius)
+    {
+      for(double radius = largest_radius;; radius *= smaller)
+      {
+        double clock = 0;
+        for(const Seed &seed : seeds)
+        {
+          const double share
+              = std::max(radius, smallest_radius) / seed.solution->front(1);
+          clock = std::max(clock, share * share);
+        }
+        if(!felt(scene, seeds, clock))
+          return clock;
+        if(radius <= smallest_radius)
+          throw cases::Refusal(fmt::format("rkpm-tracked cannot seed the front of a "
+                                           "sink: walls or other sinks feel it "
+                                           "before it has grown to {:.3g} m; take more "
+                                           "nodes or give the initial front",
+                                           smallest_radius));
       }
     }
 
-    PlaneStart seeded_start(const cases::Scene &scene, double radius)
+    PlaneStart seeded_start(const cases::Scene &scene, double smallest_radius,
+                            double largest_radius)
     {
       const double far = scene.initial.temperature({}, scene.start_time);
       std::vector<Seed> seeds;
-      double clock = 0;
       for(const cases::PointSource &source : scene.sources)
-      {
         seeds.push_back(
             {solution_of_strength(scene, far, -source.power(scene.start_time)),
              PlanePoint(source.position[0], source.position[1])});
-        const double share = radius / seeds.back().solution->front(1);
-        clock = std::max(clock, share * share);
-      }
+      const double clock = seeding_clock(scene, seeds, smallest_radius, largest_radius);
       if(!(scene.start_time + clock < scene.end_time))
         throw cases::Refusal("rkpm-tracked: the front does not grow to the size of its "
                              "seed before the end; take more nodes along the side");
-      require_independence(scene, seeds, clock);
       PlaneStart start;
       start.time = scene.start_time + clock;
       start.description
@@ -168,7 +187,8 @@ namespace meltfront::particles::front_tracking
     }
   } // namespace
 
-  PlaneStart find_plane_start(const cases::Scene &scene, double seed_radius)
+  PlaneStart find_plane_start(const cases::Scene &scene, double smallest_seed,
+                              double largest_seed)
   {
     const double time = scene.start_time;
     PlaneStart start;
@@ -209,6 +229,6 @@ namespace meltfront::particles::front_tracking
           "rkpm-tracked needs a front at the start: one phase fills the domain, and no "
           "line sink in a uniform liquid seeds one; give the initial front or an initial "
           "temperature that crosses the melting temperature");
-    return seeded_start(scene, seed_radius);
+    return seeded_start(scene, smallest_seed, largest_seed);
   }
 } // namespace meltfront::particles::front_tracking

@@ -21,11 +21,13 @@ namespace meltfront::particles::front_tracking
   /**
    * The exact solution's front, the scene's level set, where the initial temperature is
    * the melting temperature, or, around sinks in a uniform liquid, the similarity
-   * solution of each at the time at which the smallest has grown to a radius.
-   * @param seed_radius of that solution (m)
+   * solution of each at the time at which the smallest has grown to a radius: the largest
+   * one before walls or other sinks are felt.
+   * @param smallest_seed, largest_seed bounds of that radius (m)
    * @throws cases::Refusal where none of these applies
    */
-  PlaneStart find_plane_start(const cases::Scene &scene, double seed_radius);
+  PlaneStart find_plane_start(const cases::Scene &scene, double smallest_seed,
+                              double largest_seed);
 } // namespace meltfront::particles::front_tracking
 
 #endif

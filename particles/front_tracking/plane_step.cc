@@ -65,8 +65,20 @@ namespace meltfront::particles::front_tracking
       return;
     }
     const cases::PhaseProperties &material = properties(phase);
+    add(phase, column, material.volumetric_heat_capacity() / step.step * step.a);
+    const Row &row = rows[node];
+    for(std::size_t e = 0; e < row.columns.size(); ++e)
+      add(phase, row.columns[e], -material.conductivity * row.weights[e]);
+    finish_row(known_rate(step, phase, node));
+  }
+
+  /** Heat per volume and time that a node's balance knows: of states before the step, of
+   * what the sinks take off the unknown, and released. */
+  double PlaneHeat::known_rate(const PlaneStep &step, NodePhase phase,
+                               std::size_t node) const
+  {
     const PlanePoint &place = nodes.position[node];
-    const double capacity = material.volumetric_heat_capacity() / step.step;
+    const double capacity = properties(phase).volumetric_heat_capacity() / step.step;
     double known = capacity * step.b * step.last.extended(phase, node, place);
     if(step.older)
       known -= capacity * step.c * step.older->extended(phase, node, place);
@@ -80,13 +92,12 @@ namespace meltfront::particles::front_tracking
     }
     if(scene.heat_release)
       known += (*scene.heat_release)({place.x(), place.y(), 0}, step.time);
-    add(phase, column, capacity * step.a);
-    const Row &row = rows[node];
-    for(std::size_t e = 0; e < row.columns.size(); ++e)
-      add(phase, row.columns[e], -material.conductivity * row.weights[e]);
-    finish_row(known);
+    return known;
   }
 
+  /** Where the temperature is not held, the balance of the node's area: what flows in
+   * through the wall heats it or is conducted on. To the condition at the wall it adds
+   * the heat equation times half a spacing, and so keeps the heat. */
   void PlaneHeat::add_wall(const PlaneStep &step, const PlaneState &next,
                            const WallNode &wall)
   {
@@ -101,28 +112,32 @@ namespace meltfront::particles::front_tracking
       finish_row(held->boundary->value(position, step.time) - shift);
       return;
     }
-    const double conductivity = properties(phase).conductivity;
-    double inflow = 0;
+    const cases::PhaseProperties &material = properties(phase);
+    const double area = nodes.weight[wall.node];
+    add(phase, wall.node,
+        area * material.volumetric_heat_capacity() / step.step * step.a);
+    double inflow = area * known_rate(step, phase, wall.node);
     for(int i = 0; i < wall.n_pieces; ++i)
     {
       const WallPiece &piece = wall.pieces[i];
       if(singular)
-        inflow -= conductivity * sinks.gradient(place, step.time).dot(piece.normal);
+        inflow -= piece.length * material.conductivity
+                  * sinks.gradient(place, step.time).dot(piece.normal);
       if(piece.boundary->kind == cases::BoundaryKind::insulated)
         continue;
       const double given = piece.boundary->value(position, step.time);
       if(piece.boundary->kind == cases::BoundaryKind::heat_transfer)
       {
-        const double transfer = piece.boundary->heat_transfer_coefficient;
+        const double transfer = piece.length * piece.boundary->heat_transfer_coefficient;
         add(phase, wall.node, transfer);
         inflow += transfer * (given - shift);
       }
       else
-        inflow += given;
+        inflow += piece.length * given;
     }
     const Row &row = rows[wall.node];
     for(std::size_t e = 0; e < row.columns.size(); ++e)
-      add(phase, row.columns[e], conductivity * row.weights[e]);
+      add(phase, row.columns[e], material.conductivity * row.weights[e]);
     finish_row(inflow);
   }
 
@@ -200,7 +215,7 @@ namespace meltfront::particles::front_tracking
     for(std::size_t p = 0; p < displacement.size(); ++p)
       displacement[p] = nodes.spacing * solution[nodes.size() + p];
     update_expansions(next, solution);
-    next.wall_power = wall_power(next, solution);
+    next.wall_power = wall_power(step, next, solution);
     return displacement;
   }
 
@@ -214,7 +229,6 @@ namespace meltfront::particles::front_tracking
     std::vector<double> solution(state.unknown);
     solution.resize(nodes.size() + state.front.size(), 0.);
     update_expansions(state, solution);
-    state.wall_power = wall_power(state, solution);
   }
 
   /** Derivatives at the front particles from a solution, taken along to where they move;

@@ -1,35 +1,40 @@
-#include <particles/front_tracking/plane_contour.h>
 #include <particles/front_tracking/plane_topology.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 namespace meltfront::particles::front_tracking
 {
   namespace
   {
-    /** Normals of particles that face each other make at least this angle's cosine. */
+    /** Normals of particles that face each other make at most this cosine. */
     constexpr double facing = -0.5;
 
-    /** Particles so near on one curve do not meet: the curve only turns. */
+    /** Particles so near on one curve do not face each other: the curve only turns. */
     constexpr std::size_t places_along_curve = 3;
 
-    /** A bridge is wider than the gap by so many spacings. */
-    constexpr double bridge_margin = 0.5;
+    /** Gaps between facing particles that steps look at, in spacings, and the share of
+     * one, or the part of a spacing, that a step may take from it. */
+    constexpr double widest_gap = 1;
+    constexpr double share_of_gap = 0.5, least_closing = 0.1;
+
+    /** Spacings about a change within which particles make up for its area, and by how
+     * much at most. */
+    constexpr double near_change = 2.5, farthest_shift = 0.1;
+
+    /** So much of it: no more than went is to come back. */
+    constexpr double share_made_up = 0.95;
+
+    /** Spacings within which a particle finds its contour; one without has none. */
+    constexpr double pairing_reach = 0.5;
 
     /** Share of its distance from the melting temperature by which a node is changed. */
     constexpr double largest_share = 0.5;
-
-    /** Where two pieces of the front are about to meet. */
-    struct Contact
-    {
-      PlanePoint place;
-      double gap;
-      bool solid; ///< the bridge: solid joins solid across liquid
-    };
 
     /** Whether two particles stand a few places from each other on one curve. */
     bool are_near_along_curve(const PlaneFront &front, std::size_t first,
@@ -45,50 +50,46 @@ namespace meltfront::particles::front_tracking
       return false;
     }
 
-    /** Particles of other curves, or of other parts of the same one, that face each other
-     * across a gap. */
-    std::vector<Contact> find_contacts(const PlaneFront &front, const FrontIndex &index,
-                                       const TopologySettings &settings)
+    /** Call visitor(p, q, gap) for particles that face each other across less than the
+     * widest gap (m), positive across solid. */
+    template <typename Visitor>
+    void visit_facing(const PlaneFront &front, const TopologySettings &settings,
+                      Visitor &&visitor)
     {
-      std::vector<Contact> contacts;
-      const double reach = settings.meeting_gap * settings.spacing;
+      const double reach = widest_gap * settings.spacing;
       // Facing particles stand opposite to each other to half of their distance only.
       const double search = std::hypot(reach, 0.6 * settings.front_spacing);
       const PlaneBins bins(front.position, settings.front_spacing);
       for(std::size_t p = 0; p < front.size(); ++p)
-        bins.visit(
-            front.position[p], search,
-            [&](std::uint32_t q, double)
-            {
-              if(q <= p || front.normal[p].dot(front.normal[q]) > facing
-                 || are_near_along_curve(front, p, q))
-                return;
-              const PlanePoint between = front.position[q] - front.position[p];
-              const PlanePoint direction
-                  = (front.normal[p] - front.normal[q]).normalized();
-              const double gap = between.dot(direction);
-              if(std::abs(gap) > reach)
-                return;
-              const PlanePoint middle = (front.position[p] + front.position[q]) / 2;
-              // A gap of liquid is gone round by no body of solid, where two
-              // overlap by two of them.
-              const int winding = index.winding(middle);
-              contacts.push_back({middle, std::abs(gap), winding == 0 || winding >= 2});
-            });
-      return contacts;
+        bins.visit(front.position[p], search,
+                   [&](std::uint32_t q, double)
+                   {
+                     if(q <= p || !front.active[p] || !front.active[q]
+                        || front.normal[p].dot(front.normal[q]) > facing
+                        || are_near_along_curve(front, p, q))
+                       return;
+                     const double gap
+                         = (front.position[q] - front.position[p])
+                               .dot((front.normal[p] - front.normal[q]).normalized());
+                     if(std::abs(gap) <= reach)
+                       visitor(p, q, gap);
+                   });
     }
 
-    double bridged(double distance, const PlanePoint &place,
-                   const std::vector<Contact> &contacts, double spacing)
+    /** The middle of the narrowest gap; where there is none, the place given. */
+    PlanePoint narrowest_gap(const PlaneFront &front, const TopologySettings &settings,
+                             PlanePoint place)
     {
-      for(const Contact &contact : contacts)
-      {
-        const double radius = contact.gap / 2 + bridge_margin * spacing;
-        const double from_bridge = (place - contact.place).norm() - radius;
-        distance = contact.solid ? std::min(distance, from_bridge)
-                                 : std::max(distance, -from_bridge);
-      }
-      return distance;
+      double least = std::numeric_limits<double>::infinity();
+      visit_facing(front, settings,
+                   [&](std::size_t p, std::size_t q, double gap)
+                   {
+                     if(std::abs(gap) >= least)
+                       return;
+                     least = std::abs(gap);
+                     place = (front.position[p] + front.position[q]) / 2;
+                   });
+      return place;
     }
 
     void take_speeds(const PlaneFront &old, PlaneFront &front, double spacing)
@@ -97,14 +98,6 @@ namespace meltfront::particles::front_tracking
       for(std::size_t p = 0; p < front.size(); ++p)
         if(const long nearest = bins.nearest(front.position[p]); nearest >= 0)
           front.speed[p] = old.speed[nearest];
-    }
-
-    double total_area(const PlaneFront &front)
-    {
-      double sum = 0;
-      for(std::size_t c = 0; c < front.curves(); ++c)
-        sum += signed_area(front, c);
-      return sum;
     }
 
     std::vector<TopologyEvent> remove_vanished(PlaneFront &front, const PlaneNodes &nodes,
@@ -125,15 +118,18 @@ namespace meltfront::particles::front_tracking
             = curve_radius(front, c) < settings.least_radius * settings.spacing;
         if(!small && !outside)
           continue;
-        const double area = signed_area(front, c);
+        if(outside && !small)
+        {
+          front.remove_curve(c);
+          continue;
+        }
         PlanePoint centre(0, 0);
         for(std::size_t p = first; p < last; ++p)
           centre += front.position[p] / static_cast<double>(last - first);
         TopologyEvent event;
         event.what = fmt::format("a body of {} vanished at ({:.6g}, {:.6g})",
-                                 area > 0 ? "solid" : "liquid", centre.x(), centre.y());
-        event.place = centre;
-        event.solid_area = outside ? 0 : -area;
+                                 signed_area(front, c) > 0 ? "solid" : "liquid",
+                                 centre.x(), centre.y());
         event.vanished = true;
         events.push_back(event);
         front.remove_curve(c);
@@ -141,39 +137,73 @@ namespace meltfront::particles::front_tracking
       return events;
     }
 
-    std::vector<TopologyEvent> join_contacts(PlaneFront &front, const PlaneNodes &nodes,
-                                             bool &solid_beyond,
-                                             const TopologySettings &settings)
+    /** Where curves and contours do not belong together one by one. */
+    std::optional<PlanePoint> difference(const PlaneFront &front,
+                                         const Contours &contours,
+                                         const TopologySettings &settings)
     {
-      const double h = settings.spacing;
-      const FrontIndex index(front, solid_beyond, h);
-      const std::vector<Contact> contacts = find_contacts(front, index, settings);
-      if(contacts.empty())
-        return {};
-      const double reach = 2 * h;
-      const PlaneLevelSet level_set = [&](const PlanePoint &place)
-      { return bridged(index.signed_distance(place, reach), place, contacts, h); };
-      PlanePoint lower = nodes.lower, upper = nodes.upper;
-      for(const PlanePoint &place : front.position)
+      constexpr std::size_t none = static_cast<std::size_t>(-1);
+      std::vector<PlanePoint> points;
+      std::vector<std::size_t> contour_of;
+      for(std::size_t c = 0; c < contours.curves.size(); ++c)
+        for(const PlanePoint &point : contours.curves[c])
+        {
+          points.push_back(point);
+          contour_of.push_back(c);
+        }
+      const PlaneBins bins(points, settings.spacing / 2);
+      const double reach = pairing_reach * settings.spacing;
+      std::vector<std::size_t> curve_of(contours.curves.size(), none);
+      for(std::size_t c = 0; c < front.curves(); ++c)
       {
-        lower = lower.cwiseMin(place);
-        upper = upper.cwiseMax(place);
+        std::size_t own = none;
+        for(std::size_t p = front.offsets[c]; p < front.offsets[c + 1]; ++p)
+        {
+          if(!front.active[p])
+            continue;
+          const long nearest = bins.nearest(front.position[p]);
+          if(nearest < 0 || (points[nearest] - front.position[p]).norm() > reach)
+            continue;
+          const std::size_t contour = contour_of[nearest];
+          if(own == none)
+            own = contour;
+          if(curve_of[contour] == none)
+            curve_of[contour] = c;
+          if(contour != own || curve_of[contour] != c)
+            return front.position[p];
+        }
       }
-      const ContourGrid grid = contour_grid(lower, upper, 2 * h, h / 4);
-      std::vector<double> values;
-      for(long j = 0; j < grid.rows; ++j)
-        for(long i = 0; i < grid.columns; ++i)
-          values.push_back(level_set(grid.node(i, j)));
-      const Contours contours = find_contours(grid, std::move(values), level_set);
+      return std::nullopt;
+    }
+
+    std::vector<TopologyEvent> follow_level_set(PlaneFront &front,
+                                                const MarkedFront &marked,
+                                                bool &solid_beyond,
+                                                const TopologySettings &settings)
+    {
+      Contours contours = marked.contours();
+      const std::optional<PlanePoint> differing = difference(front, contours, settings);
+      if(!differing)
+        return {};
+      const PlanePoint place = narrowest_gap(front, settings, *differing);
+      const FrontIndex index(front, solid_beyond, settings.spacing);
+      const PlaneBins bins(front.position, settings.spacing);
+      // Where the front melts no solid is to come back by that, nor liquid where it
+      // freezes.
+      const PlaneLevelSet level_set = [&](const PlanePoint &point)
+      {
+        const double value = marked.value(point),
+                     distance = index.signed_distance(point, settings.spacing);
+        return front.speed[bins.nearest(point)] > 0 ? std::max(value, distance)
+                                                    : std::min(value, distance);
+      };
+      contours = marked.contours(level_set);
       PlaneFront joined = front_on_zeros(contours, level_set, settings.front_spacing,
-                                         4 * settings.least_radius * h);
-      take_speeds(front, joined, h);
+                                         4 * settings.least_radius * settings.spacing);
+      take_speeds(front, joined, settings.spacing);
       TopologyEvent event;
       event.what = fmt::format("fronts met at ({:.6g}, {:.6g}): {} curves became {}",
-                               contacts.front().place.x(), contacts.front().place.y(),
-                               front.curves(), joined.curves());
-      event.place = contacts.front().place;
-      event.solid_area = total_area(joined) - total_area(front);
+                               place.x(), place.y(), front.curves(), joined.curves());
       front = std::move(joined);
       solid_beyond = contours.solid_beyond;
       return {event};
@@ -186,12 +216,13 @@ namespace meltfront::particles::front_tracking
   }
 
   std::vector<TopologyEvent> update_topology(PlaneFront &front, const PlaneNodes &nodes,
+                                             const MarkedFront &marked,
                                              bool &solid_beyond,
                                              const TopologySettings &settings)
   {
     std::vector<TopologyEvent> events = remove_vanished(front, nodes, settings);
     if(settings.join)
-      for(TopologyEvent &event : join_contacts(front, nodes, solid_beyond, settings))
+      for(TopologyEvent &event : follow_level_set(front, marked, solid_beyond, settings))
         events.push_back(std::move(event));
     if(!events.empty())
       for(PlanePoint &way : front.displacement)
@@ -199,10 +230,59 @@ namespace meltfront::particles::front_tracking
     return events;
   }
 
+  void add_solid(PlaneFront &front, const std::vector<PlanePoint> &places, double area,
+                 double spacing)
+  {
+    if(places.empty())
+      return;
+    const PlaneBins bins(places, spacing);
+    std::vector<std::size_t> near;
+    double length = 0;
+    for(std::size_t c = 0; c < front.curves(); ++c)
+      for(std::size_t p = front.offsets[c]; p < front.offsets[c + 1]; ++p)
+      {
+        const PlanePoint &place = front.position[p];
+        if(!front.active[p]
+           || (places[bins.nearest(place)] - place).norm() > near_change * spacing)
+          continue;
+        near.push_back(p);
+        length += ((front.position[front.next(c, p)] - place).norm()
+                   + (front.position[front.previous(c, p)] - place).norm())
+                  / 2;
+      }
+    if(length == 0)
+      return;
+    const double way = std::clamp(-share_made_up * area / length,
+                                  -farthest_shift * spacing, farthest_shift * spacing);
+    for(const std::size_t p : near)
+      front.position[p] += way * front.normal[p];
+    update_geometry(front);
+  }
+
+  double longest_step_of_films(const PlaneFront &front, const TopologySettings &settings)
+  {
+    double longest = std::numeric_limits<double>::infinity();
+    visit_facing(front, settings,
+                 [&](std::size_t p, std::size_t q, double gap)
+                 {
+                   // Positive speeds melt: they close a gap across solid.
+                   const double rate = front.speed[p] + front.speed[q];
+                   if(gap * rate <= 0)
+                     return;
+                   const double way = std::max(share_of_gap * std::abs(gap),
+                                               least_closing * settings.spacing);
+                   longest = std::min(longest, way / std::abs(rate));
+                 });
+    return longest;
+  }
+
   double book_latent_heat(PlaneState &state, const cases::Scene &scene,
                           const PlaneNodes &nodes, const PlaneHeat &heat,
-                          const PlanePoint &place, double energy)
+                          const std::vector<PlanePoint> &places, double energy)
   {
+    if(places.empty())
+      return 0;
+    const PlaneBins bins(places, nodes.spacing);
     const double melting = scene.material.melting_temperature;
     struct Store
     {
@@ -219,6 +299,7 @@ namespace meltfront::particles::front_tracking
         continue;
       const auto &phase = state.phase[i] == NodePhase::solid ? scene.material.solid
                                                              : scene.material.liquid;
+      const PlanePoint &place = places[bins.nearest(nodes.position[i])];
       stores.push_back({(nodes.position[i] - place).norm(), excess,
                         phase.volumetric_heat_capacity() * nodes.weight[i],
                         static_cast<std::uint32_t>(i)});

@@ -2,6 +2,7 @@
 #define meltfront_particles_front_tracking_plane_topology_h
 
 #include <particles/front_tracking/plane_heat.h>
+#include <particles/front_tracking/plane_marked_front.h>
 
 #include <string>
 #include <vector>
@@ -11,9 +12,7 @@ namespace meltfront::particles::front_tracking
   /** Something that changed how the front's curves are connected. */
   struct TopologyEvent
   {
-    std::string what; ///< one clause
-    PlanePoint place{0, 0};
-    double solid_area = 0; ///< that appeared, negative where it went (m^2)
+    std::string what;      ///< one clause
     bool vanished = false; ///< a curve went; else curves met
   };
 
@@ -22,7 +21,6 @@ namespace meltfront::particles::front_tracking
   {
     double spacing = 0;         ///< of the nodes (m)
     double front_spacing = 0;   ///< of the front's particles (m)
-    double meeting_gap = 0.2;   ///< at which curves become one, in spacings
     double least_radius = 0.35; ///< of a curve, in spacings: below it goes
     bool join = true;           ///< whether curves may meet
   };
@@ -31,31 +29,42 @@ namespace meltfront::particles::front_tracking
   double curve_radius(const PlaneFront &front, std::size_t curve);
 
   /**
-   * Take out curves that enclose almost nothing or lie beyond the walls, and join those
-   * that face each other across a gap of almost nothing.
+   * Take out curves that enclose almost nothing or lie beyond the walls; where the level
+   * set connects otherwise than the curves, lay them anew along its zeros.
    *
-   * Curves that meet become the zeros of a level set: the distance to them, with bridges
-   * across the gaps. Order and number of the curves come from its contours, never from
-   * what they were.
+   * The particles of a curve and the zero contour nearest to them belong together; as
+   * long as that pairs the two one by one, both connect alike. Order and number of new
+   * curves come from the contours, never from what they were.
    *
    * @return what happened; if anything did, speeds are those of the nearest particles of
-   * before, and displacements are zero
+   * before and displacements are zero; the level set is to be seeded anew
    */
   std::vector<TopologyEvent> update_topology(PlaneFront &front, const PlaneNodes &nodes,
+                                             const MarkedFront &marked,
                                              bool &solid_beyond,
                                              const TopologySettings &settings);
 
+  /** Move the particles near some places along their normals so that an area of solid
+   * is added (m^2), none by more than a tenth of a spacing. */
+  void add_solid(PlaneFront &front, const std::vector<PlanePoint> &places, double area,
+                 double spacing);
+
+  /** Longest step in which no two pieces of the front that face each other lose more than
+   * half of the gap between them, or a tenth of a spacing, at their speeds (s). */
+  double longest_step_of_films(const PlaneFront &front, const TopologySettings &settings);
+
   /**
-   * Take the latent heat of an area that changed its phase by decree out of the nodes
-   * about it: their temperatures approach the melting temperature, the nearest nodes',
+   * Take the latent heat of areas that changed their phase by decree out of the nodes
+   * about them: their temperatures approach the melting temperature, the nearest nodes',
    * and those of no more nodes than it takes, so that none is changed by more than half
    * its distance from it.
+   * @param places where it was
    * @param energy that is to be added to the nodes (J/m)
    * @return the part of it that was (J/m)
    */
   double book_latent_heat(PlaneState &state, const cases::Scene &scene,
                           const PlaneNodes &nodes, const PlaneHeat &heat,
-                          const PlanePoint &place, double energy);
+                          const std::vector<PlanePoint> &places, double energy);
 } // namespace meltfront::particles::front_tracking
 
 #endif

@@ -111,6 +111,15 @@ namespace meltfront::particles::front_tracking
          0,
          0,
          {"liquid", "solid"}},
+        {"closure",
+         "",
+         std::string("given-walls"),
+         "When the front makes up for heat that collocation lost, in the plane: where "
+         "the "
+         "heat through all walls is given or none, never, or always.",
+         0,
+         0,
+         {"given-walls", "never", "always"}},
         {"relax", "1", 0L,
          "Inner nodes are relaxed every so many steps, so that they keep their distance "
          "from the front as it moves through them; 0: they stay.",
@@ -182,6 +191,10 @@ namespace meltfront::particles::front_tracking
     result.exact_history = options.get_string("history") == "exact";
     result.displaced = options.get_string("displaced") == "liquid" ? Displaced::liquid
                                                                    : Displaced::solid;
+    const std::string &closure = options.get_string("closure");
+    result.closure = closure == "never"    ? Closure::never
+                     : closure == "always" ? Closure::always
+                                           : Closure::given_walls;
     result.relax = static_cast<int>(options.get_integer("relax"));
     result.relax_rule = options.get_string("relax_rule") == "homing"
                             ? RelaxRule::homing

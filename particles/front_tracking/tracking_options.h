@@ -47,6 +47,14 @@ namespace meltfront::particles::front_tracking
     lennard_jones ///< as published: the Lennard-Jones energy alone
   };
 
+  /** When lost heat is made up for by the front, in the plane. */
+  enum class Closure
+  {
+    never,
+    given_walls, ///< where the heat through all walls is given
+    always
+  };
+
   /** A run's options, read. */
   struct TrackingParameters
   {
@@ -63,6 +71,7 @@ namespace meltfront::particles::front_tracking
     Start start = Start::automatic;
     bool exact_history = true; ///< before the start, where the start is exact
     Displaced displaced = Displaced::liquid;
+    Closure closure = Closure::given_walls;
     int relax = 0; ///< steps between relaxations of the inner nodes; 0: none
     RelaxRule relax_rule = RelaxRule::homing;
   };
