@@ -150,6 +150,7 @@ namespace meltfront::particles::front_tracking
       }
       if(phase.upper_front)
         add(phase.upper, melting);
+      const auto [lowest, highest] = std::ranges::minmax_element(value);
       for(std::size_t i = 0; i < places.size(); ++i)
       {
         const double place = places[i];
@@ -168,7 +169,8 @@ namespace meltfront::particles::front_tracking
               weight *= (place - x[m]) / (x[k] - x[m]);
           sum += weight * (value[k] - melting);
         }
-        state.temperature[i] = melting + sum;
+        // Where a layer is not resolved a polynomial overshoots.
+        state.temperature[i] = std::clamp(melting + sum, *lowest, *highest);
       }
     }
   }

@@ -46,7 +46,7 @@ namespace meltfront::particles::front_tracking
   /**
    * Give a state its temperatures at other places of the nodes: Lagrange polynomials
    * through the nearest points of the phase in which a place lies at the state's time,
-   * nodes and ends. Nodes that stay keep theirs.
+   * nodes and ends, within the range of the phase. Nodes that stay keep theirs.
    * @param degree of the polynomials, where a phase has the points
    */
   void resample(const LineProblem &problem, std::span<const double> places,

@@ -9,3 +9,5 @@ meltfront_test(front_tracking_plane_run_tests tests/plane_run_test.cc tests/plan
                LIBS meltfront_particles meltfront_exact Eigen3::Eigen)
 meltfront_test(front_tracking_plane_event_tests tests/plane_events_test.cc tests/plane_cases.cc
                LIBS meltfront_particles meltfront_exact Eigen3::Eigen)
+meltfront_test(front_tracking_plane_relax_tests tests/plane_relax_test.cc tests/plane_cases.cc
+               LIBS meltfront_particles meltfront_exact Eigen3::Eigen)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meltfront::particles::front_tracking
 {
@@ -25,6 +26,38 @@ namespace meltfront::particles::front_tracking
     constexpr double least_distance = 0.3;
 
     constexpr double coincidence = 1e-9;
+
+    /** A phase's unknown at its nodes, then at the front's particles, and its range: a
+     * polynomial through the few points of a thin body may overshoot. */
+    struct PhaseValues
+    {
+      std::vector<double> values;
+      double lowest, highest;
+    };
+
+    PhaseValues phase_values(const PlaneState &state, const PlaneHeat &heat,
+                             NodePhase phase)
+    {
+      PhaseValues result{state.unknown, std::numeric_limits<double>::infinity(),
+                         -std::numeric_limits<double>::infinity()};
+      const auto include = [&](double value)
+      {
+        result.lowest = std::min(result.lowest, value);
+        result.highest = std::max(result.highest, value);
+      };
+      for(std::size_t i = 0; i < state.phase.size(); ++i)
+        if(state.phase[i] == phase)
+          include(state.unknown[i]);
+      for(std::size_t p = 0; p < state.front.size(); ++p)
+      {
+        double value = heat.front_temperature(state.front.curvature[p]);
+        if(phase == NodePhase::solid)
+          value -= heat.sinks.value(state.front.position[p], state.time);
+        include(value);
+        result.values.push_back(value);
+      }
+      return result;
+    }
   } // namespace
 
   /** The nodes of a phase that move, and what they move among. */
@@ -195,15 +228,9 @@ namespace meltfront::particles::front_tracking
     const double h = nodes.spacing;
     const FrontIndex index(state.front, heat.settings.solid_beyond, h);
     const std::vector<NodePhase> phase_before = state.phase;
-    std::array<std::vector<double>, n_phases> values;
-    values.fill(state.unknown);
-    for(std::size_t p = 0; p < state.front.size(); ++p)
-    {
-      const double temperature = heat.front_temperature(state.front.curvature[p]);
-      values[index_of(NodePhase::liquid)].push_back(temperature);
-      values[index_of(NodePhase::solid)].push_back(
-          temperature - heat.sinks.value(state.front.position[p], state.time));
-    }
+    const std::array<PhaseValues, n_phases> known{
+        phase_values(state, heat, NodePhase::liquid),
+        phase_values(state, heat, NodePhase::solid)};
     std::vector<StencilMaker> makers(threads,
                                      StencilMaker(nodes, heat.settings.order + 1));
     for(StencilMaker &maker : makers)
@@ -226,24 +253,17 @@ namespace meltfront::particles::front_tracking
           continue;
         }
         const NodePhase phase = distance < 0 ? NodePhase::solid : NodePhase::liquid;
-        const std::vector<double> &known = values[index_of(phase)];
+        const PhaseValues &own = known[index_of(phase)];
         StencilMaker &maker = makers[omp_get_thread_num()];
         const PlanePoint way = places[i] - nodes.position[i];
         const bool stayed = phase == phase_before[i];
         maker.make(stayed ? PlanePoint(places[i] - way / 2) : places[i], phase, stencil);
-        const double found = stayed ? known[i] + way.x() * stencil.apply(d_x, known)
-                                          + way.y() * stencil.apply(d_y, known)
-                                    : stencil.apply(value_of, known);
-        // Few points in a thin body may bend a polynomial beyond their values.
-        double lowest = found, highest = found;
-        for(std::size_t e = 0; e < stencil.columns.size(); ++e)
-        {
-          const double value = known[stencil.columns[e]];
-          lowest = e == 0 ? value : std::min(lowest, value);
-          highest = e == 0 ? value : std::max(highest, value);
-        }
+        const double found = stayed ? own.values[i]
+                                          + way.x() * stencil.apply(d_x, own.values)
+                                          + way.y() * stencil.apply(d_y, own.values)
+                                    : stencil.apply(value_of, own.values);
         state.phase[i] = phase;
-        state.unknown[i] = std::clamp(found, lowest, highest);
+        state.unknown[i] = std::clamp(found, own.lowest, own.highest);
       }
     }
   }

@@ -32,9 +32,11 @@ namespace meltfront::particles::front_tracking
                                    double time);
 
     /**
-     * Give a state its temperatures at other places of the nodes: by a polynomial about
-     * the new place, one order above that of the collocation, fitted to the points of the
-     * phase in which it lies at the state's time. Nodes that stay keep theirs.
+     * Give a state its temperatures at other places of the nodes: a node takes its own
+     * along, changed by its way times the gradient at the middle of it; where it was in
+     * another phase at the state's time, the polynomial about its new place tells. Both
+     * by fits of one order above that of the collocation to the points of the phase, and
+     * within the range of the phase. Nodes that stay keep theirs.
      */
     void resample(const std::vector<PlanePoint> &places, const PlaneHeat &heat,
                   PlaneState &state) const;
