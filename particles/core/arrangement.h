@@ -38,8 +38,8 @@ namespace meltfront::particles
 
   /**
    * Points of a cubic lattice, symmetric about the origin, with
-   * inner <= distance from the origin < outer: the particles of a disk or ball
-   * (inner = 0), or the ghost rows around it.
+   * inner <= distance from the origin < outer: the particles of a disk or a ball
+   * (inner = 0) or of a shell, or the rows of ghosts beyond their walls.
    */
   ParticleStorage arrange_in_shell(int dimension, double inner, double outer,
                                    double spacing, LatticeLayout layout);

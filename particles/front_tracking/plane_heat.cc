@@ -57,6 +57,13 @@ namespace meltfront::particles::front_tracking
     return scene.material.melting_temperature - settings.capillarity * curvature;
   }
 
+  double PlaneHeat::front_temperature_near(const PlaneFront &front,
+                                           std::size_t node) const
+  {
+    const long nearest = front_bins.nearest(nodes.position[node]);
+    return front_temperature(nearest < 0 ? 0 : front.curvature[nearest]);
+  }
+
   double PlaneHeat::temperature(const PlaneState &state, std::size_t node) const
   {
     return state.unknown[node]

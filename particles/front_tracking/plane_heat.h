@@ -83,6 +83,9 @@ namespace meltfront::particles::front_tracking
     /** Temperature of the front's particles (K), curvature of the state. */
     double front_temperature(double curvature) const;
 
+    /** The same at a node that counts as on the front, by the nearest particle. */
+    double front_temperature_near(const PlaneFront &front, std::size_t node) const;
+
     /** Temperature at a node. */
     double temperature(const PlaneState &state, std::size_t node) const;
 

@@ -26,6 +26,15 @@ namespace meltfront::particles::front_tracking
       PlanePoint place;
     };
 
+    /** Temperature of the front as last solved for, near a place. */
+    double front_temperature(const PlaneState &state, const PlanePoint &place,
+                             const cases::Material &material)
+    {
+      const long nearest = state.expansion_bins.nearest(place);
+      return nearest < 0 ? material.melting_temperature
+                         : state.expansion[0].value[nearest];
+    }
+
     /** Share of a sample's area that is solid. */
     double share(double distance, double width)
     {
@@ -75,7 +84,7 @@ namespace meltfront::particles::front_tracking
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
       result.temperature[i] = state.phase[i] == NodePhase::front
-                                  ? material.melting_temperature
+                                  ? front_temperature(state, nodes.position[i], material)
                                   : heat.temperature(state, i);
       const double distance = index.signed_distance(nodes.position[i], cut_reach * h);
       cut[i] = std::abs(distance) < cut_reach * h;

@@ -276,18 +276,20 @@ namespace meltfront::particles::front_tracking
     const PlanePoint size = upper - lower;
     const long across = static_cast<long>(std::ceil(size.x() / sample_spacing - 1e-9));
     const long along = static_cast<long>(std::ceil(size.y() / sample_spacing - 1e-9));
+    lattice.columns = across;
+    lattice.rows = along;
+    lattice.step
+        = {size.x() / static_cast<double>(across), size.y() / static_cast<double>(along)};
+    lattice.first = lower + lattice.step / 2;
+    lattice.inside.resize(across * along);
     std::vector<PlanePoint> inside;
-    for(long j = 0; j < along; ++j)
-      for(long i = 0; i < across; ++i)
-      {
-        const PlanePoint sample
-            = lower
-              + PlanePoint(
-                  (static_cast<double>(i) + 0.5) * size.x() / static_cast<double>(across),
-                  (static_cast<double>(j) + 0.5) * size.y() / static_cast<double>(along));
-        if(wall_distance(sample) > 0)
-          inside.push_back(sample);
-      }
+    for(std::size_t s = 0; s < lattice.inside.size(); ++s)
+    {
+      const PlanePoint sample = lattice.place(s);
+      lattice.inside[s] = wall_distance(sample) > 0;
+      if(lattice.inside[s])
+        inside.push_back(sample);
+    }
     std::vector<std::vector<PlanePoint>> of_node(position.size());
     assign(inside, of_node);
     gather_samples(of_node);

@@ -4,12 +4,39 @@
 #include <cases/scene.h>
 #include <particles/front_tracking/plane_bins.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 namespace meltfront::particles::front_tracking
 {
+  /** Points in rows that the areas of nodes are sampled at. */
+  struct SampleLattice
+  {
+    PlanePoint first{0, 0}, step{1, 1}; ///< m
+    long columns = 0, rows = 0;
+    std::vector<char> inside; ///< whether within the domain, row by row
+
+    PlanePoint place(std::size_t sample) const
+    {
+      const auto number = static_cast<long>(sample);
+      return first
+             + PlanePoint(static_cast<double>(number % columns) * step.x(),
+                          static_cast<double>(number / columns) * step.y());
+    }
+
+    /** The sample nearest to a place, also for places beyond all. */
+    std::size_t nearest(const PlanePoint &place) const
+    {
+      const long i = std::lround((place.x() - first.x()) / step.x()),
+                 j = std::lround((place.y() - first.y()) / step.y());
+      return static_cast<std::size_t>(std::clamp(j, 0L, rows - 1) * columns
+                                      + std::clamp(i, 0L, columns - 1));
+    }
+  };
+
   /** The part of a wall that a node on it stands for. */
   struct WallPiece
   {
@@ -82,6 +109,7 @@ namespace meltfront::particles::front_tracking
     std::vector<std::size_t> sample_offsets;
     std::vector<PlanePoint> samples;
     double sample_spacing = 0;
+    SampleLattice lattice; ///< that the samples are of
 
   private:
     void lay_box(int n);

@@ -72,10 +72,8 @@ namespace meltfront::particles::front_tracking
     ParticleStorage moving, homes, fixed;
   };
 
-  PlaneRelaxation::PlaneRelaxation(const cases::Scene &scene, const PlaneNodes &nodes,
-                                   RelaxRule rule, int threads)
-    : scene(scene)
-    , nodes(nodes)
+  PlaneRelaxation::PlaneRelaxation(const PlaneNodes &nodes, RelaxRule rule, int threads)
+    : nodes(nodes)
     , rule(rule)
     , threads(threads)
     , homes(nodes.position)
@@ -235,6 +233,7 @@ namespace meltfront::particles::front_tracking
                                      StencilMaker(nodes, heat.settings.order + 1));
     for(StencilMaker &maker : makers)
       maker.set_front(state.front, index, phase_before);
+    const PlaneBins bins(state.front.position, h);
     const double absorbed = heat.settings.absorption * h;
 #pragma omp parallel num_threads(threads) if(threads > 1)
     {
@@ -249,7 +248,8 @@ namespace meltfront::particles::front_tracking
         if(std::abs(distance) < absorbed)
         {
           state.phase[i] = NodePhase::front;
-          state.unknown[i] = scene.material.melting_temperature;
+          state.unknown[i]
+              = heat.front_temperature(state.front.curvature[bins.nearest(places[i])]);
           continue;
         }
         const NodePhase phase = distance < 0 ? NodePhase::solid : NodePhase::liquid;

@@ -19,9 +19,8 @@ namespace meltfront::particles::front_tracking
   class PlaneRelaxation
   {
   public:
-    /** Nodes are at home where they are now. @param scene, nodes outlive the object */
-    PlaneRelaxation(const cases::Scene &scene, const PlaneNodes &nodes, RelaxRule rule,
-                    int threads);
+    /** Nodes are at home where they are now. @param nodes outlive the object */
+    PlaneRelaxation(const PlaneNodes &nodes, RelaxRule rule, int threads);
 
     /**
      * Where the nodes of a state go.
@@ -50,7 +49,6 @@ namespace meltfront::particles::front_tracking
                 std::size_t node, PlanePoint &place) const;
     void keep_apart(const FrontIndex &index, std::vector<PlanePoint> &places) const;
 
-    const cases::Scene &scene;
     const PlaneNodes &nodes;
     RelaxRule rule;
     int threads;

@@ -55,12 +55,14 @@ namespace meltfront::particles::front_tracking
     /** Share of the span of the bounds by which temperatures may pass them. */
     constexpr double bounds_slack = 0.02;
 
-    PlaneHeatSettings settings_of(const TrackingParameters &parameters, int threads)
+    PlaneHeatSettings settings_of(const cases::Scene &scene,
+                                  const TrackingParameters &parameters, int threads)
     {
       PlaneHeatSettings settings;
       settings.order = parameters.basis_order;
       settings.absorption = parameters.absorption;
       settings.threads = std::max(1, threads);
+      settings.capillarity = scene.material.gibbs_thomson_coefficient;
       return settings;
     }
   } // namespace
@@ -72,8 +74,8 @@ namespace meltfront::particles::front_tracking
     , resolution(resolution)
     , parameters(read_tracking_parameters(scene, resolution))
     , nodes(scene, parameters.intervals, {parameters.jitter, resolution.seed})
-    , heat(scene, nodes, settings_of(parameters, resolution.threads))
-    , relaxation(scene, nodes, parameters.relax_rule, std::max(1, resolution.threads))
+    , heat(scene, nodes, settings_of(scene, parameters, resolution.threads))
+    , relaxation(nodes, parameters.relax_rule, std::max(1, resolution.threads))
     , marked(nodes, std::max(1, resolution.threads))
     , closes_budget(
           parameters.closure == Closure::always
@@ -121,6 +123,7 @@ namespace meltfront::particles::front_tracking
     marked.seed(state.front, heat.settings.solid_beyond);
     condition = heat.worst_condition(state);
     step_number = found.time > scene.start_time ? 1 : 0;
+    widen_bounds();
     check(state);
   }
 
@@ -324,6 +327,7 @@ namespace meltfront::particles::front_tracking
     state = std::move(next);
     fresh = false;
     ++step_number;
+    widen_bounds();
     check(state);
     close_budget();
     follow_level_set();
@@ -333,6 +337,21 @@ namespace meltfront::particles::front_tracking
     follow_topology();
     if(parameters.relax > 0 && !fresh && step_number % parameters.relax == 0)
       relax_nodes();
+  }
+
+  /** Where it is curved the front itself is colder or warmer than all that was given. */
+  void PlaneRun::widen_bounds()
+  {
+    if(heat.settings.capillarity == 0)
+      return;
+    const double melting = scene.material.melting_temperature;
+    for(const double curvature : state.front.curvature)
+    {
+      const double shift = heat.front_temperature(curvature) - melting;
+      const double slack = bounds_slack * std::abs(shift);
+      bounds.lower = std::min(bounds.lower, melting + shift - slack);
+      bounds.upper = std::max(bounds.upper, melting + shift + slack);
+    }
   }
 
   void PlaneRun::check(const PlaneState &checked) const

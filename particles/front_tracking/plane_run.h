@@ -45,6 +45,7 @@ namespace meltfront::particles::front_tracking
     void follow_topology();
     TopologySettings topology_settings() const;
     void settle_nodes();
+    void widen_bounds();
     void check(const PlaneState &checked) const;
 
     cases::RunDescription description() const;

@@ -56,7 +56,7 @@ namespace meltfront::particles::front_tracking
     if(phase == NodePhase::front)
     {
       add(phase, column, 1);
-      finish_row(scene.material.melting_temperature);
+      finish_row(front_temperature_near(next.front, node));
       return;
     }
     if(nodes.wall_of_node[node] >= 0)

@@ -1,9 +1,11 @@
+#include <particles/front_tracking/plane_bodies.h>
 #include <particles/front_tracking/plane_topology.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -100,6 +102,13 @@ namespace meltfront::particles::front_tracking
           front.speed[p] = old.speed[nearest];
     }
 
+    TopologyEvent vanished(bool solid, const PlanePoint &centre)
+    {
+      return {fmt::format("a body of {} vanished at ({:.6g}, {:.6g})",
+                          solid ? "solid" : "liquid", centre.x(), centre.y()),
+              true};
+    }
+
     std::vector<TopologyEvent> remove_vanished(PlaneFront &front, const PlaneNodes &nodes,
                                                const TopologySettings &settings)
     {
@@ -126,12 +135,7 @@ namespace meltfront::particles::front_tracking
         PlanePoint centre(0, 0);
         for(std::size_t p = first; p < last; ++p)
           centre += front.position[p] / static_cast<double>(last - first);
-        TopologyEvent event;
-        event.what = fmt::format("a body of {} vanished at ({:.6g}, {:.6g})",
-                                 signed_area(front, c) > 0 ? "solid" : "liquid",
-                                 centre.x(), centre.y());
-        event.vanished = true;
-        events.push_back(event);
+        events.push_back(vanished(signed_area(front, c) > 0, centre));
         front.remove_curve(c);
       }
       return events;
@@ -176,37 +180,80 @@ namespace meltfront::particles::front_tracking
       return std::nullopt;
     }
 
-    std::vector<TopologyEvent> follow_level_set(PlaneFront &front,
-                                                const MarkedFront &marked,
-                                                bool &solid_beyond,
-                                                const TopologySettings &settings)
+    bool crosses_walls(const PlaneFront &front)
     {
-      Contours contours = marked.contours();
-      const std::optional<PlanePoint> differing = difference(front, contours, settings);
-      if(!differing)
-        return {};
-      const PlanePoint place = narrowest_gap(front, settings, *differing);
+      for(std::size_t c = 0; c < front.curves(); ++c)
+      {
+        const auto first = front.active.begin() + front.offsets[c],
+                   last = front.active.begin() + front.offsets[c + 1];
+        if(std::adjacent_find(first, last, std::not_equal_to<>()) != last)
+          return true;
+      }
+      return false;
+    }
+
+    /** Lay the curves anew along the zeros of a level set. Where the front melts no solid
+     * is to come back by that, nor liquid where it freezes. */
+    void lay_anew(PlaneFront &front, const MarkedFront &marked,
+                  const PlaneLevelSet &level_set, bool &solid_beyond,
+                  const TopologySettings &settings)
+    {
       const FrontIndex index(front, solid_beyond, settings.spacing);
       const PlaneBins bins(front.position, settings.spacing);
-      // Where the front melts no solid is to come back by that, nor liquid where it
-      // freezes.
-      const PlaneLevelSet level_set = [&](const PlanePoint &point)
+      const PlaneLevelSet no_way_back = [&](const PlanePoint &point)
       {
-        const double value = marked.value(point),
+        const double value = level_set(point),
                      distance = index.signed_distance(point, settings.spacing);
         return front.speed[bins.nearest(point)] > 0 ? std::max(value, distance)
                                                     : std::min(value, distance);
       };
-      contours = marked.contours(level_set);
-      PlaneFront joined = front_on_zeros(contours, level_set, settings.front_spacing,
-                                         4 * settings.least_radius * settings.spacing);
-      take_speeds(front, joined, settings.spacing);
-      TopologyEvent event;
-      event.what = fmt::format("fronts met at ({:.6g}, {:.6g}): {} curves became {}",
-                               place.x(), place.y(), front.curves(), joined.curves());
-      front = std::move(joined);
+      const Contours contours = marked.contours(no_way_back);
+      PlaneFront laid = front_on_zeros(contours, no_way_back, settings.front_spacing,
+                                       4 * settings.least_radius * settings.spacing);
+      take_speeds(front, laid, settings.spacing);
+      front = std::move(laid);
       solid_beyond = contours.solid_beyond;
-      return {event};
+    }
+
+    std::vector<TopologyEvent> follow_level_set(PlaneFront &front,
+                                                const PlaneNodes &nodes,
+                                                const MarkedFront &marked,
+                                                bool &solid_beyond,
+                                                const TopologySettings &settings)
+    {
+      std::vector<TopologyEvent> events;
+      const PlaneLevelSet value
+          = [&](const PlanePoint &point) { return marked.value(point); };
+      if(crosses_walls(front))
+      {
+        const double radius = settings.least_radius * settings.spacing;
+        const SmallBodies small(nodes, value, std::numbers::pi * radius * radius);
+        for(const Body &body : small.bodies())
+          events.push_back(vanished(body.solid, body.centre));
+        if(!events.empty())
+        {
+          const auto without = [&](const PlanePoint &point)
+          {
+            const Body *body = small.at(point);
+            return body ? (body->solid ? 1 : -1) * settings.spacing : value(point);
+          };
+          lay_anew(front, marked, without, solid_beyond, settings);
+          return events;
+        }
+      }
+      if(!settings.join)
+        return {};
+      const std::optional<PlanePoint> differing
+          = difference(front, marked.contours(), settings);
+      if(!differing)
+        return {};
+      const PlanePoint place = narrowest_gap(front, settings, *differing);
+      const std::size_t curves = front.curves();
+      lay_anew(front, marked, value, solid_beyond, settings);
+      events.push_back({fmt::format("fronts met at ({:.6g}, {:.6g}): {} curves became {}",
+                                    place.x(), place.y(), curves, front.curves()),
+                        false});
+      return events;
     }
   } // namespace
 
@@ -221,8 +268,9 @@ namespace meltfront::particles::front_tracking
                                              const TopologySettings &settings)
   {
     std::vector<TopologyEvent> events = remove_vanished(front, nodes, settings);
-    if(settings.join)
-      for(TopologyEvent &event : follow_level_set(front, marked, solid_beyond, settings))
+    if(front.size() > 0)
+      for(TopologyEvent &event :
+          follow_level_set(front, nodes, marked, solid_beyond, settings))
         events.push_back(std::move(event));
     if(!events.empty())
       for(PlanePoint &way : front.displacement)

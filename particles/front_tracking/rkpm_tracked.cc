@@ -32,7 +32,8 @@ namespace meltfront::particles
                 Effect::phase_heat_capacity, Effect::heat_sources,
                 Effect::wall_temperature,    Effect::wall_flux,
                 Effect::liquid_motion,       Effect::metastable_phase,
-                Effect::heat_release,        Effect::wall_transfer};
+                Effect::heat_release,        Effect::wall_transfer,
+                Effect::gibbs_thomson};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -52,6 +53,9 @@ namespace meltfront::particles
         switch(simulated_dimension(scene, complete.options))
         {
         case 1:
+          if(effects.contains(cases::Effect::gibbs_thomson))
+            throw cases::Refusal("rkpm-tracked simulates curved fronts that melt at "
+                                 "another temperature in the plane only: set dimension=2");
           if(!scene.sources.empty())
             throw cases::Refusal(
                 "rkpm-tracked treats line sources in the plane only: set dimension=2");

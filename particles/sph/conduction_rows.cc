@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace meltfront::particles
 {
@@ -14,6 +13,10 @@ namespace meltfront::particles
     /** A set of plane walls, one bit each: the image of a particle mirrored in all of
      * them. */
     using WallSet = unsigned;
+
+    /** Least depth in spacings that a particle counts with at a round wall: those that
+     * are displaced may come nearer or beyond. */
+    constexpr double shallowest = 0.2;
 
     /** Assembles the rows of one discretisation. */
     class Assembly
@@ -253,19 +256,17 @@ namespace meltfront::particles
       }
 
       /**
-       * A ball's rim. Where the temperature is known outside (exact), ghosts hold it.
-       * Otherwise the line from the particle through the rim's value is continued to the
-       * ghost (Morris, Fox and Zhu 1997): 1 + d_ghost/d_particle times the difference.
+       * Round walls. Where the temperature is known beyond the wall, ghosts hold it.
+       * Otherwise the line from the particle through the wall's value is continued to the
+       * ghost (Morris, Fox and Zhu 1997), over the depth in which steady conduction is
+       * linear: 1 + d_ghost/d_particle times the difference.
        */
       void link_to_ghosts(std::size_t a)
       {
         if(dis.ghosts.size() == 0)
           return;
-        const double radius = dis.scene.domain.radius;
         const auto own = dis.particles.point(a);
-        const double depth
-            = std::max(radius - std::hypot(own[0], own[1], own[2]), 0.25 * dis.spacing);
-        const cases::Boundary &rim = dis.scene.boundary(cases::Side::outer);
+        const double own_distance = std::hypot(own[0], own[1], own[2]);
         for(const std::uint32_t ghost : ghost_neighbours[a])
         {
           auto place = dis.ghosts.point(ghost);
@@ -276,19 +277,24 @@ namespace meltfront::particles
           if(g == 0)
             continue;
           const double distance = std::hypot(place[0], place[1], place[2]);
-          const bool flux = rim.kind == BoundaryKind::flux;
-          if(flux)
-            g *= depth + distance - radius;
-          else if(!rim.exact)
-            g *= 1 + (distance - radius) / depth;
-          if(!rim.exact)
+          const RoundWall &wall = dis.nearest_round_wall(distance);
+          const cases::Boundary &boundary = *wall.boundary;
+          const bool flux = boundary.kind == BoundaryKind::flux;
+          if(!wall.known_beyond())
+          {
+            const double depth
+                = std::max(wall.conductive_depth(own_distance, dis.dimension),
+                           flux ? 0 : shallowest * dis.spacing);
+            const double beyond = -wall.conductive_depth(distance, dis.dimension);
+            g *= flux ? depth + beyond : 1 + beyond / depth;
             for(double &x : place)
-              x *= radius / distance;
+              x *= wall.radius / distance;
+          }
           auto &points = flux ? result.flux_points : result.temperature_points;
           auto &links = flux ? result.flux_links : result.temperature_links;
           links.push_back({static_cast<std::uint32_t>(a),
                            static_cast<std::uint32_t>(points.size()), g});
-          points.push_back({&rim, place});
+          points.push_back({&boundary, place});
         }
       }
 
@@ -312,10 +318,10 @@ namespace meltfront::particles
 
       double wall_area(cases::Side side) const
       {
+        for(const RoundWall &wall : dis.round_walls)
+          if(wall.boundary == &dis.scene.boundary(side))
+            return wall.area(dis.dimension);
         const cases::Domain &domain = dis.scene.domain;
-        if(side == cases::Side::outer)
-          return std::numbers::pi * domain.radius
-                 * (dis.dimension == 2 ? 2. : 4 * domain.radius);
         double area = dis.cross_section;
         if(domain.shape == cases::DomainShape::box)
           for(int d = 0; d < dis.dimension; ++d)
@@ -373,12 +379,15 @@ namespace meltfront::particles
         if(dis.scene.domain.outline)
           return dis.scene.domain.outline->distance(dis.particles.point(a))
                  > dis.kernel.support();
-        if(dis.scene.domain.shape != cases::DomainShape::ball)
+        if(!dis.scene.domain.round())
           return dis.layout == LatticeLayout::cell_centred || reach[a] == 0;
         const auto own = dis.particles.point(a);
-        return dis.ghosts.size() > 0
-               || std::hypot(own[0], own[1], own[2]) + dis.kernel.support()
-                      < dis.scene.domain.radius;
+        const double distance = std::hypot(own[0], own[1], own[2]);
+        for(const RoundWall &wall : dis.round_walls)
+          if(wall.boundary->kind == BoundaryKind::insulated
+             && wall.depth(distance) <= dis.kernel.support())
+            return false;
+        return true;
       }
 
       const Discretisation &dis;

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace meltfront::particles
@@ -27,7 +29,45 @@ namespace meltfront::particles
     {
       return static_cast<int>(std::ceil(2 * kernel.support() / spacing - 1e-9));
     }
+
+    /** Least distance of particles from a round wall whose temperature is given on it
+     * alone, in spacings. */
+    constexpr double nearest_to_wall = 0.25;
+
+    /** Particles must not act on each other across a hole, nor ghosts lie at its centre.
+     */
+    void require_resolved(const cases::Domain &domain, double spacing, double support)
+    {
+      const double thickness = domain.radius - domain.inner_radius;
+      if(domain.inner_radius < support * (1 - 1e-9))
+        throw cases::Refusal(fmt::format(
+            "an inner wall of radius {:.6g} m is too narrow for particles that act over "
+            "{:.6g} m: take n at least {:.3g} times as large",
+            domain.inner_radius, support, support / domain.inner_radius));
+      if(thickness < 4 * spacing * (1 - 1e-9))
+        throw cases::Refusal(fmt::format(
+            "a shell {:.6g} m thick holds fewer than four particle spacings of {:.6g} m: "
+            "take n at least {:.3g} times as large",
+            thickness, spacing, 4 * spacing / thickness));
+    }
   } // namespace
+
+  double RoundWall::conductive_depth(double distance, int dimension) const
+  {
+    const double ratio = distance / radius;
+    const double outwards = radius * (dimension == 2 ? std::log(ratio) : 1 - 1 / ratio);
+    return inner ? outwards : -outwards;
+  }
+
+  double RoundWall::area(int dimension) const
+  {
+    return std::numbers::pi * radius * (dimension == 2 ? 2. : 4 * radius);
+  }
+
+  double RoundWall::enclosed(int dimension) const
+  {
+    return area(dimension) * radius / dimension;
+  }
 
   cases::Position PlaneWall::project(cases::Position position) const
   {
@@ -46,8 +86,8 @@ namespace meltfront::particles
     , cross_section(1)
   {
     particles.dimension = ghosts.dimension = dimension;
-    if(scene.domain.shape == DomainShape::ball)
-      fill_ball();
+    if(scene.domain.round())
+      fill_ball_or_shell();
     else if(scene.domain.outline)
       fill_outline();
     else
@@ -55,6 +95,10 @@ namespace meltfront::particles
     disturb(p);
     reorder(particles, order_along_curve(particles, spacing));
     weights.assign(particles.size(), particle_volume / cross_section);
+    if(scene.domain.round())
+      corrected_shares = weights;
+    for(const RoundWall &wall : round_walls)
+      share_the_rest(wall);
     find_held_particles();
   }
 
@@ -87,10 +131,8 @@ namespace meltfront::particles
     for(const PlaneWall &wall : walls)
       bounds.mirrors.push_back({wall.direction, wall.coordinate,
                                 wall.coordinate > scene.domain.lower[wall.direction]});
-    if(scene.domain.shape == DomainShape::ball)
-      bounds.fixed
-          = arrange_in_shell(dimension, scene.domain.radius,
-                             scene.domain.radius + kernel.support(), spacing, layout);
+    for(const RoundWall &wall : round_walls)
+      add_points_beyond(wall, bounds.fixed);
     relaxation = relax(particles, kernel, spacing, bounds);
   }
 
@@ -166,13 +208,73 @@ namespace meltfront::particles
     particles = arrange_in_box(dimension, directions, spacing);
   }
 
-  void Discretisation::fill_ball()
+  void Discretisation::fill_ball_or_shell()
   {
-    const double radius = scene.domain.radius;
-    particles = arrange_in_shell(dimension, 0, radius, spacing, layout);
-    if(scene.boundary(Side::outer).kind != BoundaryKind::insulated)
-      ghosts = arrange_in_shell(dimension, radius, radius + kernel.support(), spacing,
-                                layout);
+    const cases::Domain &domain = scene.domain;
+    round_walls.push_back({&scene.boundary(Side::outer), domain.radius, false});
+    double innermost = 0;
+    if(domain.shape == DomainShape::shell)
+    {
+      require_resolved(domain, spacing, kernel.support());
+      round_walls.push_back({&scene.boundary(Side::inner), domain.inner_radius, true});
+      innermost = domain.inner_radius + least_depth(round_walls.back());
+    }
+    particles = arrange_in_shell(dimension, innermost,
+                                 domain.radius - least_depth(round_walls.front()),
+                                 spacing, layout);
+    for(const RoundWall &wall : round_walls)
+      if(wall.boundary->kind != BoundaryKind::insulated)
+        add_points_beyond(wall, ghosts);
+  }
+
+  /**
+   * How far from a round wall the particles begin. Where a temperature is given on the
+   * wall alone, lines through it and a particle tell less the nearer the particle is.
+   */
+  double Discretisation::least_depth(const RoundWall &wall) const
+  {
+    const bool on_the_wall_alone
+        = wall.boundary->kind == BoundaryKind::fixed_temperature && !wall.known_beyond();
+    return on_the_wall_alone ? nearest_to_wall * spacing : 0;
+  }
+
+  /** The other points of the lattice, up to a support beyond a wall. */
+  void Discretisation::add_points_beyond(const RoundWall &wall,
+                                         ParticleStorage &points) const
+  {
+    const double reach = kernel.support() * (1 - 1e-9), gap = least_depth(wall);
+    const ParticleStorage beyond
+        = wall.inner ? arrange_in_shell(dimension, wall.radius - reach, wall.radius + gap,
+                                        spacing, layout)
+                     : arrange_in_shell(dimension, wall.radius - gap, wall.radius + reach,
+                                        spacing, layout);
+    for(std::size_t i = 0; i < beyond.size(); ++i)
+      points.add(beyond.point(i));
+  }
+
+  void Discretisation::share_the_rest(const RoundWall &wall)
+  {
+    const double innermost_other
+        = wall.inner ? wall.radius + least_depth(wall) : wall.radius - least_depth(wall);
+    const double cells
+        = arrange_in_shell(dimension, 0, innermost_other, spacing, layout).size();
+    std::vector<std::size_t> nearest;
+    for(std::size_t i = 0; i < particles.size(); ++i)
+    {
+      const auto place = particles.point(i);
+      if(wall.depth(std::hypot(place[0], place[1], place[2])) < spacing)
+        nearest.push_back(i);
+    }
+    const double excess = cells * particle_volume - wall.enclosed(dimension);
+    for(const std::size_t i : nearest)
+      corrected_shares[i] += (wall.inner ? excess : -excess) / nearest.size();
+  }
+
+  const RoundWall &Discretisation::nearest_round_wall(double distance) const
+  {
+    return *std::ranges::min_element(round_walls, {},
+                                     [distance](const RoundWall &wall)
+                                     { return std::abs(wall.depth(distance)); });
   }
 
   /** Points of the lattice of cells about the outline's centre that lie inside. */

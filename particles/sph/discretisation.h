@@ -9,6 +9,7 @@
 #include <particles/relaxation/conjugate_gradients.h>
 #include <particles/sph/parameters.h>
 
+#include <span>
 #include <vector>
 
 namespace meltfront::particles
@@ -23,6 +24,43 @@ namespace meltfront::particles
     cases::Position project(cases::Position position) const;
   };
 
+  /** A circle or a sphere about the origin that bounds a ball or a shell. */
+  struct RoundWall
+  {
+    const cases::Boundary *boundary;
+    double radius; ///< m
+    bool inner;    ///< the domain is outside of it
+
+    /** How deep in the domain a place is at a distance from the origin; negative beyond
+     * the wall (m). */
+    double depth(double distance) const
+    {
+      return inner ? distance - radius : radius - distance;
+    }
+
+    /**
+     * The depth in which steady conduction is linear (m): with the wall's radius R and
+     * the distance r it is R |ln(r/R)| in the plane and R |1 - R/r| in space, nearly the
+     * depth itself next to the wall, and negative beyond it.
+     */
+    double conductive_depth(double distance, int dimension) const;
+
+    /**
+     * Whether the temperature is known beyond the wall: that of an exact solution. Within
+     * a hole it is not asked for, where it may be infinite.
+     */
+    bool known_beyond() const
+    {
+      return boundary->exact && !inner;
+    }
+
+    /** Its area (m^(d-1)). */
+    double area(int dimension) const;
+
+    /** What it encloses (m^d). */
+    double enclosed(int dimension) const;
+  };
+
   /** A scene as particles: where they are and what each stands for. */
   struct Discretisation
   {
@@ -30,6 +68,21 @@ namespace meltfront::particles
 
     /** True if a particle lies on the wall (edge layout). */
     bool on_wall(const PlaneWall &wall, std::size_t particle) const;
+
+    /** Of a ball or a shell: the round wall nearest to a place at a distance from the
+     * origin. */
+    const RoundWall &nearest_round_wall(double distance) const;
+
+    /**
+     * The volume of the domain that each particle stands for, in the measure of the
+     * scene: `weights` but at round walls. There the cells of the lattice cover more or
+     * less than the domain, and the particles within a spacing of the wall share the
+     * difference alike, so that shares add up to the domain.
+     */
+    std::span<const double> shares() const
+    {
+      return corrected_shares.empty() ? weights : corrected_shares;
+    }
 
     const cases::Scene &scene;
     int dimension;
@@ -40,26 +93,32 @@ namespace meltfront::particles
     Relaxation relaxation; ///< of the particles, where they were relaxed
     Descent descent;       ///< of their energy, where that was minimised
     ParticleStorage particles;
-    /** Lattice points outside a ball within reach of its particles: they hold the rim's
-     * values. */
+    /** Lattice points beyond round walls within reach of the particles: they hold the
+     * walls' values. None beyond insulated walls. */
     ParticleStorage ghosts;
     Periodicity periodicity;
-    std::vector<PlaneWall> walls; ///< of a slab or a box, without the periodic ones
-    double particle_volume;       ///< dp^d (m^d)
-    double cross_section;         ///< of the strip that stands for a slab, else 1
-    std::vector<double> weights;  ///< volumes in the measure of the scene
+    std::vector<PlaneWall> walls;       ///< of a slab or a box, without the periodic ones
+    std::vector<RoundWall> round_walls; ///< of a ball or a shell
+    double particle_volume;             ///< dp^d (m^d)
+    double cross_section;               ///< of the strip that stands for a slab, else 1
+    std::vector<double> weights;        ///< volumes in the measure of the scene
     /** Particles on a wall of prescribed temperature (edge layout), which hold its value.
      */
     std::vector<std::uint32_t> held;
 
   private:
     void fill_slab_or_box(const SphParameters &parameters);
-    void fill_ball();
+    void fill_ball_or_shell();
+    void add_points_beyond(const RoundWall &wall, ParticleStorage &points) const;
+    double least_depth(const RoundWall &wall) const;
+    void share_the_rest(const RoundWall &wall);
     void fill_outline();
     void disturb(const SphParameters &parameters);
     void scatter_in_box(const SphParameters &parameters);
     ParticleStorage lattice_around_box() const;
     void find_held_particles();
+
+    std::vector<double> corrected_shares; ///< or empty
   };
 } // namespace meltfront::particles
 

@@ -153,10 +153,6 @@ namespace meltfront::particles
 
     int resolve_dimension(const SphPolicy &policy, const cases::Scene &scene, long wanted)
     {
-      if(scene.domain.shape == cases::DomainShape::shell)
-        throw cases::Refusal(fmt::format(
-            "{} does not simulate a shell: it has no particles along an inner round wall",
-            policy.name));
       if(scene.domain.outline
          && scene.boundary(cases::Side::outer).kind != cases::BoundaryKind::insulated)
         throw cases::Refusal(fmt::format(

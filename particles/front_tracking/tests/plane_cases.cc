@@ -141,6 +141,8 @@ namespace meltfront::particles::front_tracking
     frame.mean_radius = sum / static_cast<double>(frame.front_points);
     frame.roundness = (largest - least) / frame.mean_radius;
     frames.push_back(frame);
+    for(int d = 0; d < 2; ++d)
+      front[d].assign(snapshot.front[d].begin(), snapshot.front[d].end());
     temperature.assign(snapshot.temperature.begin(), snapshot.temperature.end());
   }
 

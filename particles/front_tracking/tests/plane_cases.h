@@ -5,6 +5,7 @@
 #include <cases/scene.h>
 #include <particles/front_tracking/plane_heat.h>
 
+#include <array>
 #include <functional>
 #include <string>
 #include <utility>
@@ -49,6 +50,7 @@ namespace meltfront::particles::front_tracking
     std::vector<Frame> frames;
     std::vector<std::string> notes;
     std::vector<double> temperature;
+    std::array<std::vector<double>, 2> front; ///< points of the last frame
     cases::Cost cost;
   };
 

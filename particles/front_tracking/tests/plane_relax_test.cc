@@ -59,7 +59,7 @@ namespace
       Disk disk(30, 0.2);
       PlaneNodes &nodes = disk.nodes;
       const double h = nodes.spacing;
-      PlaneRelaxation relaxation(disk.scene, nodes, RelaxRule::homing, 1);
+      PlaneRelaxation relaxation(nodes, RelaxRule::homing, 1);
       double at = radius;
       std::vector<double> near_share;
       for(int step = 0; step < 12; ++step, at -= way * h)
@@ -98,7 +98,7 @@ namespace
       PlaneState state = disk.state(radius, 0.3 * disk.nodes.spacing);
       for(const PlanePoint &place : disk.nodes.position)
         state.unknown.push_back(place.norm() - radius);
-      PlaneRelaxation relaxation(disk.scene, disk.nodes, RelaxRule::homing, threads);
+      PlaneRelaxation relaxation(disk.nodes, RelaxRule::homing, threads);
       found.push_back(relaxation.places(state, false, 1.));
       relaxation.resample(found.back(), disk.heat, state);
       values.push_back(state.unknown);
@@ -121,7 +121,7 @@ namespace
     { return (place.norm() < radius ? solid : liquid)(place.squaredNorm()); };
     for(const PlanePoint &place : disk.nodes.position)
       state.unknown.push_back(exact(place));
-    PlaneRelaxation relaxation(disk.scene, disk.nodes, RelaxRule::homing, 1);
+    PlaneRelaxation relaxation(disk.nodes, RelaxRule::homing, 1);
     const std::vector<PlanePoint> places = relaxation.places(state, false, 1.);
     relaxation.resample(places, disk.heat, state);
     double error = 0;
@@ -170,7 +170,7 @@ namespace
         return state;
       };
       begin(disk.heat); // makes rows
-      PlaneRelaxation relaxation(disk.scene, disk.nodes, RelaxRule::homing, 1);
+      PlaneRelaxation relaxation(disk.nodes, RelaxRule::homing, 1);
       const std::vector<PlanePoint> before = disk.nodes.position;
       disk.nodes.move(relaxation.places(disk.state(radius, 0), false, 1.));
       EXPECT_NE(before, disk.nodes.position);
@@ -189,7 +189,7 @@ namespace
   {
     Disk disk(24);
     PlaneNodes &nodes = disk.nodes;
-    PlaneRelaxation relaxation(disk.scene, nodes, RelaxRule::homing, 1);
+    PlaneRelaxation relaxation(nodes, RelaxRule::homing, 1);
     nodes.move(relaxation.places(disk.state(radius, 0), false, 1.));
     double sum = 0;
     for(std::size_t i = 0; i < nodes.size(); ++i)

@@ -142,7 +142,7 @@ namespace meltfront::particles::testing
       EXPECT_NEAR(ice, std::numbers::pi * 0.09, 2e-3 * 0.09);
     }
 
-    TEST(Effects, ShellsAndUndercooledLiquidAreRefused)
+    TEST(Effects, UndercooledLiquidIsRefused)
     {
       Problem problem;
       problem.scene = unit_box(2, unit_material(), -1, 0.01);
@@ -161,13 +161,6 @@ namespace meltfront::particles::testing
       };
       EXPECT_EQ(refusal(), "sph does not simulate metastable_phase (liquid is "
                            "undercooled at the start)");
-      problem.scene.domain = {cases::DomainShape::shell, 2, {}, {}, 1, 0.5};
-      problem.scene.initial.front.reset();
-      problem.scene.boundaries = {};
-      for(const cases::Side side : {cases::Side::inner, cases::Side::outer})
-        problem.scene.boundaries[static_cast<std::size_t>(side)] = insulated();
-      EXPECT_EQ(refusal(), "sph does not simulate a shell: it has no particles along an "
-                           "inner round wall");
     }
 
     TEST(Effects, EveryOneCarriesItsTime)

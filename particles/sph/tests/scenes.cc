@@ -1,6 +1,7 @@
 #include <cases/exact/line_sink.h>
 #include <cases/exact/planar_neumann.h>
 #include <cases/exact/point_sink.h>
+#include <particles/sph/discretisation.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/tests/scenes.h>
 
@@ -154,6 +155,24 @@ namespace meltfront::particles::testing
     return {ball(2, exact, in_square.scene.sources[0]), exact};
   }
 
+  Problem line_sink_in_annulus()
+  {
+    Material material = unit_material();
+    material.solid.conductivity = 2;
+    const auto exact = std::make_shared<LineSink>(material, 0.4206, 0.5);
+    Scene scene;
+    scene.symmetry = Symmetry::cylindrical;
+    scene.domain = {DomainShape::shell, 2, {}, {}, 1, 0.2};
+    scene.material = material;
+    scene.initial.temperature = exact_wall(exact).value;
+    scene.initial.exact = exact;
+    for(const Side side : {Side::inner, Side::outer})
+      scene.boundaries[static_cast<std::size_t>(side)] = exact_wall(exact);
+    scene.start_time = 0.11305544;
+    scene.end_time = 0.25437474;
+    return {scene, exact};
+  }
+
   Problem point_sink_in_ball()
   {
     const auto exact = std::make_shared<PointSink>(water(), 0.15, 10);
@@ -209,13 +228,17 @@ namespace meltfront::particles::testing
       void observe(const Snapshot &snapshot) override
       {
         const Symmetry symmetry = problem.scene.symmetry;
-        double solid = 0, ice_radius = 0, heat_loss_radius = 0;
+        const RoundWall hole{nullptr, problem.scene.domain.inner_radius, true};
+        double solid = hole.enclosed(snapshot.dimension), ice_radius = 0,
+               heat_loss_radius = 0;
+        outcome.distance.clear();
         for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
         {
           Position p{};
           for(int d = 0; d < snapshot.dimension; ++d)
             p[d] = snapshot.positions[d][i];
           const double r = coordinate(symmetry, p);
+          outcome.distance.push_back(std::hypot(p[0], p[1], p[2]));
           const double fraction = snapshot.solid_fraction[i];
           solid += snapshot.weights[i] * fraction;
           if(fraction == 1)

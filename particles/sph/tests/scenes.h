@@ -56,6 +56,10 @@ namespace meltfront::particles::testing
   /** The same in a disk of radius 0.5 with the exact temperature on its rim. */
   Problem line_sink_in_disk();
 
+  /** A line sink whose surroundings are cut out of an annulus with exact rims, from the
+   * exact state on: the front goes from 0.4 to 0.6 m. */
+  Problem line_sink_in_annulus();
+
   /** A point sink with Q ~ sqrt(t) in a ball of radius 0.5, exact temperature outside. */
   Problem point_sink_in_ball();
 
@@ -71,6 +75,7 @@ namespace meltfront::particles::testing
     double largest_defect = 0;      ///< of the heat budget
     double steepest_retreat = 0;    ///< of the front between two steps (m)
     double lowest = 0, highest = 0; ///< temperature, over all steps
+    std::vector<double> distance;   ///< of the particles from the origin (m)
     std::vector<double> position_x, weights, temperature, solid_fraction; ///< at the end
     std::vector<double> fronts; ///< after each step
     cases::HeatBudget heat;     ///< at the end
