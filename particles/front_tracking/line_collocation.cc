@@ -33,6 +33,23 @@ namespace meltfront::particles::front_tracking
       stencils.evaluate(problem.nodes[i], cloud, regular[i]);
   }
 
+  void LineCollocation::nodes_moved(std::span<const double> before)
+  {
+    const std::vector<double> &x = problem.nodes;
+    const auto moved = [&](std::size_t i) { return x[i] != before[i]; };
+    cloud.position[0] = x;
+    for(std::size_t i = 0; i < x.size(); ++i)
+    {
+      bool touched = false;
+      const std::size_t from
+          = regular[i].first - std::min<std::size_t>(regular[i].first, 1);
+      for(std::size_t j = from; j < std::min(regular[i].end() + 1, x.size()); ++j)
+        touched = touched || moved(j);
+      if(touched)
+        stencils.evaluate(x[i], cloud, regular[i]);
+    }
+  }
+
   std::pair<std::size_t, std::size_t>
   LineCollocation::nodes_of(const LineInterval &interval) const
   {

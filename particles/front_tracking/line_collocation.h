@@ -56,6 +56,11 @@ namespace meltfront::particles::front_tracking
      * `absorbed` counts those that lie too near to a front. */
     std::pair<std::size_t, std::size_t> nodes_of(const LineInterval &interval) const;
 
+    /** The problem's nodes have moved: weights among them are made anew where a node
+     * moved in their reach.
+     * @param before where they were */
+    void nodes_moved(std::span<const double> before);
+
     /** Matrix entries so far. */
     long work() const
     {

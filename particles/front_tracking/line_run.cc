@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
+#include <particles/front_tracking/line_relax.h>
 #include <particles/front_tracking/line_run.h>
 #include <particles/front_tracking/line_sites.h>
 #include <particles/front_tracking/line_start.h>
@@ -151,6 +152,15 @@ namespace meltfront::particles::front_tracking
             {"start", start.how, ""},
             {"fronts", "Broyden's method, all temperatures anew in each iteration", ""},
             {"linear solver", "banded elimination", ""}};
+        if(parameters.relax > 0)
+          result.parameters.push_back(
+              {"relaxation of inner nodes",
+               fmt::format("{}, every {} steps",
+                           parameters.relax_rule == RelaxRule::homing
+                               ? "repulsion and springs to their homes"
+                               : "Lennard-Jones energy",
+                           parameters.relax),
+               ""});
         return result;
       }
 
@@ -171,6 +181,22 @@ namespace meltfront::particles::front_tracking
                                  first_step + stepper.steps(), state.time,
                                  allowed_overshoot);
         report(state, state.time == scene.end_time);
+        if(parameters.relax > 0 && stepper.steps() % parameters.relax == 0)
+          relax_nodes(step);
+      }
+
+      /** @param step the last one (s) */
+      void relax_nodes(double step)
+      {
+        std::vector<double> places
+            = relaxation.places(problem, stepper.state(), parameters.relax * step);
+        if(places == problem.nodes)
+          return;
+        std::deque<LineState> states = stepper.line_solver().states();
+        for(LineState &state : states)
+          resample(problem, places, parameters.basis_order + 1, state);
+        problem.nodes.swap(places);
+        stepper.nodes_moved(places, std::move(states));
       }
 
       /** Heat released in the domain per time. */
@@ -246,6 +272,7 @@ namespace meltfront::particles::front_tracking
       LineState initial;
       cases::TemperatureBounds bounds;
       LineStepper stepper;
+      LineRelaxation relaxation{problem, parameters.relax_rule};
       LineSites sites;
       double initial_heat = heat_of(problem, initial).total();
       double booked = 0; ///< through the walls before the first step

@@ -63,6 +63,15 @@ namespace meltfront::particles::front_tracking
       history.set(std::move(earlier));
     }
 
+    /** The problem's nodes have moved.
+     * @param before where they were
+     * @param states those that the next step looks back on, at the new places */
+    void nodes_moved(std::span<const double> before, std::deque<LineState> states)
+    {
+      collocation.nodes_moved(before);
+      history.set(std::move(states));
+    }
+
     const LineCounters &counters() const
     {
       return counted;

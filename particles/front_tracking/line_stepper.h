@@ -44,6 +44,12 @@ namespace meltfront::particles::front_tracking
      */
     void advance(double target, const std::function<void()> &after_step);
 
+    /** See LineSolver; to be called after a step that was kept. */
+    void nodes_moved(std::span<const double> before, std::deque<LineState> states)
+    {
+      solver.nodes_moved(before, std::move(states));
+    }
+
     const LineState &state() const
     {
       return solver.state();

@@ -82,6 +82,22 @@ namespace meltfront::particles::front_tracking
                   : 0);
   }
 
+  void PlaneHeat::nodes_moved(std::span<const PlanePoint> before)
+  {
+    std::vector<PlanePoint> moved;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      if(nodes.position[i] != before[i])
+        moved.push_back(nodes.position[i]);
+    const PlaneBins bins(moved, nodes.spacing);
+    // A row's reach goes a spacing beyond its points, and no node moves farther.
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      if(rows[i].reach > 0)
+        bins.visit(nodes.position[i], rows[i].reach,
+                   [&](std::uint32_t, double) { rows[i].reach = 0; });
+    for(StencilMaker &maker : makers)
+      maker.nodes_moved();
+  }
+
   void PlaneHeat::mark_active(PlaneFront &front) const
   {
     for(std::size_t p = 0; p < front.size(); ++p)

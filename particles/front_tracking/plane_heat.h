@@ -57,6 +57,10 @@ namespace meltfront::particles::front_tracking
     PlaneHeat(const cases::Scene &scene, const PlaneNodes &nodes,
               const PlaneHeatSettings &settings);
 
+    /** The nodes have moved: rows that reach to one that did are made anew.
+     * @param before where they were */
+    void nodes_moved(std::span<const PlanePoint> before);
+
     /** Tell particles within the domain from those beyond its walls. */
     void mark_active(PlaneFront &front) const;
 

@@ -21,6 +21,9 @@ namespace meltfront::particles::front_tracking
     /** Samples of a node's area along each direction. */
     constexpr int samples_across = 6;
 
+    /** Spacings from where a node now is within which areas change by its move. */
+    constexpr double area_reach = 3.5;
+
     constexpr double golden = 0.6180339887498949;
 
     cases::Position position_of(const PlanePoint &point)
@@ -242,6 +245,31 @@ namespace meltfront::particles::front_tracking
     }
   }
 
+  void PlaneNodes::move(const std::vector<PlanePoint> &places)
+  {
+    std::vector<PlanePoint> moved;
+    for(std::size_t i = 0; i < size(); ++i)
+      if(places[i] != position[i])
+        moved.push_back(places[i]);
+    position = places;
+    bins = PlaneBins(position, spacing);
+    const PlaneBins moved_bins(moved, spacing);
+    std::vector<std::vector<PlanePoint>> of_node(size());
+    std::vector<PlanePoint> free;
+    for(std::size_t i = 0; i < size(); ++i)
+    {
+      bool touched = false;
+      moved_bins.visit(position[i], area_reach * spacing,
+                       [&](std::uint32_t, double) { touched = true; });
+      const auto begin = samples.begin() + static_cast<long>(sample_offsets[i]);
+      const auto end = samples.begin() + static_cast<long>(sample_offsets[i + 1]);
+      auto &kept = touched ? free : of_node[i];
+      kept.insert(kept.end(), begin, end);
+    }
+    assign(free, of_node);
+    gather_samples(of_node);
+  }
+
   void PlaneNodes::share_area()
   {
     sample_spacing = spacing / samples_across;
@@ -254,18 +282,32 @@ namespace meltfront::particles::front_tracking
         = {size.x() / static_cast<double>(across), size.y() / static_cast<double>(along)};
     lattice.first = lower + lattice.step / 2;
     lattice.inside.resize(across * along);
-    std::vector<std::vector<PlanePoint>> of_node(position.size());
+    std::vector<PlanePoint> inside;
     for(std::size_t s = 0; s < lattice.inside.size(); ++s)
     {
       const PlanePoint sample = lattice.place(s);
       lattice.inside[s] = wall_distance(sample) > 0;
-      if(!lattice.inside[s])
-        continue;
-      // Off the lattice's own lines of symmetry, so that no sample is undecided.
-      const double nudge = 1e-7 * spacing;
-      of_node[bins.nearest(sample + nudge * PlanePoint(golden, 1 - golden))].push_back(
-          sample);
+      if(lattice.inside[s])
+        inside.push_back(sample);
     }
+    std::vector<std::vector<PlanePoint>> of_node(position.size());
+    assign(inside, of_node);
+    gather_samples(of_node);
+  }
+
+  /** Give samples to the nodes that are nearest. */
+  void PlaneNodes::assign(const std::vector<PlanePoint> &free,
+                          std::vector<std::vector<PlanePoint>> &of_node) const
+  {
+    // Off the lattice's own lines of symmetry, so that no sample is undecided.
+    const PlanePoint nudge = 1e-7 * spacing * PlanePoint(golden, 1 - golden);
+    for(const PlanePoint &sample : free)
+      of_node[bins.nearest(sample + nudge)].push_back(sample);
+  }
+
+  void PlaneNodes::gather_samples(const std::vector<std::vector<PlanePoint>> &of_node)
+  {
+    samples.clear();
     sample_offsets.assign(1, 0);
     for(const auto &own : of_node)
     {

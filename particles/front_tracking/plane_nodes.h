@@ -95,6 +95,10 @@ namespace meltfront::particles::front_tracking
     /** Distance to the nearest wall (m), negative outside of the domain. */
     double wall_distance(const PlanePoint &point) const;
 
+    /** Put nodes to other places, none farther than a spacing from where it is; areas
+     * follow. */
+    void move(const std::vector<PlanePoint> &places);
+
     /** Corners of the domain's bounding box (m). */
     PlanePoint lower{0, 0}, upper{0, 0};
 
@@ -121,6 +125,9 @@ namespace meltfront::particles::front_tracking
     void add_wall_node(const PlanePoint &place, const WallNode &wall);
     void displace(const NodeLayout &layout);
     void share_area();
+    void assign(const std::vector<PlanePoint> &free,
+                std::vector<std::vector<PlanePoint>> &of_node) const;
+    void gather_samples(const std::vector<std::vector<PlanePoint>> &of_node);
 
     const cases::Scene &scene;
   };

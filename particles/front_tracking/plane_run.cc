@@ -75,6 +75,7 @@ namespace meltfront::particles::front_tracking
     , parameters(read_tracking_parameters(scene, resolution))
     , nodes(scene, parameters.intervals, {parameters.jitter, resolution.seed})
     , heat(scene, nodes, settings_of(scene, parameters, resolution.threads))
+    , relaxation(nodes, parameters.relax_rule, std::max(1, resolution.threads))
     , marked(nodes, std::max(1, resolution.threads))
     , closes_budget(
           parameters.closure == Closure::always
@@ -336,6 +337,8 @@ namespace meltfront::particles::front_tracking
     // Particles that were placed anew may lie beyond a wall.
     heat.mark_active(state.front);
     follow_topology();
+    if(parameters.relax > 0 && !fresh && step_number % parameters.relax == 0)
+      relax_nodes();
   }
 
   void PlaneRun::check(const PlaneState &checked) const

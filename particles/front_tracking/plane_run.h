@@ -5,6 +5,7 @@
 #include <cases/stopwatch.h>
 #include <particles/front_tracking/plane_heat.h>
 #include <particles/front_tracking/plane_marked_front.h>
+#include <particles/front_tracking/plane_relax.h>
 #include <particles/front_tracking/plane_start.h>
 #include <particles/front_tracking/plane_topology.h>
 #include <particles/front_tracking/tracking_options.h>
@@ -38,6 +39,7 @@ namespace meltfront::particles::front_tracking
     bool move(const std::vector<double> &displacement, PlaneState &next,
               double &largest) const;
     void accept(PlaneState next);
+    void relax_nodes();
     void close_budget();
     void follow_level_set();
     void follow_topology();
@@ -59,6 +61,7 @@ namespace meltfront::particles::front_tracking
     TrackingParameters parameters;
     PlaneNodes nodes;
     PlaneHeat heat;
+    PlaneRelaxation relaxation;
     MarkedFront marked;
     bool closes_budget;
     cases::TemperatureBounds bounds;

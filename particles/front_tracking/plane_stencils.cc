@@ -55,6 +55,13 @@ namespace meltfront::particles::front_tracking
       points.add({place.x(), place.y(), 0});
   }
 
+  void StencilMaker::nodes_moved()
+  {
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      for(int d = 0; d < 2; ++d)
+        points.position[d][i] = nodes.position[i][d];
+  }
+
   void StencilMaker::set_front(const PlaneFront &new_front, const FrontIndex &new_index,
                                std::span<const NodePhase> new_phases)
   {

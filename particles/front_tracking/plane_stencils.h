@@ -75,6 +75,9 @@ namespace meltfront::particles::front_tracking
     void set_front(const PlaneFront &front, const FrontIndex &index,
                    std::span<const NodePhase> phases);
 
+    /** The nodes have moved: look at their places again. */
+    void nodes_moved();
+
     /** The stencil at a place in a phase (liquid or solid). */
     void make(const PlanePoint &centre, NodePhase phase, PlaneStencil &stencil);
 

@@ -119,7 +119,19 @@ namespace meltfront::particles::front_tracking
          "heat through all walls is given or none, never, or always.",
          0,
          0,
-         {"given-walls", "never", "always"}}};
+         {"given-walls", "never", "always"}},
+        {"relax", "1", 0L,
+         "Inner nodes are relaxed every so many steps, so that they keep their distance "
+         "from the front as it moves through them; 0: they stay.",
+         0, 1e6},
+        {"relax_rule",
+         "",
+         std::string("homing"),
+         "What relaxed nodes obey: repulsion among nodes and front with springs to where "
+         "they were laid, or the Lennard-Jones energy alone as published.",
+         0,
+         0,
+         {"homing", "lennard-jones"}}};
   }
 
   int simulated_dimension(const cases::Scene &scene, const cases::Options &options)
@@ -183,6 +195,10 @@ namespace meltfront::particles::front_tracking
     result.closure = closure == "never"    ? Closure::never
                      : closure == "always" ? Closure::always
                                            : Closure::given_walls;
+    result.relax = static_cast<int>(options.get_integer("relax"));
+    result.relax_rule = options.get_string("relax_rule") == "homing"
+                            ? RelaxRule::homing
+                            : RelaxRule::lennard_jones;
     return result;
   }
 } // namespace meltfront::particles::front_tracking

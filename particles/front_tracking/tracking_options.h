@@ -40,6 +40,13 @@ namespace meltfront::particles::front_tracking
     solid
   };
 
+  /** How inner nodes are relaxed. */
+  enum class RelaxRule
+  {
+    homing,       ///< they repel each other and the front, springs draw them home
+    lennard_jones ///< as published: the Lennard-Jones energy alone
+  };
+
   /** When lost heat is made up for by the front, in the plane. */
   enum class Closure
   {
@@ -65,6 +72,8 @@ namespace meltfront::particles::front_tracking
     bool exact_history = true; ///< before the start, where the start is exact
     Displaced displaced = Displaced::liquid;
     Closure closure = Closure::given_walls;
+    int relax = 0; ///< steps between relaxations of the inner nodes; 0: none
+    RelaxRule relax_rule = RelaxRule::homing;
   };
 
   /** All options of the method. */
