@@ -115,14 +115,17 @@ namespace meltfront::verification
       return {{"solid", json_of(material.solid)},
               {"liquid", json_of(material.liquid)},
               {"latent_heat", json_of(material.latent_heat)},
-              {"melting_temperature", json_of(material.melting_temperature)}};
+              {"melting_temperature", json_of(material.melting_temperature)},
+              {"gibbs_thomson_coefficient",
+               json_of(material.gibbs_thomson_coefficient)}};
     }
 
     cases::Material material_in(const json &json)
     {
       return {phase_in(json.at("solid")), phase_in(json.at("liquid")),
               number_in(json.at("latent_heat")),
-              number_in(json.at("melting_temperature"))};
+              number_in(json.at("melting_temperature")),
+              number_in(json.at("gibbs_thomson_coefficient"))};
     }
 
     json json_of(const std::vector<cases::TimedEvent> &events)

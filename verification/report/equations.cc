@@ -127,17 +127,24 @@ namespace meltfront::verification
              + conditions(record);
     const cases::Material &material = record.material;
     const std::string degrees = unit_of(record, " (K or °C)");
-    const Markup melting = equation_number(material.melting_temperature);
+    Markup melting = equation_number(material.melting_temperature);
+    Markup curved = symbol("T", "m");
+    if(material.gibbs_thomson_coefficient != 0)
+    {
+      curved += text(" − ") + symbol("Γ") + symbol("κ");
+      melting += text(" − ") + equation_number(material.gibbs_thomson_coefficient)
+                 + text(" ") + symbol("κ");
+    }
     Markup result
         = equation_line("solid", heat_equation(record, material.solid, "s"))
           + equation_line("liquid", heat_equation(record, material.liquid, "l"));
-    result += equation_line("front", stefan_condition(record))
-              + equation_line("", symbol("T") + text(" = ") + symbol("T", "m")
-                                      + text(" = ") + melting
-                                      + text(degrees + " at the front"
-                                             + (record.symmetry == "none"
-                                                    ? ", n its normal into the liquid"
-                                                    : "")));
+    result
+        += equation_line("front", stefan_condition(record))
+           + equation_line("", symbol("T") + text(" = ") + curved + text(" = ") + melting
+                                   + text(degrees + " at the front"
+                                          + (record.symmetry == "none"
+                                                 ? ", n its normal into the liquid"
+                                                 : "")));
     if(material.solid.density != material.liquid.density && record.symmetry == "planar")
       result += equation_line(
           "motion",
