@@ -31,7 +31,7 @@ namespace meltfront::particles::level_set
                && (values[neighbour] > 0) == inside)
               nearest[d] = std::min(nearest[d], std::abs(values[neighbour]));
           }
-        for(const auto [a, b] : {std::pair{0, 1}, {1, 2}, {0, 1}})
+        for(const auto &[a, b] : {std::pair{0, 1}, {1, 2}, {0, 1}})
         {
           const double lower = std::min(nearest[a], nearest[b]);
           nearest[b] = std::max(nearest[a], nearest[b]);

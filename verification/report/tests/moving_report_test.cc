@@ -49,10 +49,14 @@ namespace meltfront::verification
       solid.heating = cases::PointHeating{
           {0.2, 2.5, 0}, {{50000, 0.008}, {50000, 0.0095}}, -2, 2.5};
       record.moving->solid = solid;
-      record.criteria = {{"greenspan: least_solid at n=3 in 1..2", "greenspan",
-                          "least_solid", cases::Statistic::value, 3}};
-      record.criteria[0].lower = 1;
-      record.criteria[0].upper = 2;
+      cases::Criterion criterion;
+      criterion.text = "greenspan: least_solid at n=3 in 1..2";
+      criterion.method = "greenspan";
+      criterion.quantity = "least_solid";
+      criterion.n = 3;
+      criterion.lower = 1;
+      criterion.upper = 2;
+      record.criteria = {criterion};
       record.printed = {{"A report", "greenspan", "solid_1", 3, 3},
                         {"A report", "greenspan", "least_solid", 3, 1}};
       return record;
