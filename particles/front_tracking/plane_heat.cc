@@ -19,6 +19,10 @@ namespace meltfront::particles::front_tracking
     /** Front particles so much beyond a wall, in spacings, take no part. */
     constexpr double beyond_wall = 0.05;
 
+    /** A node that counted as on the front goes on doing so within this many times the
+     * distance, so that none goes to and fro beside a front at rest. */
+    constexpr double kept_longer = 1.3;
+
     /** Curvature of the circle through three points (1/m), positive if it is gone round
      * counter-clockwise. */
     double curvature_of_three(const PlanePoint &a, const PlanePoint &b,
@@ -116,10 +120,21 @@ namespace meltfront::particles::front_tracking
     for(std::size_t i = 0; i < nodes.size() && !keep_phases; ++i)
     {
       const double distance = index->signed_distance(
-          nodes.position[i], std::max(absorbed, 1e-9 * nodes.spacing));
-      state.phase[i] = std::abs(distance) < absorbed ? NodePhase::front
-                       : distance < 0                ? NodePhase::solid
-                                                     : NodePhase::liquid;
+          nodes.position[i], std::max(kept_longer * absorbed, 1e-9 * nodes.spacing));
+      const double limit
+          = state.phase[i] == NodePhase::front ? kept_longer * absorbed : absorbed;
+      state.phase[i] = std::abs(distance) < limit ? NodePhase::front
+                       : distance < 0             ? NodePhase::solid
+                                                  : NodePhase::liquid;
+    }
+    wall_areas.resize(nodes.walls.size());
+    for(std::size_t w = 0; w < nodes.walls.size(); ++w)
+    {
+      const std::uint32_t node = nodes.walls[w].node;
+      const double distance
+          = std::abs(index->signed_distance(nodes.position[node], nodes.spacing));
+      wall_areas[w]
+          = nodes.weight[node] * std::clamp(2 * distance / nodes.spacing - 1, 0., 1.);
     }
     before.resize(front.size());
     after.resize(front.size());
@@ -151,7 +166,7 @@ namespace meltfront::particles::front_tracking
       const WallNode &on_wall = nodes.walls[wall];
       for(int i = 0; i < on_wall.n_pieces; ++i)
         outwards += on_wall.pieces[i].length * on_wall.pieces[i].normal;
-      area = nodes.weight[node];
+      area = wall_areas[wall];
     }
     for(std::size_t e = 0; e < row.columns.size(); ++e)
       row.weights[e] = outwards.x() * stencil.weights[d_x][e]
@@ -289,7 +304,7 @@ namespace meltfront::particles::front_tracking
           sum += wall.pieces[i].length
                  * sinks.gradient(place, step.time).dot(wall.pieces[i].normal);
       power += material.conductivity * sum
-               + nodes.weight[wall.node]
+               + wall_areas[nodes.wall_of_node[wall.node]]
                      * (material.volumetric_heat_capacity() / step.step * step.a
                             * solution[wall.node]
                         - known_rate(step, phase, wall.node));

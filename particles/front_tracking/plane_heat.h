@@ -155,6 +155,10 @@ namespace meltfront::particles::front_tracking
     std::vector<Row> rows;
     std::array<std::vector<PlaneStencil>, n_phases> front_stencils;
     std::array<std::vector<FrontValue>, n_phases> front_values;
+    /** Areas that the balances of wall nodes are of (m^2): those of the nodes, none where
+     * the front is nearer than half a spacing; a film's fits say nothing of second
+     * derivatives across it. */
+    std::vector<double> wall_areas;
     std::vector<std::size_t> before, after; ///< neighbours along the curves
     /** Curvature of the circle through a particle and its neighbours: its change with
      * their moves is what the matrix holds, where that of the spline for the shortest

@@ -189,6 +189,7 @@ namespace meltfront::particles::front_tracking
   void PlaneRun::predict(double step, PlaneState &next) const
   {
     next.front = state.front;
+    next.phase = state.phase;
     const double farthest_way = farthest_move * nodes.spacing;
     for(std::size_t p = 0; p < next.front.size(); ++p)
       next.front.position[p]

@@ -113,7 +113,19 @@ namespace meltfront::particles::front_tracking
       return;
     }
     const cases::PhaseProperties &material = properties(phase);
-    const double area = nodes.weight[wall.node];
+    const double area = wall_areas[nodes.wall_of_node[wall.node]];
+    const bool insulated
+        = std::all_of(wall.pieces.begin(), wall.pieces.begin() + wall.n_pieces,
+                      [](const WallPiece &piece)
+                      { return piece.boundary->kind == cases::BoundaryKind::insulated; });
+    if(area == 0 && insulated)
+    {
+      // Across a film at an insulated wall the temperature is that of the front but for
+      // the square of the film's width; a fit to the film's few points may tell anything.
+      add(phase, wall.node, 1);
+      finish_row(front_temperature_near(wall.node) - shift);
+      return;
+    }
     add(phase, wall.node,
         area * material.volumetric_heat_capacity() / step.step * step.a);
     double inflow = area * known_rate(step, phase, wall.node);

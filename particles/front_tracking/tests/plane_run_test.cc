@@ -144,10 +144,14 @@ namespace
     const std::size_t late = record.frames.size() - 20;
     EXPECT_NEAR(record.frames.back().solid_area, record.frames[late].solid_area, 1e-8);
     EXPECT_NEAR(record.frames.back().mean_radius, 0.5, 0.01);
-    const PlaneRecord fine = run_plane(scene, 24, {{"steps", "1000"}});
-    const std::size_t first = fine.frames.size() - 800;
-    EXPECT_NEAR(fine.frames.back().mean_radius, fine.frames[first].mean_radius, 1e-12);
-    EXPECT_NEAR(fine.frames.back().solid_area, fine.frames[first].solid_area, 1e-12);
+    // Nodes beside a front at rest must not change sides for ever.
+    for(const int n : {16, 24})
+    {
+      const PlaneRecord rest = run_plane(scene, n, {{"steps", "600"}});
+      const std::size_t first = rest.frames.size() - 300;
+      EXPECT_NEAR(rest.frames.back().mean_radius, rest.frames[first].mean_radius, 1e-11);
+      EXPECT_NEAR(rest.frames.back().solid_area, rest.frames[first].solid_area, 1e-11);
+    }
   }
 
   TEST(PlaneRun, UndercooledGrowthForAShortTime)
