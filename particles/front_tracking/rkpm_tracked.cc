@@ -54,8 +54,9 @@ namespace meltfront::particles
         {
         case 1:
           if(effects.contains(cases::Effect::gibbs_thomson))
-            throw cases::Refusal("rkpm-tracked simulates curved fronts that melt at "
-                                 "another temperature in the plane only: set dimension=2");
+            throw cases::Refusal(
+                "rkpm-tracked simulates curved fronts that melt at "
+                "another temperature in the plane only: set dimension=2");
           if(!scene.sources.empty())
             throw cases::Refusal(
                 "rkpm-tracked treats line sources in the plane only: set dimension=2");

@@ -116,8 +116,7 @@ namespace meltfront::verification
               {"liquid", json_of(material.liquid)},
               {"latent_heat", json_of(material.latent_heat)},
               {"melting_temperature", json_of(material.melting_temperature)},
-              {"gibbs_thomson_coefficient",
-               json_of(material.gibbs_thomson_coefficient)}};
+              {"gibbs_thomson_coefficient", json_of(material.gibbs_thomson_coefficient)}};
     }
 
     cases::Material material_in(const json &json)
