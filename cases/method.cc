@@ -4,33 +4,49 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace meltfront::cases
 {
-  bool Method::solves(ProblemKind problem) const
+  Cost Method::solve(const Scene &scene, const EffectSet &effects,
+                     const Resolution &resolution, Observer &observer) const
   {
-    return problem == ProblemKind::stefan;
+    require_capable(*this, scene, effects, resolution.threads);
+    Resolution complete = resolution;
+    if(complete.options.declarations().empty())
+      complete.options = Options(option_declarations());
+    require_affordable(*this, demand(scene, effects, complete), complete.memory_limit);
+    return run(scene, effects, complete, observer);
   }
 
-  void require_effects(const Method &method, const EffectSet &effects)
+  Demand Method::demand(const Scene &, const EffectSet &, const Resolution &) const
   {
-    const auto supported = method.supported_effects();
-    std::string missing;
-    for(const EffectDecision &decision : effects.decisions())
-      if(decision.on
-         && std::find(supported.begin(), supported.end(), decision.effect)
-                == supported.end())
-        missing += fmt::format("{}{} ({})", missing.empty() ? "" : ", ",
-                               to_string(decision.effect), decision.reason);
-    if(!missing.empty())
-      throw Refusal(fmt::format("{} does not simulate {}", method.name(), missing));
+    return {};
   }
 
-  void require_problem(const Method &method, const Scene &scene)
+  Capabilities require_capable(const Method &method, const Scene &scene,
+                               const EffectSet &effects, int threads)
   {
-    if(!method.solves(scene.problem))
-      throw Refusal(fmt::format("{} solves no scenes of the kind '{}'", method.name(),
-                                to_string(scene.problem)));
+    std::string reasons;
+    for(const Capabilities &form : method.capabilities())
+    {
+      const std::string reason = objection(form, scene, effects, threads);
+      if(reason.empty())
+        return form;
+      reasons += fmt::format("{}{}{}{}", reasons.empty() ? "" : "; ", form.form,
+                             form.form.empty() ? "" : " it ", reason);
+    }
+    const bool one_form = method.capabilities().size() == 1;
+    throw Refusal(fmt::format("{}{} {}", method.name(), one_form ? "" : ":", reasons));
+  }
+
+  void require_affordable(const Method &method, const Demand &demand, double memory_limit)
+  {
+    if(demand.bytes > memory_limit)
+      throw Refusal(fmt::format("{} is estimated to need {:.3g} GB of memory, and {:.3g} "
+                                "GB are allowed: take a smaller n or another --memory",
+                                method.name(), demand.bytes / 1e9, memory_limit / 1e9));
+    if(demand.steps > most_steps)
+      throw Refusal(fmt::format("{} would take {:.3g} time steps, and at most {:.0g} are "
+                                "possible",
+                                method.name(), demand.steps, most_steps));
   }
 } // namespace meltfront::cases

@@ -1,11 +1,14 @@
 #ifndef meltfront_cases_method_h
 #define meltfront_cases_method_h
 
+#include <cases/capabilities.h>
 #include <cases/effects.h>
 #include <cases/options.h>
 #include <cases/snapshot.h>
 
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,7 +25,20 @@ namespace meltfront::cases
     Options options;
     std::uint64_t seed = 1; ///< for jittered or random arrangements
     int threads = 1;
+    /** Most memory that the run may take (bytes); what is estimated to take more is
+     * refused. */
+    double memory_limit = std::numeric_limits<double>::infinity();
   };
+
+  /** What a run is going to take, estimated before anything is allocated. */
+  struct Demand
+  {
+    double bytes = 0; ///< memory at its peak; 0: not known
+    double steps = 0; ///< time steps; 0: not known
+  };
+
+  /** More steps than any run can take. */
+  inline constexpr double most_steps = 1e9;
 
   /** A parameter that a run used, as the report prints it. */
   struct Parameter
@@ -108,6 +124,9 @@ namespace meltfront::cases
     long most_iterations = 0;        ///< nonlinear iterations of the step with the most
     long capped_steps = 0;           ///< steps whose solver met its iteration limit
     std::vector<EffectCost> effects; ///< of the effects that are on
+    /** What a method counted of its own doings, by a name in plain words: `steps divided
+     * in two`, `steps that fell back to backward Euler`. */
+    std::map<std::string, double> evidence;
   };
 
   /** An algorithm that solves scenes. */
@@ -129,10 +148,9 @@ namespace meltfront::cases
       return {};
     }
 
-    /** By default a method solves scenes that change over time. */
-    virtual bool solves(ProblemKind problem) const;
-
-    virtual std::vector<Effect> supported_effects() const = 0;
+    /** What the method takes: one entry, or one for each of its forms, of which the first
+     * that takes a scene is meant. All else is refused. */
+    virtual std::vector<Capabilities> capabilities() const = 0;
 
     virtual std::vector<OptionDeclaration> option_declarations() const = 0;
 
@@ -142,20 +160,36 @@ namespace meltfront::cases
      * exactly). Of a steady scene there is one snapshot: step 1, at the end time.
      *
      * The scene comes from simulated_scene(); `effects` is the set it was made with. A
-     * method builds only what these effects need.
+     * resolution without options gets the declared defaults.
      *
-     * @throws Refusal if it cannot treat the scene or an option's value correctly,
+     * @throws Refusal if the scene is not within the method's capabilities, if the run
+     * would take more memory or steps than there may be, or if the method cannot treat an
+     * option's value correctly,
      * @throws NumericalError at the step where a value is not finite or breaks a bound.
      */
-    virtual Cost solve(const Scene &scene, const EffectSet &effects,
-                       const Resolution &resolution, Observer &observer) const = 0;
+    Cost solve(const Scene &scene, const EffectSet &effects, const Resolution &resolution,
+               Observer &observer) const;
+
+    /** Memory and steps that a run is going to take, at least in order of magnitude; by
+     * default nothing is known. Allocates nothing. */
+    virtual Demand demand(const Scene &scene, const EffectSet &effects,
+                          const Resolution &resolution) const;
+
+  protected:
+    /** solve() for a scene within the capabilities and a resolution with options. A
+     * method builds only what these effects need. */
+    virtual Cost run(const Scene &scene, const EffectSet &effects,
+                     const Resolution &resolution, Observer &observer) const = 0;
   };
 
-  /** @throws Refusal naming the effects that are on and that the method lacks. */
-  void require_effects(const Method &method, const EffectSet &effects);
+  /** The capabilities of the form of a method that takes a scene.
+   * @throws Refusal in one sentence if none does. */
+  Capabilities require_capable(const Method &method, const Scene &scene,
+                               const EffectSet &effects, int threads);
 
-  /** @throws Refusal if the method does not solve the scene's kind of problem. */
-  void require_problem(const Method &method, const Scene &scene);
+  /** @throws Refusal with the estimate if a run takes more than it may. */
+  void require_affordable(const Method &method, const Demand &demand,
+                          double memory_limit);
 } // namespace meltfront::cases
 
 #endif

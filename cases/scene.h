@@ -29,6 +29,9 @@ namespace meltfront::cases
     std::string expression;
     std::function<double(const Position &, double time)> value;
     bool constant = false; ///< neither space nor time matters
+    /** Times at which the value may jump or bend (s), ascending; as far as the expression
+     * tells. */
+    std::vector<double> breakpoints{};
 
     double operator()(const Position &position, double time) const
     {
@@ -47,6 +50,9 @@ namespace meltfront::cases
     shell,  ///< inner radius <= distance from the origin <= radius: an annulus in 2D
     outline ///< what a closed curve bounds in the plane
   };
+
+  /** The word for a shape in case files. */
+  const char *to_string(DomainShape shape);
 
   struct Domain
   {
@@ -78,6 +84,10 @@ namespace meltfront::cases
     heat_transfer ///< the flux into the domain is the coefficient times the difference
                   ///< of `value`, the ambient temperature, from the wall's (Robin)
   };
+  inline constexpr std::size_t n_boundary_kinds = 5;
+
+  /** The words for it in case files, `heat transfer`. */
+  const char *to_string(BoundaryKind kind);
 
   struct Boundary
   {

@@ -11,14 +11,24 @@ namespace meltfront::particles
 {
   namespace
   {
-    /** A run without options of its own uses the declared defaults. */
-    cases::Resolution complete(const cases::Method &method,
-                               const cases::Resolution &resolution)
+    using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
+
+    cases::Capabilities capabilities_of(std::vector<Effect> effects,
+                                        std::vector<BoundaryKind> round_walls)
     {
-      cases::Resolution result = resolution;
-      if(result.options.declarations().empty())
-        result.options = cases::Options(method.option_declarations());
-      return result;
+      std::vector<BoundaryKind> walls = round_walls;
+      walls.push_back(BoundaryKind::periodic);
+      return {.form = {},
+              .problems = {cases::ProblemKind::stefan},
+              .effects = std::move(effects),
+              .shapes = {{DomainShape::slab, {1}, walls},
+                         {DomainShape::box, {2, 3}, walls},
+                         {DomainShape::ball, {2, 3}, std::move(round_walls)},
+                         {DomainShape::outline, {2}, {BoundaryKind::insulated}}},
+              .front_origins
+              = {FrontOrigin::none, FrontOrigin::initial_front,
+                 FrontOrigin::partly_melted, FrontOrigin::wall, FrontOrigin::source},
+              .most_threads = cases::any_number_of_threads};
     }
 
     class MixtureMethod : public cases::Method
@@ -35,13 +45,15 @@ namespace meltfront::particles
                "crystals and liquid in local equilibrium.";
       }
 
-      std::vector<cases::Effect> supported_effects() const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        using cases::Effect;
         return {
-            Effect::phase_change, Effect::phase_conductivity, Effect::phase_heat_capacity,
-            Effect::heat_sources, Effect::wall_temperature,   Effect::wall_flux,
-            Effect::solute,       Effect::solute_diffusion,   Effect::eutectic};
+            capabilities_of({Effect::phase_change, Effect::phase_conductivity,
+                             Effect::phase_heat_capacity, Effect::heat_sources,
+                             Effect::wall_temperature, Effect::wall_flux, Effect::solute,
+                             Effect::solute_diffusion, Effect::eutectic},
+                            {BoundaryKind::insulated, BoundaryKind::fixed_temperature,
+                             BoundaryKind::flux})};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -49,12 +61,11 @@ namespace meltfront::particles
         return mixture_options();
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
       {
-        cases::require_effects(*this, effects);
-        return run_mixture(scene, effects, complete(*this, resolution), observer);
+        return run_mixture(scene, effects, resolution, observer);
       }
     };
     class TwoPopulationMethod : public cases::Method
@@ -80,9 +91,9 @@ namespace meltfront::particles
         return policy.corrected_form;
       }
 
-      std::vector<cases::Effect> supported_effects() const override
+      /** The paper has no eutectic. */
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        using cases::Effect;
         std::vector<Effect> effects{Effect::phase_change,
                                     Effect::phase_conductivity,
                                     Effect::phase_heat_capacity,
@@ -91,7 +102,8 @@ namespace meltfront::particles
                                     Effect::solute_diffusion};
         if(!policy.as_published)
           effects.push_back(Effect::eutectic);
-        return effects;
+        return {capabilities_of(std::move(effects), {BoundaryKind::insulated,
+                                                     BoundaryKind::fixed_temperature})};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -99,17 +111,11 @@ namespace meltfront::particles
         return two_population_options(policy);
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
       {
-        if(policy.as_published && effects.contains(cases::Effect::eutectic))
-          throw cases::Refusal(
-              fmt::format("{} has no eutectic, for the paper has none: this needs {}",
-                          policy.name, policy.corrected_form));
-        cases::require_effects(*this, effects);
-        return run_two_population(policy, scene, effects, complete(*this, resolution),
-                                  observer);
+        return run_two_population(policy, scene, effects, resolution, observer);
       }
 
     private:

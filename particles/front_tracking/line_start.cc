@@ -23,9 +23,6 @@ namespace meltfront::particles::front_tracking
     LineWall wall_of(const cases::Scene &scene, Side side, double x)
     {
       const cases::Boundary &boundary = scene.boundary(side);
-      if(boundary.kind == BoundaryKind::periodic)
-        throw cases::Refusal("rkpm-tracked does not simulate periodic walls at the ends "
-                             "of a line");
       LineWall wall;
       wall.kind = boundary.kind;
       wall.transfer = boundary.heat_transfer_coefficient;
@@ -122,15 +119,6 @@ namespace meltfront::particles::front_tracking
   LineProblem pose_line_problem(const cases::Scene &scene,
                                 const TrackingParameters &parameters, std::uint64_t seed)
   {
-    if(!scene.changes_phase())
-      throw cases::Refusal("rkpm-tracked follows a front, and without latent heat there "
-                           "is none; rkpm-fixed-point conducts heat without one");
-    if(scene.alloy)
-      throw cases::Refusal("rkpm-tracked does not simulate alloys: their fronts are "
-                           "mushy");
-    if(!scene.sources.empty())
-      throw cases::Refusal("rkpm-tracked does not simulate sources along a line; leave a "
-                           "hole around them, as in a shell");
     const cases::Domain &domain = scene.domain;
     const bool ball = domain.shape == cases::DomainShape::ball;
     LineProblem problem;

@@ -82,12 +82,6 @@ namespace meltfront::particles::front_tracking
           || (parameters.closure == Closure::given_walls && wall_heat_is_given(scene)))
     , bounds(cases::temperature_bounds(scene))
   {
-    if(!(scene.material.latent_heat > 0))
-      throw cases::Refusal(
-          "rkpm-tracked follows a front: it needs a latent heat above zero");
-    if(effects.contains(cases::Effect::liquid_motion))
-      throw cases::Refusal("rkpm-tracked moves liquid of another density along a line "
-                           "only, not in the plane");
     if(parameters.scheme == TimeScheme::bdf3)
       throw cases::Refusal("rkpm-tracked steps by bdf2 or backward-euler in the plane");
   }

@@ -5,11 +5,51 @@
 #include <particles/front_tracking/rkpm_tracked.h>
 #include <particles/front_tracking/tracking_options.h>
 
+#include <fmt/format.h>
+
 namespace meltfront::particles
 {
   namespace
   {
     using namespace front_tracking;
+
+    using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
+
+    const std::vector<BoundaryKind> walls{
+        BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+        BoundaryKind::heat_transfer};
+
+    cases::Capabilities along_line()
+    {
+      return {.form = "along a line",
+              .problems = {cases::ProblemKind::stefan},
+              .effects
+              = {Effect::phase_change, Effect::phase_conductivity,
+                 Effect::phase_heat_capacity, Effect::wall_temperature, Effect::wall_flux,
+                 Effect::liquid_motion, Effect::metastable_phase, Effect::heat_release,
+                 Effect::wall_transfer},
+              .shapes = {{DomainShape::slab, {1}, walls},
+                         {DomainShape::ball, {2, 3}, walls},
+                         {DomainShape::shell, {2, 3}, walls}},
+              .front_origins = {FrontOrigin::initial_front, FrontOrigin::wall}};
+    }
+
+    cases::Capabilities in_plane()
+    {
+      return {.form = "in the plane",
+              .problems = {cases::ProblemKind::stefan},
+              .effects
+              = {Effect::phase_change, Effect::phase_conductivity,
+                 Effect::phase_heat_capacity, Effect::heat_sources,
+                 Effect::wall_temperature, Effect::wall_flux, Effect::metastable_phase,
+                 Effect::heat_release, Effect::wall_transfer, Effect::gibbs_thomson},
+              .shapes = {{DomainShape::box, {2}, walls},
+                         {DomainShape::ball, {2}, walls},
+                         {DomainShape::shell, {2}, walls},
+                         {DomainShape::outline, {2}, walls}},
+              .front_origins = {FrontOrigin::initial_front, FrontOrigin::source},
+              .most_threads = cases::any_number_of_threads};
+    }
 
     class RkpmTracked : public cases::Method
     {
@@ -25,15 +65,9 @@ namespace meltfront::particles
                "and liquid are collocated apart with reproducing kernels.";
       }
 
-      std::vector<cases::Effect> supported_effects() const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        using cases::Effect;
-        return {Effect::phase_change,        Effect::phase_conductivity,
-                Effect::phase_heat_capacity, Effect::heat_sources,
-                Effect::wall_temperature,    Effect::wall_flux,
-                Effect::liquid_motion,       Effect::metastable_phase,
-                Effect::heat_release,        Effect::wall_transfer,
-                Effect::gibbs_thomson};
+        return {along_line(), in_plane()};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -41,32 +75,21 @@ namespace meltfront::particles
         return tracking_options();
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
+    protected:
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
       {
-        cases::require_effects(*this, effects);
-        // A run without options of its own uses the declared defaults.
-        cases::Resolution complete = resolution;
-        if(complete.options.declarations().empty())
-          complete.options = cases::Options(option_declarations());
-        switch(simulated_dimension(scene, complete.options))
-        {
-        case 1:
-          if(effects.contains(cases::Effect::gibbs_thomson))
-            throw cases::Refusal(
-                "rkpm-tracked simulates curved fronts that melt at "
-                "another temperature in the plane only: set dimension=2");
-          if(!scene.sources.empty())
-            throw cases::Refusal(
-                "rkpm-tracked treats line sources in the plane only: set dimension=2");
-          return solve_line(scene, effects, complete, observer);
-        case 2:
-          return solve_plane(scene, effects, complete, observer);
-        default:
-          throw cases::Refusal("rkpm-tracked follows a front along one coordinate or in "
-                               "the plane");
-        }
+        const bool line = simulated_dimension(scene, resolution.options) == 1;
+        const cases::Capabilities form = line ? along_line() : in_plane();
+        if(const std::string reason
+           = cases::objection(form, scene, effects, resolution.threads);
+           !reason.empty())
+          throw cases::Refusal(fmt::format(
+              "{}: {} it {}{}", method_name, form.form, reason,
+              line && scene.domain.dimension == 2 ? "; dimension=2 may be right" : ""));
+        return line ? solve_line(scene, effects, resolution, observer)
+                    : solve_plane(scene, effects, resolution, observer);
       }
     };
   } // namespace

@@ -255,22 +255,24 @@ namespace meltfront::particles
                "where they are driven apart (Greenspan 1976).";
       }
 
-      bool solves(cases::ProblemKind problem) const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        return problem == cases::ProblemKind::particle_solid
-               || problem == cases::ProblemKind::stefan;
-      }
-
-      std::vector<cases::Effect> supported_effects() const override
-      {
-        return {cases::Effect::gravity,
-                cases::Effect::base,
-                cases::Effect::hot_base,
-                cases::Effect::point_heating,
-                cases::Effect::phase_change,
-                cases::Effect::phase_conductivity,
-                cases::Effect::phase_heat_capacity,
-                cases::Effect::wall_temperature};
+        using cases::Effect;
+        return {{.form = "as a solid of particles",
+                 .problems = {cases::ProblemKind::particle_solid},
+                 .effects = {Effect::gravity, Effect::base, Effect::hot_base,
+                             Effect::point_heating},
+                 .most_threads = cases::any_number_of_threads},
+                {.form = "as a bar that conducts heat",
+                 .problems = {cases::ProblemKind::stefan},
+                 .effects = {Effect::phase_change, Effect::phase_conductivity,
+                             Effect::phase_heat_capacity, Effect::wall_temperature},
+                 .shapes = {{cases::DomainShape::slab,
+                             {1},
+                             {cases::BoundaryKind::fixed_temperature}}},
+                 .front_origins = {cases::FrontOrigin::wall},
+                 .most_fronts = 1,
+                 .most_threads = cases::any_number_of_threads}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -297,16 +299,13 @@ namespace meltfront::particles
              1e9}};
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
       {
-        cases::Resolution complete = resolution;
-        if(complete.options.declarations().empty())
-          complete.options = cases::Options(option_declarations());
         if(scene.problem == cases::ProblemKind::stefan)
-          return run_bar_scene(scene, effects, complete, observer);
-        return SolidRun(scene, effects, complete, observer).take();
+          return run_bar_scene(scene, effects, resolution, observer);
+        return SolidRun(scene, effects, resolution, observer).take();
       }
     };
   } // namespace

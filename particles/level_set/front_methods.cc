@@ -277,14 +277,17 @@ namespace meltfront::particles
         return variant.summary;
       }
 
-      bool solves(cases::ProblemKind problem) const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        return problem == cases::ProblemKind::interface_advection;
-      }
-
-      std::vector<cases::Effect> supported_effects() const override
-      {
-        return {};
+        return {{.form = {},
+                 .problems = {cases::ProblemKind::interface_advection},
+                 .effects = {},
+                 .shapes
+                 = {{cases::DomainShape::box,
+                     {2, 3},
+                     {cases::BoundaryKind::insulated, cases::BoundaryKind::periodic}}},
+                 .front_origins = {},
+                 .most_threads = cases::any_number_of_threads}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -296,17 +299,14 @@ namespace meltfront::particles
         return list;
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
       {
-        cases::Resolution complete = resolution;
-        if(complete.options.declarations().empty())
-          complete.options = cases::Options(option_declarations());
         cases::Stopwatch watch;
-        const Grid grid = grid_of(scene.domain, complete.n);
+        const Grid grid = grid_of(scene.domain, resolution.n);
         const MarkerRunParameters parameters
-            = run_parameters(variant.scheme, scene, complete);
+            = run_parameters(variant.scheme, scene, resolution);
         const cases::VelocityField &velocity = *scene.interface->velocity;
         const cases::Shape &shape = *scene.interface->shape;
         const auto distance

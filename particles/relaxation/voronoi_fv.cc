@@ -143,15 +143,20 @@ namespace meltfront::particles
                "chapter 5).";
       }
 
-      bool solves(cases::ProblemKind) const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        return true;
-      }
-
-      std::vector<Effect> supported_effects() const override
-      {
-        return {Effect::wall_temperature, Effect::wall_flux, Effect::wall_transfer,
-                Effect::heat_release, Effect::inclusion};
+        using cases::BoundaryKind, cases::DomainShape, cases::Effect;
+        const std::vector<BoundaryKind> walls{
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+            BoundaryKind::heat_transfer};
+        return {{.form = {},
+                 .problems = {cases::ProblemKind::stefan, cases::ProblemKind::poisson},
+                 .effects = {Effect::heat_release, Effect::wall_temperature,
+                             Effect::wall_flux, Effect::wall_transfer, Effect::inclusion},
+                 .shapes
+                 = {{DomainShape::slab, {1}, walls}, {DomainShape::box, {2, 3}, walls}},
+                 .front_origins = {cases::FrontOrigin::none},
+                 .most_threads = cases::any_number_of_threads}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -161,22 +166,10 @@ namespace meltfront::particles
         return result;
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
-      {
-        cases::require_effects(*this, effects);
-        // A run without options of its own uses the declared defaults.
-        cases::Resolution complete = resolution;
-        if(complete.options.declarations().empty())
-          complete.options = cases::Options(option_declarations());
-        return run(scene, effects, complete, observer);
-      }
-
     private:
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
                       const cases::Resolution &resolution,
-                      cases::Observer &observer) const
+                      cases::Observer &observer) const override
       {
         const cases::Stopwatch watch;
         const Arranged arranged = arrange(scene, resolution);
@@ -202,7 +195,7 @@ namespace meltfront::particles
             {"heat release at", resolution.options.get_string("source"), ""});
         description.obeys_maximum_principle = true;
         description.setup_work = static_cast<long>(problem.operator_rows.size());
-        for(const Effect effect : supported_effects())
+        for(const Effect effect : capabilities().front().effects)
           if(effects.contains(effect))
             description.effects.push_back({.effect = effect});
         const cases::Stopwatch::Seconds spent = watch.elapsed();

@@ -81,23 +81,27 @@ namespace meltfront::particles
                "polynomials.";
       }
 
-      bool solves(cases::ProblemKind) const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        return true;
-      }
-
-      std::vector<cases::Effect> supported_effects() const override
-      {
-        using cases::Effect;
-        return {Effect::heat_release, Effect::wall_temperature, Effect::wall_flux,
-                Effect::wall_transfer};
+        using cases::BoundaryKind, cases::DomainShape, cases::Effect;
+        const std::vector<BoundaryKind> walls{
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+            BoundaryKind::heat_transfer};
+        return {
+            {.form = {},
+             .problems = {cases::ProblemKind::stefan, cases::ProblemKind::poisson},
+             .effects = {Effect::heat_release, Effect::wall_temperature,
+                         Effect::wall_flux, Effect::wall_transfer},
+             .shapes = {{DomainShape::slab, {1}, walls}, {DomainShape::box, {2}, walls}},
+             .front_origins = {cases::FrontOrigin::none},
+             .most_threads = cases::any_number_of_threads}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override;
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override;
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override;
     };
 
     std::vector<cases::OptionDeclaration> MoabIntegral::option_declarations() const
@@ -135,29 +139,20 @@ namespace meltfront::particles
       return options;
     }
 
-    cases::Cost MoabIntegral::solve(const cases::Scene &scene,
-                                    const cases::EffectSet &effects,
-                                    const cases::Resolution &resolution,
-                                    cases::Observer &observer) const
+    cases::Cost MoabIntegral::run(const cases::Scene &scene,
+                                  const cases::EffectSet &effects,
+                                  const cases::Resolution &resolution,
+                                  cases::Observer &observer) const
     {
-      cases::require_effects(*this, effects);
-      // A run without options of its own uses the declared defaults.
-      cases::Resolution complete = resolution;
-      if(complete.options.declarations().empty())
-        complete.options = cases::Options(option_declarations());
       const int dimension = scene.domain.dimension;
-      if(dimension > 2)
-        throw cases::Refusal(fmt::format("{} has moments of kernels on lines and in the "
-                                         "plane only, not in {} dimensions",
-                                         method_name, dimension));
       const cases::Stopwatch watch;
-      const cases::Options &options = complete.options;
+      const cases::Options &options = resolution.options;
       const NodeSet nodes = arrange_nodes(
-          scene, complete.n - 1,
+          scene, resolution.n - 1,
           choice<NodeArrangement>(arrangement_names(), options.get_string("arrangement")),
-          options.get_double("jitter"), complete.seed, method_name,
+          options.get_double("jitter"), resolution.seed, method_name,
           [&scene](NodeSet &set) { relax_inner_nodes(set, scene); });
-      const IntegralProblem problem(scene, nodes, read_parameters(scene, complete));
+      const IntegralProblem problem(scene, nodes, read_parameters(scene, resolution));
       LinearDescription description;
       description.method = method_name;
       description.run.dimension = dimension;
@@ -172,7 +167,7 @@ namespace meltfront::particles
       for(int d = 0; d < dimension; ++d)
         sites.positions[d] = nodes.positions.position[d];
       cases::Cost cost = run_linear_problem(scene, problem.linear(), sites, description,
-                                            complete, observer);
+                                            resolution, observer);
       cost.effects = problem.effect_costs(effects);
       return cost;
     }

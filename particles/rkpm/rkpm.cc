@@ -28,16 +28,20 @@ namespace meltfront::particles
         return policy.summary;
       }
 
-      bool solves(cases::ProblemKind) const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        return true;
-      }
-
-      std::vector<cases::Effect> supported_effects() const override
-      {
-        using cases::Effect;
-        return {Effect::heat_release, Effect::wall_temperature, Effect::wall_flux,
-                Effect::wall_transfer, Effect::inclusion};
+        using cases::BoundaryKind, cases::DomainShape, cases::Effect;
+        const std::vector<BoundaryKind> walls{
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+            BoundaryKind::heat_transfer};
+        return {{.form = {},
+                 .problems = {cases::ProblemKind::stefan, cases::ProblemKind::poisson},
+                 .effects = {Effect::heat_release, Effect::wall_temperature,
+                             Effect::wall_flux, Effect::wall_transfer, Effect::inclusion},
+                 .shapes
+                 = {{DomainShape::slab, {1}, walls}, {DomainShape::box, {2, 3}, walls}},
+                 .front_origins = {cases::FrontOrigin::none},
+                 .most_threads = cases::any_number_of_threads}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -45,24 +49,19 @@ namespace meltfront::particles
         return rkpm::rkpm_options(policy);
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
       {
-        cases::require_effects(*this, effects);
-        // A run without options of its own uses the declared defaults.
-        cases::Resolution complete = resolution;
-        if(complete.options.declarations().empty())
-          complete.options = cases::Options(option_declarations());
         const cases::Stopwatch watch;
         const rkpm::RkpmParameters parameters
-            = rkpm::read_parameters(policy, complete.options, scene.domain.dimension);
+            = rkpm::read_parameters(policy, resolution.options, scene.domain.dimension);
         const NodeSet nodes
-            = arrange_nodes(scene, complete.n - 1, parameters.arrangement,
-                            parameters.jitter, complete.seed, policy.name,
+            = arrange_nodes(scene, resolution.n - 1, parameters.arrangement,
+                            parameters.jitter, resolution.seed, policy.name,
                             [&scene](NodeSet &set) { relax_inner_nodes(set, scene); });
         const rkpm::RkpmProblem problem(scene, nodes, parameters, policy.name,
-                                        complete.threads);
+                                        resolution.threads);
         LinearDescription description;
         description.method = policy.name;
         description.run.dimension = scene.domain.dimension;
@@ -77,7 +76,7 @@ namespace meltfront::particles
         for(int d = 0; d < scene.domain.dimension; ++d)
           sites.positions[d] = nodes.positions.position[d];
         cases::Cost cost = run_linear_problem(scene, problem.linear(), sites, description,
-                                              complete, observer);
+                                              resolution, observer);
         cost.effects = problem.effect_costs(effects);
         return cost;
       }

@@ -29,13 +29,29 @@ namespace meltfront::particles
         return policy.corrected_form;
       }
 
-      std::vector<cases::Effect> supported_effects() const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        using cases::Effect;
-        return {Effect::phase_change,        Effect::phase_conductivity,
-                Effect::phase_heat_capacity, Effect::heat_sources,
-                Effect::wall_temperature,    Effect::wall_flux,
-                Effect::heat_release,        Effect::inclusion};
+        using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
+        const std::vector<BoundaryKind> of_box{
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+            BoundaryKind::periodic};
+        const std::vector<BoundaryKind> round{
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux};
+        return {{.form = {},
+                 .problems = {cases::ProblemKind::stefan},
+                 .effects = {Effect::phase_change, Effect::phase_conductivity,
+                             Effect::phase_heat_capacity, Effect::heat_sources,
+                             Effect::wall_temperature, Effect::wall_flux,
+                             Effect::heat_release, Effect::inclusion},
+                 .shapes = {{DomainShape::slab, {1}, of_box},
+                            {DomainShape::box, {2, 3}, of_box},
+                            {DomainShape::ball, {2, 3}, round},
+                            {DomainShape::shell, {2, 3}, round},
+                            {DomainShape::outline, {2}, {BoundaryKind::insulated}}},
+                 .front_origins
+                 = {FrontOrigin::none, FrontOrigin::initial_front,
+                    FrontOrigin::partly_melted, FrontOrigin::wall, FrontOrigin::source},
+                 .most_threads = cases::any_number_of_threads}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -43,19 +59,13 @@ namespace meltfront::particles
         return sph_options(policy);
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
       {
-        cases::require_effects(*this, effects);
-        // A run without options of its own uses the declared defaults.
-        cases::Resolution complete = resolution;
-        if(complete.options.declarations().empty())
-          complete.options = cases::Options(option_declarations());
-        return run_sph(policy, scene, effects, complete, observer);
+        return run_sph(policy, scene, effects, resolution, observer);
       }
 
-    private:
       const SphPolicy &policy;
     };
   } // namespace

@@ -1,6 +1,6 @@
 #include <reference_fem/cut/cut.h>
 
-#include <cases/error.h>
+#include <cases/scene.h>
 #include <reference_fem/cut/options.h>
 #include <reference_fem/cut/run.h>
 
@@ -22,12 +22,20 @@ namespace meltfront::reference_fem
                "condition, ghost penalty; fronts merge and split.";
       }
 
-      std::vector<cases::Effect> supported_effects() const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        using cases::Effect;
-        return {Effect::phase_change,        Effect::phase_conductivity,
-                Effect::phase_heat_capacity, Effect::heat_sources,
-                Effect::wall_temperature,    Effect::wall_flux};
+        using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
+        const std::vector<BoundaryKind> walls{
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux};
+        return {{.form = {},
+                 .problems = {cases::ProblemKind::stefan},
+                 .effects = {Effect::phase_change, Effect::phase_conductivity,
+                             Effect::phase_heat_capacity, Effect::heat_sources,
+                             Effect::wall_temperature, Effect::wall_flux},
+                 .shapes = {{DomainShape::box, {2}, walls},
+                            {DomainShape::ball, {2}, walls},
+                            {DomainShape::shell, {2}, walls}},
+                 .front_origins = {FrontOrigin::initial_front, FrontOrigin::source}}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -35,14 +43,10 @@ namespace meltfront::reference_fem
         return cut::cut_options();
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
       {
-        cases::require_effects(*this, effects);
-        if(scene.domain.outline)
-          throw cases::Refusal("fem-cut does not simulate what an outline bounds: its "
-                               "rims are circles");
         return cut::CutRun(scene, effects, resolution).run(observer);
       }
     };

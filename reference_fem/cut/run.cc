@@ -55,11 +55,6 @@ namespace meltfront::reference_fem::cut
     , heat(scene, state.mesh->spacing, options.stabilization, options.smoothing)
     , bounds(cases::temperature_bounds(scene))
   {
-    for(const cases::Side side : scene.sides())
-      if(scene.boundary(side).kind == cases::BoundaryKind::periodic)
-        throw cases::Refusal("fem-cut does not simulate periodic walls");
-    if(!(scene.material.latent_heat > 0))
-      throw cases::Refusal("fem-cut follows a front: it needs a latent heat above zero");
   }
 
   std::shared_ptr<const BackgroundMesh>

@@ -1,4 +1,6 @@
 #include <reference_fem/enthalpy/enthalpy.h>
+
+#include <cases/scene.h>
 #include <reference_fem/enthalpy/options.h>
 #include <reference_fem/enthalpy/solver.h>
 
@@ -21,14 +23,29 @@ namespace meltfront::reference_fem
                "graph, solved by truncated nonsmooth Newton steps.";
       }
 
-      std::vector<cases::Effect> supported_effects() const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        using cases::Effect;
-        return {
-            Effect::phase_change, Effect::phase_conductivity, Effect::phase_heat_capacity,
-            Effect::heat_sources, Effect::wall_temperature,   Effect::wall_flux,
-            Effect::solute,       Effect::solute_diffusion,   Effect::eutectic,
-            Effect::heat_release, Effect::inclusion};
+        using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
+        const std::vector<BoundaryKind> of_box{
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+            BoundaryKind::periodic};
+        const std::vector<BoundaryKind> walls{
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux};
+        return {{.form = {},
+                 .problems = {cases::ProblemKind::stefan},
+                 .effects = {Effect::phase_change, Effect::phase_conductivity,
+                             Effect::phase_heat_capacity, Effect::heat_sources,
+                             Effect::wall_temperature, Effect::wall_flux, Effect::solute,
+                             Effect::solute_diffusion, Effect::eutectic,
+                             Effect::heat_release, Effect::inclusion},
+                 .shapes = {{DomainShape::slab, {1}, of_box},
+                            {DomainShape::box, {2, 3}, of_box},
+                            {DomainShape::ball, {2, 3}, walls},
+                            {DomainShape::shell, {2, 3}, walls},
+                            {DomainShape::outline, {2}, walls}},
+                 .front_origins
+                 = {FrontOrigin::none, FrontOrigin::initial_front,
+                    FrontOrigin::partly_melted, FrontOrigin::wall, FrontOrigin::source}}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -36,11 +53,10 @@ namespace meltfront::reference_fem
         return enthalpy_options();
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
       {
-        cases::require_effects(*this, effects);
         StepStatistics statistics;
         return run_enthalpy(scene, effects, resolution, observer, statistics);
       }

@@ -1,6 +1,6 @@
 #include <reference_fem/fitted/fitted.h>
 
-#include <cases/error.h>
+#include <cases/scene.h>
 #include <reference_fem/fitted/options.h>
 #include <reference_fem/fitted/run.h>
 
@@ -23,9 +23,26 @@ namespace meltfront::reference_fem
                "in conservative form, with Newton's method for temperatures and front.";
       }
 
-      std::vector<cases::Effect> supported_effects() const override
+      std::vector<cases::Capabilities> capabilities() const override
       {
-        return cases::all_effects();
+        using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
+        const std::vector<BoundaryKind> walls{
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux};
+        std::vector<BoundaryKind> of_box = walls;
+        of_box.push_back(BoundaryKind::periodic);
+        return {{.form = {},
+                 .problems = {cases::ProblemKind::stefan},
+                 .effects = {Effect::phase_change, Effect::phase_conductivity,
+                             Effect::phase_heat_capacity, Effect::heat_sources,
+                             Effect::wall_temperature, Effect::wall_flux,
+                             Effect::liquid_motion, Effect::metastable_phase},
+                 .shapes = {{DomainShape::slab, {1}, walls},
+                            {DomainShape::box, {2, 3}, of_box},
+                            {DomainShape::ball, {2, 3}, walls},
+                            {DomainShape::shell, {2, 3}, walls}},
+                 .front_origins
+                 = {FrontOrigin::initial_front, FrontOrigin::wall, FrontOrigin::source},
+                 .most_fronts = 1}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -33,14 +50,10 @@ namespace meltfront::reference_fem
         return fitted::fitted_options();
       }
 
-      cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                        const cases::Resolution &resolution,
-                        cases::Observer &observer) const override
+      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution,
+                      cases::Observer &observer) const override
       {
-        cases::require_effects(*this, effects);
-        if(scene.domain.outline)
-          throw cases::Refusal("fem-fitted does not simulate what an outline bounds: its "
-                               "rays run from wall to wall of a slab, a box or a ball");
         return fitted::FittedRun(scene, effects, resolution).run(observer);
       }
     };

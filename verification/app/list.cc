@@ -23,6 +23,15 @@ namespace meltfront::verification
       return text;
     }
 
+    template <typename List>
+    std::vector<std::string> words_of(const List &list)
+    {
+      std::vector<std::string> words;
+      for(const auto &item : list)
+        words.emplace_back(cases::to_string(item));
+      return words;
+    }
+
     std::string option_text(const cases::OptionDeclaration &option)
     {
       std::string range;
@@ -43,10 +52,9 @@ namespace meltfront::verification
       for(const auto &method : methods())
       {
         text += fmt::format("  {}: {}\n", method->name(), method->summary());
-        std::vector<std::string> effects;
-        for(const cases::Effect effect : method->supported_effects())
-          effects.push_back(cases::to_string(effect));
-        text += fmt::format("      effects: {}\n", fmt::join(effects, ", "));
+        for(const cases::Capabilities &form : method->capabilities())
+          text += fmt::format("      effects{}{}: {}\n", form.form.empty() ? "" : " ",
+                              form.form, fmt::join(words_of(form.effects), ", "));
         for(const cases::OptionDeclaration &option : method->option_declarations())
           text += option_text(option);
       }

@@ -76,9 +76,8 @@ namespace meltfront::verification
     {
       const cases::EffectSet effects = cases::effects_called_for(c.scene);
       record.effects = effects.decisions();
-      cases::require_problem(method, c.scene);
-      cases::require_effects(method, effects);
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
+      cases::require_capable(method, scene, effects, resolution.threads);
       const auto measures
           = measures_of(c, scene, method.name(), second, resolution.seed == 1);
       const auto keep_course = [&]

@@ -90,7 +90,8 @@ namespace meltfront::verification
               {"solver_iterations", cost.solver_iterations},
               {"most_iterations", cost.most_iterations},
               {"capped_steps", cost.capped_steps},
-              {"effects", effects}};
+              {"effects", effects},
+              {"evidence", json_of(cost.evidence)}};
     }
 
     cases::Cost cost_in(const json &json)
@@ -106,6 +107,7 @@ namespace meltfront::verification
       cost.solver_iterations = json.at("solver_iterations");
       cost.most_iterations = json.value("most_iterations", 0L);
       cost.capped_steps = json.at("capped_steps");
+      cost.evidence = named_numbers_in(json.value("evidence", nlohmann::json::object()));
       for(const auto &effect : json.at("effects"))
         cost.effects.push_back({effect_named(effect.at("effect")), effect.at("calls"),
                                 effect.at("bytes"), number_in(effect.at("seconds"))});
@@ -170,6 +172,26 @@ namespace meltfront::verification
       for(const auto &event : json)
         events.push_back({number_in(event.at("time")), event.at("what")});
       return events;
+    }
+
+    json json_of(const std::vector<Check> &checks)
+    {
+      json list = json::array();
+      for(const Check &check : checks)
+        list.push_back({{"name", check.name},
+                        {"value", json_of(check.value)},
+                        {"bound", json_of(check.bound)},
+                        {"passed", check.passed}});
+      return list;
+    }
+
+    std::vector<Check> checks_in(const json &json)
+    {
+      std::vector<Check> checks;
+      for(const auto &check : json)
+        checks.push_back({check.at("name"), number_in(check.at("value")),
+                          number_in(check.at("bound")), check.at("passed")});
+      return checks;
     }
 
     /** A list that records of runs made before it was kept lack. */
@@ -286,6 +308,7 @@ namespace meltfront::verification
     if(!record.animation.empty())
       json["animation"] = json_of(record.animation);
     json["events"] = json_of(record.events);
+    json["checks"] = json_of(record.checks);
     json["provenance"] = record.provenance;
   }
 
@@ -316,6 +339,7 @@ namespace meltfront::verification
     record.particle_frames = particle_frames_in(list_in(json, "particle_frames"));
     record.animation = particle_frames_in(list_in(json, "animation"));
     record.events = events_in(list_in(json, "events"));
+    record.checks = checks_in(list_in(json, "checks"));
     json.at("provenance").get_to(record.provenance);
   }
 } // namespace meltfront::verification

@@ -72,6 +72,15 @@ namespace meltfront::verification
     std::string what;
   };
 
+  /** What the harness itself asked of a run, at all its snapshots. */
+  struct Check
+  {
+    std::string name; ///< `phase against temperature`, `maximum principle`, ...
+    double value = 0; ///< the worst of all snapshots
+    double bound = 0; ///< largest value that passes
+    bool passed = true;
+  };
+
   /** Everything needed to repeat a run, and everything that is reported of it. */
   struct RunRecord
   {
@@ -107,6 +116,7 @@ namespace meltfront::verification
     std::vector<ParticleFrame> particle_frames; ///< at the start, the marks and the end
     std::vector<ParticleFrame> animation;       ///< of the first seed: throughout the run
     std::vector<RunEvent> events;
+    std::vector<Check> checks;
 
     /** case_text, case_hash, program_version, compiler, flags, cpu, packages, date,
      * command_line. */

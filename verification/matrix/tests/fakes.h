@@ -83,9 +83,21 @@ namespace meltfront::verification::tests
       return "A method with a known error.";
     }
 
-    std::vector<cases::Effect> supported_effects() const override
+    std::vector<cases::Capabilities> capabilities() const override
     {
-      return cases::all_effects();
+      using cases::BoundaryKind, cases::DomainShape, cases::FrontOrigin;
+      const std::vector<BoundaryKind> walls{BoundaryKind::insulated,
+                                            BoundaryKind::fixed_temperature};
+      return {{.form = {},
+               .problems = {cases::ProblemKind::stefan},
+               .effects = cases::all_effects(),
+               .shapes = {{DomainShape::slab, {1}, walls},
+                          {DomainShape::box, {2, 3}, walls},
+                          {DomainShape::ball, {2, 3}, walls}},
+               .front_origins
+               = {FrontOrigin::none, FrontOrigin::initial_front,
+                  FrontOrigin::partly_melted, FrontOrigin::wall, FrontOrigin::source},
+               .most_threads = cases::any_number_of_threads}};
     }
 
     std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -94,9 +106,9 @@ namespace meltfront::verification::tests
               {"scheme", "", std::string("euler"), "A word.", 0, 0, {"euler", "rkl2"}}};
     }
 
-    cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+    cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                    const cases::Resolution &resolution,
+                    cases::Observer &observer) const override
     {
       if(act)
         act(scene, resolution);

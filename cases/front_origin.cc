@@ -1,0 +1,195 @@
+#include <cases/capabilities.h>
+#include <cases/sampling.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    constexpr int times_looked_at = 257;
+
+    /** Off a wall by this share of the domain's side: initial and wall value may differ
+     * at the wall itself. */
+    constexpr double next_to_wall = 1e-6;
+
+    /** Relative to the largest |T - T_m|: nearer to the melting point is at it. */
+    constexpr double round_off = 1e-12;
+
+    enum class InitialPhase
+    {
+      solid,
+      liquid,
+      mush
+    };
+
+    class Start
+    {
+    public:
+      explicit Start(const Scene &scene)
+        : scene(scene)
+      {
+        visit_points(scene.domain, [&](const Position &p)
+                     { largest = std::fmax(largest, std::abs(excess(p))); });
+      }
+
+      InitialPhase phase(const Position &p) const
+      {
+        const double front
+            = scene.initial.front ? (*scene.initial.front)(p, scene.start_time) : 0;
+        const double sign = front != 0 ? front : excess(p);
+        if(front != 0 || std::abs(sign) > round_off * largest)
+          return sign < 0 ? InitialPhase::solid : InitialPhase::liquid;
+        const double fraction = scene.initial.solid_fraction_at_melting;
+        return fraction == 1   ? InitialPhase::solid
+               : fraction == 0 ? InitialPhase::liquid
+                               : InitialPhase::mush;
+      }
+
+      bool has(InitialPhase wanted) const
+      {
+        bool found = false;
+        visit_points(scene.domain,
+                     [&](const Position &p) { found = found || phase(p) == wanted; });
+        return found;
+      }
+
+      /** What lies at a wall inside of a point of it. */
+      InitialPhase phase_at_wall(Side side, Position wall) const
+      {
+        const Domain &domain = scene.domain;
+        if(side == Side::outer && domain.outline)
+          return phase(wall);
+        if(side == Side::outer || side == Side::inner)
+          for(double &component : wall)
+            component *= 1 + (side == Side::inner ? 1 : -1) * next_to_wall;
+        else
+          wall[static_cast<std::size_t>(side) / 2]
+              += (static_cast<int>(side) % 2 == 0 ? 1 : -1) * next_to_wall
+                 * domain.side();
+        return phase(wall);
+      }
+
+    private:
+      double excess(const Position &p) const
+      {
+        const double value = scene.initial.temperature(p, scene.start_time)
+                             - scene.material.melting_temperature;
+        return std::isfinite(value) ? value : 0;
+      }
+
+      const Scene &scene;
+      double largest = 0;
+    };
+
+    /** Whether the temperature of a wall is ever on the other side of the melting point
+     * than what lies at it at the start. */
+    bool starts_front(const Scene &scene, const Start &start, Side side)
+    {
+      const Boundary &boundary = scene.boundary(side);
+      if(boundary.kind != BoundaryKind::fixed_temperature)
+        return false;
+      bool found = false;
+      visit_wall(
+          scene.domain, side,
+          [&](const Position &wall)
+          {
+            const InitialPhase phase = start.phase_at_wall(side, wall);
+            if(found || phase == InitialPhase::mush)
+              return;
+            const int times = boundary.value.constant ? 1 : times_looked_at;
+            for(int i = 0; i < times && !found; ++i)
+            {
+              const double time
+                  = scene.start_time
+                    + (scene.end_time - scene.start_time) * i / std::max(times - 1, 1);
+              const double excess
+                  = boundary.value(wall, time) - scene.material.melting_temperature;
+              // What an exact solution keeps at the melting point misses it by round-off.
+              const double margin = 1e-9 * std::abs(scene.material.melting_temperature);
+              found = phase == InitialPhase::solid ? excess > margin : excess < -margin;
+            }
+          });
+      return found;
+    }
+
+    int walls_that_start_fronts(const Scene &scene, const Start &start)
+    {
+      const auto sides = scene.sides();
+      return static_cast<int>(std::ranges::count_if(
+          sides, [&](Side side) { return starts_front(scene, start, side); }));
+    }
+
+    int sources_that_start_fronts(const Scene &scene, const Start &start)
+    {
+      // The heat of a plane of sources spreads before anything freezes.
+      if(scene.domain.shape == DomainShape::slab)
+        return 0;
+      return static_cast<int>(
+          std::ranges::count_if(scene.sources,
+                                [&](const PointSource &source)
+                                {
+                                  const double energy = source.energy(scene.end_time);
+                                  const InitialPhase phase = start.phase(source.position);
+                                  return (energy < 0 && phase == InitialPhase::liquid)
+                                         || (energy > 0 && phase == InitialPhase::solid);
+                                }));
+    }
+
+    /** Changes of phase along x or along a radius. */
+    int fronts_on_line(const Scene &scene, const Start &start)
+    {
+      constexpr int points = 1025;
+      const Domain &domain = scene.domain;
+      const double lower = domain.round() ? domain.inner_radius : domain.lower[0];
+      const double upper = domain.round() ? domain.radius : domain.upper[0];
+      int fronts = 0;
+      std::optional<bool> was_solid;
+      for(int i = 0; i < points; ++i)
+      {
+        const InitialPhase phase
+            = start.phase({lower + (upper - lower) * i / (points - 1), 0, 0});
+        if(phase == InitialPhase::mush)
+          continue;
+        const bool solid = phase == InitialPhase::solid;
+        fronts += was_solid && *was_solid != solid;
+        was_solid = solid;
+      }
+      return fronts;
+    }
+  } // namespace
+
+  std::vector<FrontOrigin> front_origins(const Scene &scene)
+  {
+    if(!scene.changes_phase())
+      return {FrontOrigin::none};
+    if(scene.alloy)
+      return {};
+    const Start start(scene);
+    std::vector<FrontOrigin> result;
+    if(start.has(InitialPhase::solid) && start.has(InitialPhase::liquid))
+      result.push_back(FrontOrigin::initial_front);
+    if(start.has(InitialPhase::mush))
+      result.push_back(FrontOrigin::partly_melted);
+    if(walls_that_start_fronts(scene, start) > 0)
+      result.push_back(FrontOrigin::wall);
+    if(sources_that_start_fronts(scene, start) > 0)
+      result.push_back(FrontOrigin::source);
+    return result;
+  }
+
+  int least_number_of_fronts(const Scene &scene)
+  {
+    if(!scene.changes_phase() || scene.alloy)
+      return 0;
+    const Start start(scene);
+    const bool line = scene.symmetry != Symmetry::none;
+    const int initial
+        = line ? fronts_on_line(scene, start)
+               : start.has(InitialPhase::solid) && start.has(InitialPhase::liquid);
+    return initial + walls_that_start_fronts(scene, start)
+           + sources_that_start_fronts(scene, start);
+  }
+} // namespace meltfront::cases

@@ -1,0 +1,88 @@
+#include <cases/sampling.h>
+
+#include <cmath>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    constexpr int samples_of_outline = 8 * samples_across;
+
+    /** Whether a point between the corners of a domain's bounding box lies in it. */
+    bool holds(const Domain &domain, const Position &p)
+    {
+      if(domain.outline)
+        return domain.outline->inside(p);
+      if(!domain.round())
+        return true;
+      const double squared = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+      return squared <= domain.radius * domain.radius * (1 + 1e-12)
+             && squared >= domain.inner_radius * domain.inner_radius * (1 - 1e-12);
+    }
+
+    bool on_side(const Domain &domain, Side side, const Position &p)
+    {
+      const double tolerance = 1e-9 * domain.side();
+      const double distance = coordinate(
+          domain.dimension == 2 ? Symmetry::cylindrical : Symmetry::spherical, p);
+      if(side == Side::outer)
+        return distance > domain.radius * (1 - 2. / samples_across);
+      if(side == Side::inner)
+        return distance < domain.inner_radius + domain.radius * 2. / samples_across;
+      const int d = static_cast<int>(side) / 2;
+      const bool upper = static_cast<int>(side) % 2 == 1;
+      return std::abs(p[d] - (upper ? domain.upper[d] : domain.lower[d])) < tolerance;
+    }
+  } // namespace
+
+  void visit_points(const Domain &domain, const PointVisitor &visit)
+  {
+    const bool ball = domain.round();
+    std::array<int, 3> count{1, 1, 1};
+    for(int d = 0; d < domain.dimension; ++d)
+      count[d] = samples_across;
+    Position p{};
+    for(int k = 0; k < count[2]; ++k)
+      for(int j = 0; j < count[1]; ++j)
+        for(int i = 0; i < count[0]; ++i)
+        {
+          const std::array<int, 3> index{i, j, k};
+          for(int d = 0; d < domain.dimension; ++d)
+          {
+            const double lower = ball ? -domain.radius : domain.lower[d];
+            const double upper = ball ? domain.radius : domain.upper[d];
+            p[d] = lower + (upper - lower) * index[d] / (samples_across - 1);
+          }
+          if(holds(domain, p))
+            visit(p);
+        }
+    if(domain.outline)
+      for(const Position &point : domain.outline->points(samples_of_outline))
+        visit(point);
+  }
+
+  void visit_wall(const Domain &domain, Side side, const PointVisitor &visit)
+  {
+    if(domain.outline)
+    {
+      for(const Position &point : domain.outline->points(samples_of_outline))
+        visit(point);
+      return;
+    }
+    visit_points(domain,
+                 [&](Position p)
+                 {
+                   if(!on_side(domain, side, p))
+                     return;
+                   if(side == Side::outer || side == Side::inner)
+                   {
+                     const double distance = coordinate(Symmetry::spherical, p);
+                     for(double &component : p)
+                       component
+                           *= (side == Side::outer ? domain.radius : domain.inner_radius)
+                              / distance;
+                   }
+                   visit(p);
+                 });
+  }
+} // namespace meltfront::cases

@@ -1,0 +1,25 @@
+#ifndef meltfront_cases_sampling_h
+#define meltfront_cases_sampling_h
+
+#include <cases/position.h>
+#include <cases/scene.h>
+
+#include <functional>
+
+namespace meltfront::cases
+{
+  /** Points of a line of samples along each direction of a domain's bounding box. */
+  inline constexpr int samples_across = 33;
+
+  using PointVisitor = std::function<void(const Position &)>;
+
+  /** Visit the sample points that lie in a domain, those on its walls included, and
+   * points along an outline. */
+  void visit_points(const Domain &domain, const PointVisitor &visit);
+
+  /** Visit the sample points of a wall: of a round one those on the rays of the samples
+   * next to it, at which a value that varies along the wall is to be taken. */
+  void visit_wall(const Domain &domain, Side side, const PointVisitor &visit);
+} // namespace meltfront::cases
+
+#endif
