@@ -97,7 +97,9 @@ namespace meltfront::cases
     bool starts_front(const Scene &scene, const Start &start, Side side)
     {
       const Boundary &boundary = scene.boundary(side);
-      if(boundary.kind != BoundaryKind::fixed_temperature)
+      // Undercooled liquid does not freeze at a wall that is no colder than itself.
+      if(boundary.kind != BoundaryKind::fixed_temperature
+         || metastable_initial_phase(scene) != nullptr)
         return false;
       bool found = false;
       visit_wall(scene.domain, side,
