@@ -7,6 +7,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -76,9 +77,10 @@ namespace meltfront::particles::front_tracking
     /**
      * One pass on the front of `next` (set_front() first).
      * @param next has expansions, of the pass before or of the last state
-     * @return the displacements along the normals that are still to be made (m)
+     * @return the displacements along the normals that are still to be made (m); nothing
+     * where the matrix is singular
      */
-    std::vector<double> solve(const PlaneStep &step, PlaneState &next);
+    std::optional<std::vector<double>> solve(const PlaneStep &step, PlaneState &next);
 
     /** Temperature of the front's particles (K), curvature of the state. */
     double front_temperature(double curvature) const;
@@ -108,6 +110,7 @@ namespace meltfront::particles::front_tracking
     PlaneHeatSettings settings;
     long entries = 0; ///< of all matrices factorised
     long solves = 0;
+    long singular = 0; ///< solves whose matrix was singular
     std::size_t most_unknowns = 0;
 
   private:

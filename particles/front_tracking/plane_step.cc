@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace meltfront::particles::front_tracking
 {
@@ -200,7 +199,8 @@ namespace meltfront::particles::front_tracking
     finish_row(known);
   }
 
-  std::vector<double> PlaneHeat::solve(const PlaneStep &step, PlaneState &next)
+  std::optional<std::vector<double>> PlaneHeat::solve(const PlaneStep &step,
+                                                      PlaneState &next)
   {
     next.time = step.time;
     make_rows(next);
@@ -221,7 +221,10 @@ namespace meltfront::particles::front_tracking
     entries += static_cast<long>(matrix.size());
     most_unknowns = std::max(most_unknowns, matrix.rows());
     if(!outcome.converged)
-      throw std::runtime_error("the collocation's matrix is singular");
+    {
+      ++singular;
+      return std::nullopt;
+    }
     next.unknown.assign(solution.begin(), solution.begin() + nodes.size());
     std::vector<double> displacement(next.front.size());
     for(std::size_t p = 0; p < displacement.size(); ++p)
