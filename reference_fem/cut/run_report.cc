@@ -186,7 +186,7 @@ namespace meltfront::reference_fem::cut
     std::vector<cases::EffectCost> result;
     for(const cases::EffectDecision &decision : effects.decisions())
       if(decision.on)
-        result.push_back({decision.effect, heat.solves, 0, 0});
+        result.push_back(heat.cost(decision.effect, state));
     return result;
   }
 
