@@ -41,7 +41,7 @@ namespace meltfront::cases
 
   double fill_of_factors(int dimension, double unknowns)
   {
-    constexpr double in_plane = 0.5, in_space = 1;
+    constexpr double in_plane = 1, in_space = 1;
     if(dimension == 1)
       return 1;
     return dimension == 2 ? std::max(1., in_plane * std::log2(unknowns))

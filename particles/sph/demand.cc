@@ -19,14 +19,17 @@ namespace meltfront::particles
       return along * std::pow(across, p.dimension - 1);
     }
 
-    /** The largest explicit step that keeps the maximum principle on a lattice, where the
-     * conductances of a particle add up to about 2 d k dp^(d-2). */
+    /**
+     * The largest explicit step that keeps the maximum principle on a lattice, where the
+     * conductances of a particle add up to about 2 d k dp^(d-2) far from fronts and to
+     * more at them: by 3, 1.7 and 1.4 in one, two and three dimensions, measured.
+     */
     double monotone_step_of(const SphParameters &p, const cases::Scene &scene,
                             double spacing)
     {
       return monotone_step(scene.material,
                            scene.material.solid.density * spacing * spacing,
-                           2. * p.dimension, 1);
+                           2. * p.dimension, 2);
     }
 
     double steps_of(const SphParameters &p, const cases::Scene &scene, double spacing)
