@@ -231,15 +231,28 @@ namespace meltfront::particles::front_tracking
         FrontValue &value = values[p];
         value.constant = front_temperature(bend[p]);
         if(phase == NodePhase::solid && !sinks.empty())
-        {
-          value.constant -= sinks.value(front.position[p], state.time);
-          slope += sinks.gradient(front.position[p], state.time).dot(front.normal[p]);
-        }
+          meters.sinks.measure(
+              [&]
+              {
+                value.constant -= sinks.value(front.position[p], state.time);
+                slope
+                    += sinks.gradient(front.position[p], state.time).dot(front.normal[p]);
+              });
         value.own = -slope;
         value.before = value.after = 0;
-        if(settings.capillarity == 0)
-          continue;
-        // Moving along n changes the curvature by kappa^2 d + d'' along the curve.
+      }
+    }
+    if(settings.capillarity != 0)
+      meters.capillarity.measure([&] { add_capillarity(front); });
+  }
+
+  /** Moving along n changes the curvature by kappa^2 d + d'' along the curve. */
+  void PlaneHeat::add_capillarity(const PlaneFront &front)
+  {
+    for(const NodePhase phase : phases)
+      for(std::size_t p = 0; p < front.size(); ++p)
+      {
+        FrontValue &value = front_values[index_of(phase)][p];
         const double left = (front.position[p] - front.position[before[p]]).norm(),
                      right = (front.position[after[p]] - front.position[p]).norm();
         const double stiffness = 2 * settings.capillarity / (left + right);
@@ -248,6 +261,65 @@ namespace meltfront::particles::front_tracking
         value.before = -stiffness / left;
         value.after = -stiffness / right;
       }
+  }
+
+  std::size_t PlaneHeat::front_bytes() const
+  {
+    std::size_t bytes = 0;
+    for(const NodePhase phase : phases)
+    {
+      bytes += front_values[index_of(phase)].size() * sizeof(FrontValue);
+      for(const PlaneStencil &stencil : front_stencils[index_of(phase)])
+        bytes
+            += sizeof(PlaneStencil)
+               + stencil.columns.size()
+                     * (sizeof(std::uint32_t) + stencil.weights.size() * sizeof(double));
+    }
+    return bytes;
+  }
+
+  std::size_t PlaneHeat::wall_bytes(cases::BoundaryKind kind) const
+  {
+    std::size_t pieces = 0;
+    for(const WallNode &wall : nodes.walls)
+      for(int i = 0; i < wall.n_pieces; ++i)
+        pieces += wall.pieces[i].boundary->kind == kind;
+    return pieces * sizeof(WallPiece);
+  }
+
+  /** What is given on a wall: a temperature, a flux or the ambient temperature. */
+  double PlaneHeat::given_on(const WallPiece &piece, const cases::Position &place,
+                             double time) const
+  {
+    return meters.walls[static_cast<std::size_t>(piece.boundary->kind)].measure(
+        [&] { return piece.boundary->value(place, time); });
+  }
+
+  cases::EffectCost PlaneHeat::cost(cases::Effect effect) const
+  {
+    using cases::BoundaryKind, cases::Effect;
+    const auto of_wall = [&](BoundaryKind kind) {
+      return meters.walls[static_cast<std::size_t>(kind)].cost(effect, wall_bytes(kind));
+    };
+    switch(effect)
+    {
+    case Effect::phase_change:
+      return meters.front.cost(effect, front_bytes());
+    case Effect::gibbs_thomson:
+      return meters.capillarity.cost(
+          effect, bend.size() * sizeof(double) + before.size() * 2 * sizeof(std::size_t));
+    case Effect::heat_sources:
+      return meters.sinks.cost(effect, scene.sources.size() * sizeof(PlanePoint));
+    case Effect::heat_release:
+      return meters.release.cost(effect, 0);
+    case Effect::wall_temperature:
+      return of_wall(BoundaryKind::fixed_temperature);
+    case Effect::wall_flux:
+      return of_wall(BoundaryKind::flux);
+    case Effect::wall_transfer:
+      return of_wall(BoundaryKind::heat_transfer);
+    default:
+      return {effect, solves, 0, 0};
     }
   }
 

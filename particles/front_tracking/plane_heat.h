@@ -1,12 +1,14 @@
 #ifndef meltfront_particles_front_tracking_plane_heat_h
 #define meltfront_particles_front_tracking_plane_heat_h
 
+#include <cases/effect_meter.h>
 #include <particles/front_tracking/plane_sinks.h>
 #include <particles/front_tracking/plane_state.h>
 #include <particles/scattered/compressed_rows.h>
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +24,13 @@ namespace meltfront::particles::front_tracking
     /** Gibbs-Thomson: by how much a unit of the solid's curvature lowers the front's
      * temperature, T_m Gamma (K m). */
     double capillarity = 0;
+  };
+
+  /** What the parts of the solver cost that effects call for. */
+  struct PlaneMeters
+  {
+    cases::EffectMeter front, capillarity, sinks, release;
+    std::array<cases::EffectMeter, cases::n_boundary_kinds> walls;
   };
 
   /**
@@ -76,9 +85,10 @@ namespace meltfront::particles::front_tracking
     /**
      * One pass on the front of `next` (set_front() first).
      * @param next has expansions, of the pass before or of the last state
-     * @return the displacements along the normals that are still to be made (m)
+     * @return the displacements along the normals that are still to be made (m); nothing
+     * where the matrix is singular
      */
-    std::vector<double> solve(const PlaneStep &step, PlaneState &next);
+    std::optional<std::vector<double>> solve(const PlaneStep &step, PlaneState &next);
 
     /** Temperature of the front's particles (K), curvature of the state. */
     double front_temperature(double curvature) const;
@@ -101,6 +111,10 @@ namespace meltfront::particles::front_tracking
 
     StencilRecord stencil_record() const;
 
+    /** What an effect has cost so far. Two conductivities or capacities in place of one
+     * are other numbers in the same rows, with no time of their own. */
+    cases::EffectCost cost(cases::Effect effect) const;
+
     /** Largest condition number of moment matrices at a state's front, the last set. */
     double worst_condition(const PlaneState &state);
 
@@ -108,7 +122,9 @@ namespace meltfront::particles::front_tracking
     PlaneHeatSettings settings;
     long entries = 0; ///< of all matrices factorised
     long solves = 0;
+    long singular = 0; ///< solves whose matrix was singular
     std::size_t most_unknowns = 0;
+    mutable PlaneMeters meters;
 
   private:
     /** What is collocated at a node: the Laplacian inside; on a wall the outward
@@ -134,6 +150,11 @@ namespace meltfront::particles::front_tracking
                   std::size_t node);
     void make_front_stencils(const PlaneState &state);
     void find_front_values(const PlaneState &state);
+    void add_capillarity(const PlaneFront &front);
+    std::size_t front_bytes() const;
+    std::size_t wall_bytes(cases::BoundaryKind kind) const;
+    double given_on(const WallPiece &piece, const cases::Position &place,
+                    double time) const;
     void add_node(const PlaneStep &step, const PlaneState &next, std::size_t node);
     double known_rate(const PlaneStep &step, NodePhase phase, std::size_t node) const;
     void add_wall(const PlaneStep &step, const PlaneState &next, const WallNode &wall);

@@ -61,6 +61,21 @@ namespace meltfront::particles
    * time scheme, number of steps. */
   std::vector<cases::OptionDeclaration> linear_options();
 
+  /** Matrices of a method, for what a run of it takes. */
+  struct LinearSize
+  {
+    double nodes;
+    double entries;  ///< of a row
+    double matrices; ///< with as many entries that are kept at a time
+    double per_node; ///< bytes that each node takes beside its rows
+  };
+
+  /** What a run on the linear problem of a scene takes, with the options of
+   * linear_options(). */
+  cases::Demand linear_demand(const cases::Scene &scene,
+                              const cases::Resolution &resolution,
+                              const LinearSize &size);
+
   /** What a run says of itself beside what all linear runs say. */
   struct LinearDescription
   {

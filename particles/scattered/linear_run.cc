@@ -1,3 +1,4 @@
+#include <cases/demand.h>
 #include <cases/error.h>
 #include <cases/stopwatch.h>
 #include <particles/scattered/linear_problem.h>
@@ -21,6 +22,12 @@ namespace meltfront::particles
       static const std::vector<std::string> names{"backward-euler", "crank-nicolson",
                                                   "bdf2"};
       return names;
+    }
+
+    long steps_of(const cases::Resolution &resolution)
+    {
+      const long wanted = resolution.options.get_integer("steps");
+      return wanted > 0 ? wanted : std::max(50L, 4L * resolution.n);
     }
 
     template <typename Enumeration>
@@ -56,8 +63,7 @@ namespace meltfront::particles
         solver_parameters.tolerance = options.get_double("solver_tolerance");
         solver_parameters.symmetric = problem.symmetric;
         solver_parameters.dimension = sites.dimension;
-        const long wanted = options.get_integer("steps");
-        steps = wanted > 0 ? wanted : std::max(50L, 4L * resolution.n);
+        steps = steps_of(resolution);
         if(!problem.reconstruction.columns.empty())
           temperature.resize(n);
       }
@@ -430,6 +436,34 @@ namespace meltfront::particles
             {"steps", "1", 0L,
              "Time steps of transient scenes; 0: four times n, but at least 50.", 0,
              1e9}};
+  }
+
+  cases::Demand linear_demand(const cases::Scene &scene,
+                              const cases::Resolution &resolution, const LinearSize &size)
+  {
+    // An entry has a coefficient and a column.
+    constexpr double per_entry = 16;
+    LinearSolverParameters solver;
+    solver.method = choice<LinearMethod>(linear_method_names(),
+                                         resolution.options.get_string("linear_solver"));
+    solver.dimension = scene.domain.dimension;
+    double fill = 2;
+    switch(chosen_method(static_cast<std::size_t>(size.nodes), solver))
+    {
+    case LinearMethod::direct:
+      fill = cases::fill_of_factors(solver.dimension, size.nodes);
+      break;
+    case LinearMethod::gmres_ilut:
+      fill = solver.ilut_fill;
+      break;
+    default:
+      break;
+    }
+    return {
+        cases::program_bytes
+            + size.nodes
+                  * (size.per_node + size.entries * per_entry * (size.matrices + fill)),
+        scene.problem == cases::ProblemKind::poisson ? 1. : double(steps_of(resolution))};
   }
 
   cases::Cost run_linear_problem(const cases::Scene &scene, const LinearProblem &problem,

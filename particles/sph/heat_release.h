@@ -1,8 +1,8 @@
 #ifndef meltfront_particles_sph_heat_release_h
 #define meltfront_particles_sph_heat_release_h
 
+#include <cases/effect_meter.h>
 #include <particles/sph/discretisation.h>
-#include <particles/sph/effect_meter.h>
 
 #include <span>
 #include <vector>
@@ -47,7 +47,7 @@ namespace meltfront::particles
     const cases::Field &density;
     std::vector<double> power; ///< W m^(d-3)
     std::vector<Released> released;
-    EffectMeter meter;
+    cases::EffectMeter meter;
   };
 } // namespace meltfront::particles
 

@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_sph_wall_flux_h
 #define meltfront_particles_sph_wall_flux_h
 
-#include <particles/sph/effect_meter.h>
+#include <cases/effect_meter.h>
 #include <particles/sph/wall_values.h>
 
 #include <span>
@@ -37,7 +37,7 @@ namespace meltfront::particles
   private:
     std::vector<WallLink> links;
     WallValues values;
-    EffectMeter meter;
+    cases::EffectMeter meter;
   };
 } // namespace meltfront::particles
 

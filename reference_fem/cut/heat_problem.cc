@@ -55,10 +55,14 @@ namespace meltfront::reference_fem::cut
 
   void HeatProblem::set_front(State &state, Values level_set) const
   {
-    keep_off_nodes(*state.mesh, level_set);
-    state.geometry = std::make_shared<CutGeometry>(*state.mesh, level_set);
-    redistance(*state.mesh, *state.geometry, level_set);
-    state.level_set = std::move(level_set);
+    meters.front.measure(
+        [&]
+        {
+          keep_off_nodes(*state.mesh, level_set);
+          state.geometry = std::make_shared<CutGeometry>(*state.mesh, level_set);
+          redistance(*state.mesh, *state.geometry, level_set);
+          state.level_set = std::move(level_set);
+        });
   }
 
   PhaseEquation HeatProblem::conditions(Phase phase, double time) const
@@ -68,17 +72,15 @@ namespace meltfront::reference_fem::cut
     const double conductivity = properties(phase).conductivity;
     PhaseEquation result;
     result.front_value = [this, solid, melting, time](const Point &point)
-    { return solid ? melting - sinks.value(point, time) : melting; };
+    { return solid ? melting - sink_value(point, time) : melting; };
     result.wall
         = [this, solid, conductivity, time](const WallPoint &wall) -> WallCondition
     {
-      const cases::Boundary &boundary = scene.boundary(wall.side);
-      const cases::Position place = position(wall.position);
-      if(boundary.kind == cases::BoundaryKind::fixed_temperature)
-        return {true, boundary.value(place, time)
-                          - (solid ? sinks.value(wall.position, time) : 0)};
-      const double flux
-          = boundary.kind == cases::BoundaryKind::flux ? boundary.value(place, time) : 0;
+      const cases::BoundaryKind kind = scene.boundary(wall.side).kind;
+      if(kind == cases::BoundaryKind::fixed_temperature)
+        return {true,
+                given_on(wall, time) - (solid ? sink_value(wall.position, time) : 0)};
+      const double flux = kind == cases::BoundaryKind::flux ? given_on(wall, time) : 0;
       return {false, flux
                          - (solid ? conductivity
                                         * (sinks.gradient(wall.position, time)
@@ -86,6 +88,50 @@ namespace meltfront::reference_fem::cut
                                   : 0)};
     };
     return result;
+  }
+
+  /** A wall's temperature or flux. */
+  double HeatProblem::given_on(const WallPoint &wall, double time) const
+  {
+    const cases::Boundary &boundary = scene.boundary(wall.side);
+    return meters.walls[static_cast<std::size_t>(boundary.kind)].measure(
+        [&] { return boundary.value(position(wall.position), time); });
+  }
+
+  double HeatProblem::sink_value(const Point &point, double time) const
+  {
+    return sinks.places.empty()
+               ? 0
+               : meters.sinks.measure([&] { return sinks.value(point, time); });
+  }
+
+  cases::EffectCost HeatProblem::cost(cases::Effect effect, const State &state) const
+  {
+    using cases::BoundaryKind, cases::Effect;
+    const auto of_wall = [&](BoundaryKind kind)
+    {
+      std::size_t points = 0;
+      for(const WallPoint &wall : state.geometry->walls)
+        points += scene.boundary(wall.side).kind == kind;
+      return meters.walls[static_cast<std::size_t>(kind)].cost(
+          effect, points * sizeof(WallPoint));
+    };
+    switch(effect)
+    {
+    case Effect::phase_change:
+      return meters.front.cost(
+          effect, (state.level_set.size() + state.speed.values.size()) * sizeof(double)
+                      + state.speed.band.size()
+                      + state.geometry->cut_cells.size() * sizeof(CutCell));
+    case Effect::heat_sources:
+      return meters.sinks.cost(effect, sinks.places.size() * sizeof(Point));
+    case Effect::wall_temperature:
+      return of_wall(BoundaryKind::fixed_temperature);
+    case Effect::wall_flux:
+      return of_wall(BoundaryKind::flux);
+    default:
+      return {effect, solves, 0, 0};
+    }
   }
 
   State HeatProblem::transferred(const State &state,
@@ -205,8 +251,12 @@ namespace meltfront::reference_fem::cut
             heat += phase_flux[speed.size()];
         speed.push_back(heat / latent);
       }
-    state.speed
-        = extend_speed(*state.mesh, *state.geometry, state.level_set, speed, smoothing);
+    state.speed = meters.front.measure(
+        [&]
+        {
+          return extend_speed(*state.mesh, *state.geometry, state.level_set, speed,
+                              smoothing);
+        });
   }
 
   PointFunction HeatProblem::change_of_sinks(const TimeDerivative &derivative,
@@ -218,9 +268,9 @@ namespace meltfront::reference_fem::cut
     return [this, capacity, derivative, now, then, first](const Point &point)
     {
       return -capacity
-             * (derivative.now * sinks.value(point, now)
-                + derivative.before * sinks.value(point, then)
-                + (derivative.older != 0 ? derivative.older * sinks.value(point, first)
+             * (derivative.now * sink_value(point, now)
+                + derivative.before * sink_value(point, then)
+                + (derivative.older != 0 ? derivative.older * sink_value(point, first)
                                          : 0));
     };
   }

@@ -1,6 +1,7 @@
 #ifndef meltfront_reference_fem_cut_heat_problem_h
 #define meltfront_reference_fem_cut_heat_problem_h
 
+#include <cases/effect_meter.h>
 #include <reference_fem/cut/front_speed.h>
 #include <reference_fem/cut/phase_problem.h>
 #include <reference_fem/cut/sink_field.h>
@@ -34,6 +35,13 @@ namespace meltfront::reference_fem::cut
 
   /** BDF2 for steps of any ratio; backward Euler without a step before. */
   TimeDerivative time_derivative(double step, double step_before);
+
+  /** What the parts of a solve cost that effects call for. */
+  struct CutMeters
+  {
+    cases::EffectMeter front, sinks;
+    std::array<cases::EffectMeter, cases::n_boundary_kinds> walls;
+  };
 
   /** Heat conduction on both sides of a given front, and the speed that follows. */
   class HeatProblem
@@ -70,6 +78,11 @@ namespace meltfront::reference_fem::cut
     /** Latent heat of the liquid (J/m). */
     double latent_heat(const State &state) const;
 
+    /** What an effect has cost so far, a state given for its arrays. Two conductivities
+     * or capacities in place of one are other numbers in the same matrices, with no time
+     * of their own. */
+    cases::EffectCost cost(cases::Effect effect, const State &state) const;
+
     /** Whether a point lies in the solid and not at its front. */
     bool in_solid(const State &state, const Point &point) const;
 
@@ -77,8 +90,11 @@ namespace meltfront::reference_fem::cut
     long solves = 0, unknowns = 0; ///< unknowns of the last solve, both phases
     long most_unknowns = 0;        ///< of any solve
     long entries = 0;              ///< of matrices, over all solves
+    mutable CutMeters meters;
 
   private:
+    double given_on(const WallPoint &wall, double time) const;
+    double sink_value(const Point &point, double time) const;
     const cases::PhaseProperties &properties(Phase phase) const;
     Values values_on_front(const BackgroundMesh &mesh,
                            const PhaseEquation &equation) const;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -19,6 +20,18 @@ namespace meltfront::reference_fem::cut
     /** The first step, of the one that accuracy allows: backward Euler, whose error is of
      * first order, makes it. */
     constexpr double first_step_share = 1. / 32;
+
+    /** Steps of backward Euler after a jump of the data at a wall. */
+    constexpr int damping_steps = 4;
+
+    /** Of the span of the bounds: what counts as a jump. */
+    constexpr double least_jump = 1e-6;
+
+    /** Of the run: how long before a jump the last step ends that knows nothing of it. */
+    constexpr double just_before = 1e-9;
+
+    /** Of the run: a front that calls for shorter steps has lost its way. */
+    constexpr double shortest_step = 1e-8;
 
     /** BDF2 is stable for steps that grow by less than 1 + sqrt(2). */
     constexpr double largest_growth = 1.6;
@@ -95,6 +108,7 @@ namespace meltfront::reference_fem::cut
     cost.solver_iterations = heat.solves;
     cost.most_iterations = options.solves;
     cost.capped_steps = capped_steps;
+    cost.evidence = evidence();
     cost.effects = effect_costs();
     return cost;
   }
@@ -113,6 +127,74 @@ namespace meltfront::reference_fem::cut
     heat.project(state, found.temperature);
     step_number = found.time > scene.start_time ? 1 : 0;
     check(state);
+    if(largest_jump(found.temperature, state.time) > 0)
+      damped_steps = damping_steps;
+    find_jumps_to_come();
+  }
+
+  /** By how much held temperatures of walls differ from what is there before; 0 if by
+   * next to nothing. */
+  double CutRun::largest_jump(const PointFunction &before, double time) const
+  {
+    double largest = 0;
+    for(const WallPoint &wall : state.geometry->walls)
+    {
+      const cases::Boundary &boundary = scene.boundary(wall.side);
+      if(boundary.kind == cases::BoundaryKind::fixed_temperature)
+        largest = std::max(largest, std::abs(boundary.value(position(wall.position), time)
+                                             - before(wall.position)));
+    }
+    const double span = bounds.upper - bounds.lower;
+    return largest > (std::isfinite(span) ? least_jump * span : 0) ? largest : 0;
+  }
+
+  void CutRun::find_jumps_to_come()
+  {
+    const double margin = just_before * (scene.end_time - scene.start_time);
+    for(const cases::Side side : scene.sides())
+      for(const double time : scene.boundary(side).value.breakpoints)
+        if(time - margin > state.time && time < scene.end_time)
+          jumps_ahead.push_back(time - margin);
+    std::ranges::sort(jumps_ahead, std::greater());
+    const auto repeated = std::ranges::unique(jumps_ahead);
+    jumps_ahead.erase(repeated.begin(), repeated.end());
+  }
+
+  /** After the step that ends just before walls' data may jump. */
+  void CutRun::damp_jump()
+  {
+    if(jumps_ahead.empty() || state.time < jumps_ahead.back())
+      return;
+    const double margin = just_before * (scene.end_time - scene.start_time);
+    const double jump = jumps_ahead.back() + margin;
+    jumps_ahead.pop_back();
+    for(const WallPoint &wall : state.geometry->walls)
+    {
+      const cases::Boundary &boundary = scene.boundary(wall.side);
+      const auto before = [&](const Point &place)
+      { return boundary.value(position(place), state.time); };
+      if(boundary.kind == cases::BoundaryKind::fixed_temperature
+         && std::abs(boundary.value(position(wall.position), jump + margin)
+                     - before(wall.position))
+                > least_jump * (bounds.upper - bounds.lower))
+        damped_steps = damping_steps;
+    }
+  }
+
+  /**
+   * The shortest step of backward Euler in which bilinear elements smooth a jump and do
+   * not overshoot: h^2/(3 alpha), from which on no two nodes of a Cartesian mesh are
+   * coupled by mass more than by conduction.
+   */
+  double CutRun::damping_step() const
+  {
+    double slowest = std::numeric_limits<double>::infinity();
+    for(const Phase phase : {Phase::solid, Phase::liquid})
+      if(state.geometry->has(phase))
+        slowest = std::min(slowest, (phase == Phase::solid ? scene.material.solid
+                                                           : scene.material.liquid)
+                                        .diffusivity());
+    return state.mesh->spacing * state.mesh->spacing / (3 * slowest);
   }
 
   void CutRun::require_resolved() const
@@ -138,12 +220,23 @@ namespace meltfront::reference_fem::cut
   {
     const double longest
         = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
-    double step = longest;
-    if(state.speed.largest > 0)
-      step = std::min(step,
-                      options.step_factor * state.mesh->spacing / state.speed.largest);
+    const double by_front
+        = state.speed.largest > 0
+              ? options.step_factor * state.mesh->spacing / state.speed.largest
+              : std::numeric_limits<double>::infinity();
+    double step = std::min(longest, by_front);
     step = fresh ? first_step_share * step : std::min(step, largest_growth * last_step);
-    const double rest = scene.end_time - state.time;
+    if(damped_steps > 0)
+      step = std::max(step, std::min(damping_step(), by_front));
+    const double whole = scene.end_time - scene.start_time;
+    if(!(step > shortest_step * whole))
+      throw cases::NumericalError(
+          method_name, step_number + 1, state.time, "front",
+          fmt::format("moves at {:.3g} m/s, for which steps would be shorter than {:g} "
+                      "of the run",
+                      state.speed.largest, shortest_step));
+    const double rest
+        = (jumps_ahead.empty() ? scene.end_time : jumps_ahead.back()) - state.time;
     if(step >= rest * (1 - 1e-10))
       return rest;
     return step > rest / 2 ? rest / 2 : step;
@@ -205,7 +298,7 @@ namespace meltfront::reference_fem::cut
       if(limited && !last_chance)
         return false;
       heat.set_front(next, std::move(front));
-      heat.solve(next, state, older ? &*older : nullptr);
+      heat.solve(next, state, older && damped_steps == 0 ? &*older : nullptr);
       if(solve + 1 < options.solves)
         front = moved_front(step, next.speed, limited);
     }
@@ -222,7 +315,10 @@ namespace meltfront::reference_fem::cut
     try
     {
       for(int halvings = 0; !attempt(step, halvings == most_halvings, next); ++halvings)
+      {
         step /= 2;
+        ++halved_steps;
+      }
     }
     catch(const std::runtime_error &error)
     {
@@ -243,9 +339,12 @@ namespace meltfront::reference_fem::cut
     boundary_heat += (next.time - state.time) * (state.wall_power + next.wall_power) / 2;
     older = std::move(state);
     state = std::move(next);
+    euler_steps += fresh || damped_steps > 0;
     fresh = false;
+    damped_steps = std::max(0, damped_steps - 1);
     ++step_number;
     check(state);
+    damp_jump();
     follow_front();
   }
 

@@ -20,13 +20,13 @@ namespace meltfront::reference_fem
   }
 
   StepQueue::StepQueue(double start, double end, long steps, int start_halvings)
+    : start(start)
+    , end(end)
+    , length((end - start) / steps)
+    , steps(steps)
   {
-    const double step = (end - start) / steps;
-    times.push_back(end);
-    for(long i = steps - 1; i > 0; --i)
-      times.push_back(start + i * step);
-    const double first = times.back() - start;
+    const double first = end_of(1) - start;
     for(int i = 1; i <= start_halvings; ++i)
-      times.push_back(start + std::ldexp(first, -i));
+      sooner.push_back(start + std::ldexp(first, -i));
   }
 } // namespace meltfront::reference_fem

@@ -50,28 +50,39 @@ namespace meltfront::reference_fem
 
     bool empty() const
     {
-      return times.empty();
+      return sooner.empty() && equal_step > steps;
     }
 
     /** Where the next step ends. */
     double next() const
     {
-      return times.back();
+      return sooner.empty() ? end_of(equal_step) : sooner.back();
     }
 
     void pop()
     {
-      times.pop_back();
+      if(sooner.empty())
+        ++equal_step;
+      else
+        sooner.pop_back();
     }
 
     /** Halve the next step, which starts at `now`. */
     void halve(double now)
     {
-      times.push_back(now + (times.back() - now) / 2);
+      sooner.push_back(now + (next() - now) / 2);
     }
 
   private:
-    std::vector<double> times; ///< descending
+    double end_of(long step) const
+    {
+      return step == steps ? end : start + step * length;
+    }
+
+    double start, end, length;
+    long steps;
+    long equal_step = 1;        ///< the next of the equal steps
+    std::vector<double> sooner; ///< ends of parts of it, descending
   };
 } // namespace meltfront::reference_fem
 
