@@ -44,9 +44,10 @@ namespace meltfront::reference_fem
   public:
     /**
      * Equal steps, the first of them replaced by start_halvings + 1 steps that double
-     * from 2^-start_halvings.
+     * from 2^-start_halvings; steps end at the breakpoints (ascending) too.
      */
-    StepQueue(double start, double end, long steps, int start_halvings);
+    StepQueue(double start, double end, long steps, int start_halvings,
+              const std::vector<double> &breakpoints = {});
 
     bool empty() const
     {
