@@ -54,6 +54,7 @@ namespace meltfront::reference_fem::cut
     , state{scene.start_time, make_mesh({}, finest_rim.get()), {}, {}, {}, {}, 0}
     , heat(scene, state.mesh->spacing, options.stabilization, options.smoothing)
     , bounds(cases::temperature_bounds(scene))
+    , breakpoints(cases::breakpoints_of(scene))
   {
   }
 
@@ -134,6 +135,11 @@ namespace meltfront::reference_fem::cut
           -lowest, highest, mesh.spacing, least_depth));
   }
 
+  double CutRun::next_stop() const
+  {
+    return cases::end_of_piece(breakpoints, state.time, scene.end_time);
+  }
+
   double CutRun::next_step() const
   {
     const double longest
@@ -143,7 +149,7 @@ namespace meltfront::reference_fem::cut
       step = std::min(step,
                       options.step_factor * state.mesh->spacing / state.speed.largest);
     step = fresh ? first_step_share * step : std::min(step, largest_growth * last_step);
-    const double rest = scene.end_time - state.time;
+    const double rest = next_stop() - state.time;
     if(step >= rest * (1 - 1e-10))
       return rest;
     return step > rest / 2 ? rest / 2 : step;
@@ -196,8 +202,8 @@ namespace meltfront::reference_fem::cut
 
   bool CutRun::attempt(double step, bool last_chance, State &next)
   {
-    const double rest = scene.end_time - state.time;
-    next.time = step == rest ? scene.end_time : state.time + step;
+    const double stop = next_stop();
+    next.time = step == stop - state.time ? stop : state.time + step;
     bool limited = false;
     Values front = predicted_front(step, limited);
     for(int solve = 0; solve < options.solves; ++solve)
@@ -243,7 +249,10 @@ namespace meltfront::reference_fem::cut
     boundary_heat += (next.time - state.time) * (state.wall_power + next.wall_power) / 2;
     older = std::move(state);
     state = std::move(next);
-    fresh = false;
+    boundary_heat += state.flux_heat;
+    fresh = std::ranges::binary_search(breakpoints, state.time);
+    if(fresh)
+      older.reset();
     ++step_number;
     check(state);
     follow_front();

@@ -30,6 +30,7 @@ namespace meltfront::reference_fem::cut
     void start();
     void require_resolved() const;
     void step();
+    double next_stop() const;
     double next_step() const;
     bool attempt(double step, bool last_chance, State &next);
     Values moved_front(double step, const SpeedField &end_speed, bool &limited) const;
@@ -58,11 +59,12 @@ namespace meltfront::reference_fem::cut
     State state;
     HeatProblem heat;
     cases::TemperatureBounds bounds;
+    std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
     std::string start_in_words;
 
     std::optional<State> older;
     double last_step = 0;
-    bool fresh = true; ///< no step was made yet
+    bool fresh = true; ///< no step was made since the start or a breakpoint
     long step_number = 0, capped_steps = 0, meshes = 1;
     double boundary_heat = 0, initial_heat = 0;
 
