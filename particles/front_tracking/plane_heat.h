@@ -4,6 +4,7 @@
 #include <particles/front_tracking/plane_sinks.h>
 #include <particles/front_tracking/plane_state.h>
 #include <particles/scattered/compressed_rows.h>
+#include <particles/scattered/given_values.h>
 
 #include <array>
 #include <memory>
@@ -36,6 +37,7 @@ namespace meltfront::particles::front_tracking
     const PlaneState &last;
     const PlaneState *older; ///< null: backward Euler
     double time, step;
+    LinearStep span; ///< for what is prescribed
     double a = 1, b = 1, c = 0;
   };
 
@@ -146,8 +148,11 @@ namespace meltfront::particles::front_tracking
                        std::span<const double> solution) const;
     double wall_power(const PlaneStep &step, const PlaneState &state,
                       std::span<const double> solution) const;
+    double flux_heat(const PlaneStep &step, const PlaneState &state) const;
+    double released_heat(const PlaneStep &step) const;
 
     const cases::Scene &scene;
+    GivenValues given;
     const PlaneNodes &nodes;
     std::vector<StencilMaker> makers; ///< one for each thread
     std::unique_ptr<FrontIndex> index;

@@ -91,7 +91,7 @@ namespace meltfront::particles::front_tracking
         known -= capacity * step.c * sinks.value(place, step.older->time);
     }
     if(scene.heat_release)
-      known += (*scene.heat_release)({place.x(), place.y(), 0}, step.time);
+      known += given.release({place.x(), place.y(), 0}, step.span);
     return known;
   }
 
@@ -109,7 +109,9 @@ namespace meltfront::particles::front_tracking
     if(const WallPiece *held = wall.held())
     {
       add(phase, wall.node, 1);
-      finish_row(held->boundary->value(position, step.time) - shift);
+      finish_row(
+          cases::value_at_end(held->boundary->value, position, step.last.time, step.time)
+          - shift);
       return;
     }
     const cases::PhaseProperties &material = properties(phase);
@@ -137,15 +139,15 @@ namespace meltfront::particles::front_tracking
                   * sinks.gradient(place, step.time).dot(piece.normal);
       if(piece.boundary->kind == cases::BoundaryKind::insulated)
         continue;
-      const double given = piece.boundary->value(position, step.time);
+      const double value = given.wall(*piece.boundary, position, step.span);
       if(piece.boundary->kind == cases::BoundaryKind::heat_transfer)
       {
         const double transfer = piece.length * piece.boundary->heat_transfer_coefficient;
         add(phase, wall.node, transfer);
-        inflow += transfer * (given - shift);
+        inflow += transfer * (value - shift);
       }
       else
-        inflow += piece.length * given;
+        inflow += piece.length * value;
     }
     const Row &row = rows[wall.node];
     for(std::size_t e = 0; e < row.columns.size(); ++e)
@@ -228,6 +230,8 @@ namespace meltfront::particles::front_tracking
       displacement[p] = nodes.spacing * solution[nodes.size() + p];
     update_expansions(next, solution);
     next.wall_power = wall_power(step, next, solution);
+    next.flux_heat = flux_heat(step, next);
+    next.released_heat = released_heat(step);
     return displacement;
   }
 

@@ -8,13 +8,14 @@
 
 namespace meltfront::particles
 {
-  /** The step of a linear run in which a right-hand side is asked for. */
+  /** The step in which a right-hand side is asked for. */
   struct LinearStep
   {
     double before, begin, end; ///< s; before == begin: no step before counts
     /** Share of the difference to the mean over the step before that a mean is to be
-     * increased by: 1/2 in BDF2, whose recursion then adds up to the integral over time
-     * exactly, as (3 E_n - 4 E_(n-1) + E_(n-2))/(2 dt) does; else 0. */
+     * increased by: w/(1 + w) in BDF2, w the step over the one before, whose recursion
+     * then adds up to the integral E over time exactly, as with equal steps
+     * (3 E_n - 4 E_(n-1) + E_(n-2))/(2 dt) does; else 0. */
     double share_before;
     double at; ///< when what holds at each time is to hold (s)
   };
@@ -42,9 +43,10 @@ namespace meltfront::particles
     double constraint(const cases::Boundary &boundary, const cases::Position &position,
                       const LinearStep &step) const;
 
-  private:
+    /** The means of a wall's flux or ambient temperature. */
     const cases::TimeMean &mean_of(const cases::Boundary &boundary) const;
 
+  private:
     const cases::Scene &scene;
     std::array<std::optional<cases::TimeMean>, cases::n_sides> walls;
     std::optional<cases::TimeMean> released;
