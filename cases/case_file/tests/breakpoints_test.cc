@@ -24,7 +24,8 @@ namespace meltfront::cases
     {
       EXPECT_EQ(breakpoints("if(t > 5000 & t < 5000.0001, 1e4, 0)", 1e4),
                 (std::vector<double>{5000, 5000.0001}));
-      const std::vector<double> scaled = breakpoints("if(abs(t/60 - 5) < 0.1, 1, 0)", 1e4);
+      const std::vector<double> scaled
+          = breakpoints("if(abs(t/60 - 5) < 0.1, 1, 0)", 1e4);
       ASSERT_EQ(scaled.size(), 2u);
       EXPECT_DOUBLE_EQ(scaled[0], 294);
       EXPECT_DOUBLE_EQ(scaled[1], 306);
