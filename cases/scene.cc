@@ -128,6 +128,8 @@ namespace meltfront::cases
             = scene.start_time
               + (scene.end_time - scene.start_time) * i / (samples_of_power - 1);
         visit(source.power(time));
+        if(!source.energy)
+          continue;
         // A pulse between the samples shows in the energy.
         const double energy = source.energy(time);
         if(i > 0)
