@@ -13,7 +13,7 @@ namespace meltfront::cases
     constexpr int samples_of_directions[] = {1, 4097, 257, 49};
 
     /** Numbers of expressions that become points, fewer in more dimensions. */
-    constexpr std::size_t most_numbers[] = {0, 200, 20, 8};
+    constexpr std::size_t most_numbers[] = {0, 200, 20, 4};
 
     constexpr int most_times = 4097, fewest_times = 65, times_of_exact = 17;
     constexpr std::size_t evaluations_of_wall = 100'000;
