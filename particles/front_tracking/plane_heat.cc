@@ -42,6 +42,7 @@ namespace meltfront::particles::front_tracking
     , older(older)
     , time(time)
     , step(time - last.time)
+    , span{last.time, last.time, time, 0, time}
   {
     if(!older)
       return;
@@ -49,6 +50,8 @@ namespace meltfront::particles::front_tracking
     a = (1 + 2 * ratio) / (1 + ratio);
     b = 1 + ratio;
     c = ratio * ratio / (1 + ratio);
+    span.before = older->time;
+    span.share_before = ratio / (1 + ratio);
   }
 
   PlaneHeat::PlaneHeat(const cases::Scene &scene, const PlaneNodes &nodes,
@@ -56,6 +59,7 @@ namespace meltfront::particles::front_tracking
     : sinks(scene, nearest_to_sink * nodes.spacing)
     , settings(settings)
     , scene(scene)
+    , given(scene)
     , nodes(nodes)
     , makers(settings.threads, StencilMaker(nodes, settings.order))
     , rows(nodes.size())
@@ -287,14 +291,6 @@ namespace meltfront::particles::front_tracking
     return pieces * sizeof(WallPiece);
   }
 
-  /** What is given on a wall: a temperature, a flux or the ambient temperature. */
-  double PlaneHeat::given_on(const WallPiece &piece, const cases::Position &place,
-                             double time) const
-  {
-    return meters.walls[static_cast<std::size_t>(piece.boundary->kind)].measure(
-        [&] { return piece.boundary->value(place, time); });
-  }
-
   cases::EffectCost PlaneHeat::cost(cases::Effect effect) const
   {
     using cases::BoundaryKind, cases::Effect;
@@ -351,15 +347,17 @@ namespace meltfront::particles::front_tracking
         for(int i = 0; i < wall.n_pieces; ++i)
         {
           const WallPiece &piece = wall.pieces[i];
-          if(piece.boundary->kind == cases::BoundaryKind::insulated)
+          const bool transfers
+              = piece.boundary->kind == cases::BoundaryKind::heat_transfer;
+          if(piece.boundary->kind == cases::BoundaryKind::insulated
+             || (!transfers && !given.mean_of(*piece.boundary).steady()))
             continue;
-          const double given
-              = piece.boundary->value({place.x(), place.y(), 0}, state.time);
+          const double value
+              = given.wall(*piece.boundary, {place.x(), place.y(), 0}, step.span);
           power += piece.length
-                   * (piece.boundary->kind == cases::BoundaryKind::heat_transfer
-                          ? piece.boundary->heat_transfer_coefficient
-                                * (given - temperature(state, wall.node))
-                          : given);
+                   * (transfers ? piece.boundary->heat_transfer_coefficient
+                                      * (value - temperature(state, wall.node))
+                                : value);
         }
         continue;
       }
@@ -382,6 +380,41 @@ namespace meltfront::particles::front_tracking
                         - known_rate(step, phase, wall.node));
     }
     return power;
+  }
+
+  double PlaneHeat::flux_heat(const PlaneStep &step, const PlaneState &state) const
+  {
+    double heat = 0;
+    for(const WallNode &wall : nodes.walls)
+    {
+      if(state.phase[wall.node] == NodePhase::front || wall.held())
+        continue;
+      const PlanePoint &place = nodes.position[wall.node];
+      for(int i = 0; i < wall.n_pieces; ++i)
+      {
+        const WallPiece &piece = wall.pieces[i];
+        if(piece.boundary->kind != cases::BoundaryKind::flux)
+          continue;
+        const cases::TimeMean &mean = given.mean_of(*piece.boundary);
+        if(!mean.steady())
+          heat += piece.length * step.step
+                  * mean({place.x(), place.y(), 0}, step.span.begin, step.time);
+      }
+    }
+    return heat;
+  }
+
+  double PlaneHeat::released_heat(const PlaneStep &step) const
+  {
+    if(!scene.heat_release)
+      return 0;
+    LinearStep span = step.span;
+    span.share_before = 0;
+    double heat = 0;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      heat += nodes.weight[i] * step.step
+              * given.release({nodes.position[i].x(), nodes.position[i].y(), 0}, span);
+    return heat;
   }
 
   double PlaneHeat::worst_condition(const PlaneState &state)

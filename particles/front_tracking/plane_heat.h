@@ -5,6 +5,7 @@
 #include <particles/front_tracking/plane_sinks.h>
 #include <particles/front_tracking/plane_state.h>
 #include <particles/scattered/compressed_rows.h>
+#include <particles/scattered/given_values.h>
 
 #include <array>
 #include <memory>
@@ -45,6 +46,7 @@ namespace meltfront::particles::front_tracking
     const PlaneState &last;
     const PlaneState *older; ///< null: backward Euler
     double time, step;
+    LinearStep span; ///< for what is prescribed
     double a = 1, b = 1, c = 0;
   };
 
@@ -153,8 +155,10 @@ namespace meltfront::particles::front_tracking
     void add_capillarity(const PlaneFront &front);
     std::size_t front_bytes() const;
     std::size_t wall_bytes(cases::BoundaryKind kind) const;
-    double given_on(const WallPiece &piece, const cases::Position &place,
-                    double time) const;
+    cases::EffectMeter &wall_meter(const WallPiece &piece) const
+    {
+      return meters.walls[static_cast<std::size_t>(piece.boundary->kind)];
+    }
     void add_node(const PlaneStep &step, const PlaneState &next, std::size_t node);
     double known_rate(const PlaneStep &step, NodePhase phase, std::size_t node) const;
     void add_wall(const PlaneStep &step, const PlaneState &next, const WallNode &wall);
@@ -167,8 +171,11 @@ namespace meltfront::particles::front_tracking
                        std::span<const double> solution) const;
     double wall_power(const PlaneStep &step, const PlaneState &state,
                       std::span<const double> solution) const;
+    double flux_heat(const PlaneStep &step, const PlaneState &state) const;
+    double released_heat(const PlaneStep &step) const;
 
     const cases::Scene &scene;
+    GivenValues given;
     const PlaneNodes &nodes;
     std::vector<StencilMaker> makers; ///< one for each thread
     std::unique_ptr<FrontIndex> index;

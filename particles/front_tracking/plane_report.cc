@@ -91,7 +91,7 @@ namespace meltfront::particles::front_tracking
     snapshot.solid_fraction = measured.solid_fraction;
     snapshot.obeys_maximum_principle = false;
     snapshot.heat = {measured.sensible, measured.latent, boundary_heat,
-                     heat.sinks.energy(state.time), initial_heat};
+                     heat.sinks.energy(state.time) + released_heat, initial_heat};
     observer.observe(snapshot);
   }
 

@@ -80,6 +80,7 @@ namespace meltfront::particles::front_tracking
           parameters.closure == Closure::always
           || (parameters.closure == Closure::given_walls && wall_heat_is_given(scene)))
     , bounds(cases::temperature_bounds(scene))
+    , breakpoints(cases::breakpoints_of(scene))
   {
     if(parameters.scheme == TimeScheme::bdf3)
       throw cases::Refusal("rkpm-tracked steps by bdf2 or backward-euler in the plane");
@@ -154,6 +155,11 @@ namespace meltfront::particles::front_tracking
     return cost;
   }
 
+  double PlaneRun::next_stop() const
+  {
+    return cases::end_of_piece(breakpoints, state.time, scene.end_time);
+  }
+
   double PlaneRun::next_step() const
   {
     const double whole = scene.end_time - scene.start_time;
@@ -172,7 +178,7 @@ namespace meltfront::particles::front_tracking
     }
     step = std::min(step, longest_step_of_films(front, topology_settings()));
     step = fresh ? first_step_share * step : std::min(step, largest_growth * last_step);
-    const double rest = scene.end_time - state.time;
+    const double rest = next_stop() - state.time;
     if(step >= rest * (1 - 1e-10))
       return rest;
     return step > rest / 2 ? rest / 2 : step;
@@ -240,8 +246,8 @@ namespace meltfront::particles::front_tracking
   double PlaneRun::attempt(double step, PlaneState &next)
   {
     constexpr double failed = std::numeric_limits<double>::infinity();
-    const double rest = scene.end_time - state.time;
-    next.time = step == rest ? scene.end_time : state.time + step;
+    const double stop = next_stop();
+    next.time = step == stop - state.time ? stop : state.time + step;
     const bool two_steps = older && parameters.scheme == TimeScheme::bdf2;
     const PlaneStep times(state, two_steps ? &*older : nullptr, next.time);
     predict(step, next);
@@ -289,8 +295,9 @@ namespace meltfront::particles::front_tracking
     if(!closes_budget)
       return;
     const PlaneMeasure measured = measure(scene, nodes, heat, state);
-    const double missing = initial_heat + boundary_heat + heat.sinks.energy(state.time)
-                           - measured.sensible - measured.latent;
+    const double missing = initial_heat + boundary_heat + released_heat
+                           + heat.sinks.energy(state.time) - measured.sensible
+                           - measured.latent;
     const PlaneFront &front = state.front;
     const bool gone = std::ranges::none_of(front.active, [](char on) { return on; });
     closed_heat
@@ -319,6 +326,8 @@ namespace meltfront::particles::front_tracking
   {
     const double before = fresh ? next.wall_power : state.wall_power;
     boundary_heat += (next.time - state.time) * (before + next.wall_power) / 2;
+    boundary_heat += next.flux_heat;
+    released_heat += next.released_heat;
     older = std::move(state);
     state = std::move(next);
     fresh = false;
@@ -333,6 +342,11 @@ namespace meltfront::particles::front_tracking
     follow_topology();
     if(parameters.relax > 0 && !fresh && step_number % parameters.relax == 0)
       relax_nodes();
+    if(std::ranges::binary_search(breakpoints, state.time))
+    {
+      older.reset();
+      fresh = true;
+    }
   }
 
   void PlaneRun::check(const PlaneState &checked) const

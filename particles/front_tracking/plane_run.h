@@ -34,6 +34,7 @@ namespace meltfront::particles::front_tracking
   private:
     void start();
     void step();
+    double next_stop() const;
     double next_step() const;
     double attempt(double step, PlaneState &next);
     void predict(double step, PlaneState &next) const;
@@ -67,6 +68,8 @@ namespace meltfront::particles::front_tracking
     MarkedFront marked;
     bool closes_budget;
     cases::TemperatureBounds bounds;
+    std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
+    double released_heat = 0;        ///< throughout the domain (J/m)
     std::string start_in_words;
     PlaneState state;
     std::optional<PlaneState> older;

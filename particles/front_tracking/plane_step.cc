@@ -94,7 +94,7 @@ namespace meltfront::particles::front_tracking
     if(scene.heat_release)
       known += meters.release.measure(
           [&] {
-            return (*scene.heat_release)({place.x(), place.y(), 0}, step.time);
+            return given.release({place.x(), place.y(), 0}, step.span);
           });
     return known;
   }
@@ -113,7 +113,13 @@ namespace meltfront::particles::front_tracking
     if(const WallPiece *held = wall.held())
     {
       add(phase, wall.node, 1);
-      finish_row(given_on(*held, position, step.time) - shift);
+      finish_row(wall_meter(*held).measure(
+                     [&]
+                     {
+                       return cases::value_at_end(held->boundary->value, position,
+                                                  step.last.time, step.time);
+                     })
+                 - shift);
       return;
     }
     const cases::PhaseProperties &material = properties(phase);
@@ -141,15 +147,16 @@ namespace meltfront::particles::front_tracking
                   * sinks.gradient(place, step.time).dot(piece.normal);
       if(piece.boundary->kind == cases::BoundaryKind::insulated)
         continue;
-      const double given = given_on(piece, position, step.time);
+      const double value = wall_meter(piece).measure(
+          [&] { return given.wall(*piece.boundary, position, step.span); });
       if(piece.boundary->kind == cases::BoundaryKind::heat_transfer)
       {
         const double transfer = piece.length * piece.boundary->heat_transfer_coefficient;
         add(phase, wall.node, transfer);
-        inflow += transfer * (given - shift);
+        inflow += transfer * (value - shift);
       }
       else
-        inflow += piece.length * given;
+        inflow += piece.length * value;
     }
     const Row &row = rows[wall.node];
     for(std::size_t e = 0; e < row.columns.size(); ++e)
@@ -244,6 +251,8 @@ namespace meltfront::particles::front_tracking
       displacement[p] = nodes.spacing * solution[nodes.size() + p];
     meters.front.measure([&] { update_expansions(next, solution); });
     next.wall_power = wall_power(step, next, solution);
+    next.flux_heat = flux_heat(step, next);
+    next.released_heat = released_heat(step);
     return displacement;
   }
 

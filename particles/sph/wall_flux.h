@@ -11,7 +11,8 @@ namespace meltfront::particles
   /**
    * Walls with a prescribed heat flux: each particle near such a wall takes the flux on
    * its share of the wall's area. The shares come from the mirror images' gradient and
-   * add up to the wall's area.
+   * add up to the wall's area. A step takes the flux's mean over it, so that what has
+   * come in is the flux's integral whatever it does within a step.
    */
   class WallFlux
   {

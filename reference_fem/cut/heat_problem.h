@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_cut_heat_problem_h
 
 #include <cases/effect_meter.h>
+#include <cases/time_integral.h>
 #include <reference_fem/cut/front_speed.h>
 #include <reference_fem/cut/phase_problem.h>
 #include <reference_fem/cut/sink_field.h>
@@ -24,7 +25,9 @@ namespace meltfront::reference_fem::cut
     std::shared_ptr<const CutGeometry> geometry;
     std::array<Values, 2> unknown; ///< by Phase
     SpeedField speed;
-    double wall_power = 0; ///< heat in through the walls (W/m)
+    /** Heat in through the walls (W/m); where walls' fluxes vary, without these. */
+    double wall_power = 0;
+    double flux_heat = 0; ///< what walls' varying fluxes brought in the last step (J/m)
   };
 
   /** Factors of a time derivative: d/dt u = now u + before u_before + older u_older. */
@@ -93,7 +96,6 @@ namespace meltfront::reference_fem::cut
     mutable CutMeters meters;
 
   private:
-    double given_on(const WallPoint &wall, double time) const;
     double sink_value(const Point &point, double time) const;
     const cases::PhaseProperties &properties(Phase phase) const;
     Values values_on_front(const BackgroundMesh &mesh,
@@ -104,7 +106,12 @@ namespace meltfront::reference_fem::cut
                                    const State &state, const Cell &cell,
                                    const Point &unit) const;
     void find_speed(State &state, const std::array<std::vector<double>, 2> &flux) const;
-    PhaseEquation conditions(Phase phase, double time) const;
+    /** @param before, older null where the conditions are those of a time */
+    PhaseEquation conditions(Phase phase, const State &state, const State *before,
+                             const State *older) const;
+    double flux_in(cases::Side side, const cases::Position &position, const State &state,
+                   const State *before, const State *older) const;
+    double flux_power(const State &state, const State &before, const State *older) const;
     PhaseEquation equation(Phase phase, const State &state, const State &before,
                            const State *older) const;
     PointFunction change_of_sinks(const TimeDerivative &derivative, const State &state,
@@ -115,6 +122,8 @@ namespace meltfront::reference_fem::cut
     const double spacing;
     const Stabilization &stabilization;
     double smoothing;
+    std::array<std::optional<cases::TimeMean>, cases::n_sides> fluxes; ///< of walls
+    bool fluxes_vary = false;
   };
 } // namespace meltfront::reference_fem::cut
 

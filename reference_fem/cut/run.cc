@@ -28,7 +28,7 @@ namespace meltfront::reference_fem::cut
     constexpr double least_jump = 1e-6;
 
     /** Of the run: how long before a jump the last step ends that knows nothing of it. */
-    constexpr double just_before = 1e-9;
+    constexpr double just_after = 1e-9;
 
     /** Of the run: a front that calls for shorter steps has lost its way. */
     constexpr double shortest_step = 1e-8;
@@ -67,6 +67,7 @@ namespace meltfront::reference_fem::cut
     , state{scene.start_time, make_mesh({}, finest_rim.get()), {}, {}, {}, {}, 0}
     , heat(scene, state.mesh->spacing, options.stabilization, options.smoothing)
     , bounds(cases::temperature_bounds(scene))
+    , breakpoints(cases::breakpoints_of(scene))
   {
   }
 
@@ -129,7 +130,6 @@ namespace meltfront::reference_fem::cut
     check(state);
     if(largest_jump(found.temperature, state.time) > 0)
       damped_steps = damping_steps;
-    find_jumps_to_come();
   }
 
   /** By how much held temperatures of walls differ from what is there before; 0 if by
@@ -148,35 +148,20 @@ namespace meltfront::reference_fem::cut
     return largest > (std::isfinite(span) ? least_jump * span : 0) ? largest : 0;
   }
 
-  void CutRun::find_jumps_to_come()
+  /** After a step that ended where walls' data may jump. */
+  void CutRun::damp_jump(double step_began)
   {
-    const double margin = just_before * (scene.end_time - scene.start_time);
-    for(const cases::Side side : scene.sides())
-      for(const double time : scene.boundary(side).value.breakpoints)
-        if(time - margin > state.time && time < scene.end_time)
-          jumps_ahead.push_back(time - margin);
-    std::ranges::sort(jumps_ahead, std::greater());
-    const auto repeated = std::ranges::unique(jumps_ahead);
-    jumps_ahead.erase(repeated.begin(), repeated.end());
-  }
-
-  /** After the step that ends just before walls' data may jump. */
-  void CutRun::damp_jump()
-  {
-    if(jumps_ahead.empty() || state.time < jumps_ahead.back())
-      return;
-    const double margin = just_before * (scene.end_time - scene.start_time);
-    const double jump = jumps_ahead.back() + margin;
-    jumps_ahead.pop_back();
+    const double after = state.time + just_after * (scene.end_time - scene.start_time);
     for(const WallPoint &wall : state.geometry->walls)
     {
       const cases::Boundary &boundary = scene.boundary(wall.side);
-      const auto before = [&](const Point &place)
-      { return boundary.value(position(place), state.time); };
-      if(boundary.kind == cases::BoundaryKind::fixed_temperature
-         && std::abs(boundary.value(position(wall.position), jump + margin)
-                     - before(wall.position))
-                > least_jump * (bounds.upper - bounds.lower))
+      if(boundary.kind != cases::BoundaryKind::fixed_temperature)
+        continue;
+      const cases::Position place = position(wall.position);
+      const double jump
+          = boundary.value(place, after)
+            - cases::value_at_end(boundary.value, place, step_began, state.time);
+      if(std::abs(jump) > least_jump * (bounds.upper - bounds.lower))
         damped_steps = damping_steps;
     }
   }
@@ -216,6 +201,11 @@ namespace meltfront::reference_fem::cut
           -lowest, highest, mesh.spacing, least_depth));
   }
 
+  double CutRun::next_stop() const
+  {
+    return cases::end_of_piece(breakpoints, state.time, scene.end_time);
+  }
+
   double CutRun::next_step() const
   {
     const double longest
@@ -235,8 +225,7 @@ namespace meltfront::reference_fem::cut
           fmt::format("moves at {:.3g} m/s, for which steps would be shorter than {:g} "
                       "of the run",
                       state.speed.largest, shortest_step));
-    const double rest
-        = (jumps_ahead.empty() ? scene.end_time : jumps_ahead.back()) - state.time;
+    const double rest = next_stop() - state.time;
     if(step >= rest * (1 - 1e-10))
       return rest;
     return step > rest / 2 ? rest / 2 : step;
@@ -289,8 +278,8 @@ namespace meltfront::reference_fem::cut
 
   bool CutRun::attempt(double step, bool last_chance, State &next)
   {
-    const double rest = scene.end_time - state.time;
-    next.time = step == rest ? scene.end_time : state.time + step;
+    const double stop = next_stop();
+    next.time = step == stop - state.time ? stop : state.time + step;
     bool limited = false;
     Values front = predicted_front(step, limited);
     for(int solve = 0; solve < options.solves; ++solve)
@@ -337,14 +326,20 @@ namespace meltfront::reference_fem::cut
     if(fresh)
       state.wall_power = next.wall_power;
     boundary_heat += (next.time - state.time) * (state.wall_power + next.wall_power) / 2;
+    const double step_began = state.time;
     older = std::move(state);
     state = std::move(next);
     euler_steps += fresh || damped_steps > 0;
-    fresh = false;
     damped_steps = std::max(0, damped_steps - 1);
+    boundary_heat += state.flux_heat;
+    fresh = std::ranges::binary_search(breakpoints, state.time);
+    if(fresh)
+    {
+      older.reset();
+      damp_jump(step_began);
+    }
     ++step_number;
     check(state);
-    damp_jump();
     follow_front();
   }
 

@@ -31,11 +31,11 @@ namespace meltfront::reference_fem::cut
     void start();
     void require_resolved() const;
     void step();
+    double next_stop() const;
     double next_step() const;
     double damping_step() const;
     double largest_jump(const PointFunction &before, double time) const;
-    void find_jumps_to_come();
-    void damp_jump();
+    void damp_jump(double step_began);
     bool attempt(double step, bool last_chance, State &next);
     Values moved_front(double step, const SpeedField &end_speed, bool &limited) const;
     Values predicted_front(double step, bool &limited) const;
@@ -64,13 +64,13 @@ namespace meltfront::reference_fem::cut
     State state;
     HeatProblem heat;
     cases::TemperatureBounds bounds;
+    std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
     std::string start_in_words;
 
     std::optional<State> older;
     double last_step = 0;
-    bool fresh = true;               ///< no step was made yet
-    int damped_steps = 0;            ///< still to be made, after a jump of the data
-    std::vector<double> jumps_ahead; ///< moments just before walls' data jump, descending
+    bool fresh = true;    ///< no step was made since the start or a breakpoint
+    int damped_steps = 0; ///< still to be made, after a jump of the data
     long step_number = 0, halved_steps = 0, capped_steps = 0, euler_steps = 0, meshes = 1;
     double boundary_heat = 0, initial_heat = 0;
 

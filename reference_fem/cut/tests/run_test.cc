@@ -140,5 +140,25 @@ namespace meltfront::reference_fem::tests
       set_boundary(periodic, Side::x_max, {BoundaryKind::periodic, {}, false});
       EXPECT_THROW(run_cut(periodic, 40), Refusal);
     }
+
+    // Within a step of about 5 s, 1 s after the start; q times 0.1 s.
+    TEST(FemCut, APulseOfFluxBringsItsEnergy)
+    {
+      const auto end_of_run = [](double flux)
+      {
+        Scene scene = disks({{0, 0, 0}}, 100);
+        set_boundary(scene, Side::x_max,
+                     {BoundaryKind::flux,
+                      {"",
+                       [flux](const Position &, double t)
+                       { return t >= 71 && t < 71.1 ? flux : 0.; },
+                       false,
+                       {71, 71.1}}});
+        return run_cut(scene, 40, {{"fewest_steps", "20"}}).heat;
+      };
+      const HeatBudget without = end_of_run(0), with = end_of_run(1e7);
+      EXPECT_NEAR(with.boundary - without.boundary, 1e6, 1e-3);
+      EXPECT_NEAR(with.stored + with.latent - without.stored - without.latent, 1e6, 1e4);
+    }
   } // namespace
 } // namespace meltfront::reference_fem::tests
