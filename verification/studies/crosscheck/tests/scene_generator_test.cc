@@ -54,8 +54,8 @@ namespace meltfront::verification
           ++words[cases::to_string(c.scene.domain.shape)];
           for(const cases::Side side : c.scene.sides())
             ++words[cases::to_string(c.scene.boundary(side).kind)];
-          for(const cases::EffectDecision &decision :
-              cases::effects_called_for(c.scene).decisions())
+          const cases::EffectSet effects = cases::effects_called_for(c.scene);
+          for(const cases::EffectDecision &decision : effects.decisions())
             words[cases::to_string(decision.effect)] += decision.on;
         }
         catch(const cases::InputError &error)

@@ -17,7 +17,7 @@ namespace meltfront::verification
       draft.set("Scene/Material/Solid", "conductivity", "1");
       draft.set("Scene/Material/Liquid", "conductivity", "7");
       draft.set("Scene/Material/Liquid", "density", "2");
-      draft.set("Scene/Walls/x_max", "kind", "periodic");
+      draft.set("Scene/Walls/x_max", "kind", "insulated");
       return draft;
     }
 
@@ -37,7 +37,7 @@ subsection Scene
       set flux = if(t < 1, 5, 0)
     end
     subsection x_max
-      set kind = periodic
+      set kind = insulated
     end
   end
   subsection Material
