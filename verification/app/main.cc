@@ -3,6 +3,7 @@
 #include <verification/app/calibrate.h>
 #include <verification/app/capability_list.h>
 #include <verification/app/commands.h>
+#include <verification/app/crosscheck_command.h>
 #include <verification/app/list.h>
 
 #include <CLI/CLI.hpp>
@@ -26,6 +27,7 @@ namespace
     VerifyArguments verify_arguments;
     RunArguments run_arguments;
     CompareArguments compare_arguments;
+    CrosscheckArguments crosscheck_arguments;
     CalibrateArguments calibrate_arguments;
     std::string report_directory;
     std::string list_what;
@@ -38,6 +40,7 @@ namespace
     void declare_verify();
     void declare_run();
     void declare_compare();
+    void declare_crosscheck();
     void declare_calibrate();
     void declare_others();
   };
@@ -51,6 +54,7 @@ namespace
     declare_verify();
     declare_run();
     declare_compare();
+    declare_crosscheck();
     declare_calibrate();
     declare_others();
   }
@@ -130,6 +134,29 @@ namespace
         ->check(CLI::Range(0, 1024));
     add_memory_option(command, a.memory);
     command->callback([this] { action = [this] { return compare(compare_arguments); }; });
+  }
+
+  void CommandLine::declare_crosscheck()
+  {
+    auto *command = app.add_subcommand(
+        "crosscheck", "random scenes: does any method contradict the others?");
+    CrosscheckArguments &a = crosscheck_arguments;
+    command->add_option("--scenes", a.scenes, "how many (20)")
+        ->check(CLI::Range(1, 1000000));
+    command->add_option("--seed", a.seed, "of the scenes (1)");
+    command->add_option("--dimension", a.dimension, "1, 2 or 3 (any)")
+        ->check(CLI::Range(1, 3));
+    command->add_option("--out", a.output, "directory (results/crosscheck-SEED)");
+    command->add_option("--jobs", a.jobs, "runs at once (one per core)")
+        ->check(CLI::Range(0, 1024));
+    command->add_option("--within", a.within, "longest time of a run in seconds (20)")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--methods", a.methods,
+                     "separated by commas (all but those as published)")
+        ->delimiter(',');
+    command->callback([this]
+                      { action = [this] { return crosscheck(crosscheck_arguments); }; });
   }
 
   void CommandLine::declare_calibrate()

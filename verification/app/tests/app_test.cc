@@ -260,3 +260,39 @@ TEST(App, CapabilitiesAreListedAsATableAndAsJson)
     }
   EXPECT_EQ(run_program("list methods --json").status, 2);
 }
+
+TEST(App, CrosscheckRunsRandomScenesAndTakesUpWhereItStopped)
+{
+  const TemporaryDirectory directory;
+  const std::string out = " --out " + directory.path().string();
+  const Outcome outcome
+      = run_program("crosscheck --scenes 20 --seed 1 --dimension 1" + out);
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+  const nlohmann::json summary = read_json(directory.path() / "summary.json");
+  EXPECT_EQ(summary.at("scenes"), 20);
+  EXPECT_EQ(summary.at("suspect"), 0);
+  EXPECT_GE(summary.at("agreed"), 10);
+  int sum = 0;
+  for(const char *count : {"agreed", "refused", "failed", "suspect"})
+    sum += summary.at(count).get<int>();
+  EXPECT_EQ(sum, 20);
+  // What is written for a scene is a case file that anybody can run.
+  const Outcome run = run_program(
+      "run " + (directory.path() / "scenes/scene-1-0.prm").string()
+      + " --method fem-enthalpy --n 20 --out " + (directory.path() / "run").string());
+  EXPECT_EQ(run.status, 0) << run.output;
+  const Outcome again
+      = run_program("crosscheck --scenes 20 --seed 1 --dimension 1" + out);
+  expect_text(again, "20 runs were finished before and are kept");
+  EXPECT_EQ(read_json(directory.path() / "summary.json"), summary);
+}
+
+TEST(App, CrosscheckNamesWhatItDoesNotKnow)
+{
+  for(const char *arguments : {"--dimension 4", "--scenes 0", "--seed x", "--within -1"})
+    EXPECT_EQ(run_program(std::string("crosscheck ") + arguments).status, 2) << arguments;
+  const Outcome unknown = run_program("crosscheck --methods sph,fem-entalpy");
+  EXPECT_EQ(unknown.status, 2);
+  expect_text(unknown, "fem-enthalpy");
+  EXPECT_EQ(run_program("crosscheck --methods sph").status, 2);
+}

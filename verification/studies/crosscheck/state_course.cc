@@ -1,0 +1,167 @@
+#include <verification/matrix/json_values.h>
+#include <verification/studies/crosscheck/state_course.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr int most_degree = 3;
+
+    double time_of(const cases::Scene &scene, int k)
+    {
+      return scene.start_time
+             + (scene.end_time - scene.start_time) * k / course_intervals;
+    }
+
+    std::vector<double> inner_times(const cases::Scene &scene)
+    {
+      std::vector<double> times;
+      for(int k = 1; k < course_intervals; ++k)
+        times.push_back(time_of(scene, k));
+      return times;
+    }
+
+    /** Bernstein's polynomials of a degree at a point of [0, 1]. */
+    std::array<double, most_degree + 1> bernstein(int degree, double x)
+    {
+      constexpr int binomials[][most_degree + 1] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
+      std::array<double, most_degree + 1> result{};
+      for(int k = 0; k <= degree; ++k)
+        result[k] = binomials[degree][k] * std::pow(x, k) * std::pow(1 - x, degree - k);
+      return result;
+    }
+
+    /** Latent and sensible heat per volume at a site, of phases of one density. */
+    double heat_density(const cases::Material &material, double temperature, double solid)
+    {
+      const double capacity = solid * material.solid.specific_heat_capacity
+                              + (1 - solid) * material.liquid.specific_heat_capacity;
+      return material.solid.density
+             * (capacity * (temperature - material.melting_temperature)
+                + material.latent_heat * (1 - solid));
+    }
+  } // namespace
+
+  void to_json(nlohmann::json &json, const StateCourse &course)
+  {
+    json = {{"lowest", json_of(course.lowest)}, {"highest", json_of(course.highest)}};
+    for(const auto &[name, values] : course.quantities)
+      json["quantities"][name] = json_of(values);
+  }
+
+  void from_json(const nlohmann::json &json, StateCourse &course)
+  {
+    course.lowest = number_in(json.at("lowest"));
+    course.highest = number_in(json.at("highest"));
+    for(const auto &[name, values] : json.at("quantities").items())
+      course.quantities[name] = numbers_in(values);
+  }
+
+  CourseObserver::CourseObserver(const cases::Scene &scene)
+    : scene(scene)
+    , coordinates(scene.symmetry)
+    , marks(inner_times(scene))
+    , lowest(infinity)
+    , highest(-infinity)
+  {
+  }
+
+  bool CourseObserver::wants(long step, double time)
+  {
+    marks.pass(step, time);
+    return step == 0 || marks.near_mark();
+  }
+
+  void CourseObserver::add(const std::string &name, double value)
+  {
+    values[name].push_back(value);
+  }
+
+  void CourseObserver::add_means(const cases::Snapshot &snapshot,
+                                 const std::string &coordinate,
+                                 std::span<const double> positions, double lower,
+                                 double upper)
+  {
+    const int degree = scene.symmetry == cases::Symmetry::none ? 2 : 3;
+    std::array<double, most_degree + 1> weight{}, temperature{}, solid{};
+    for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
+    {
+      const double x = std::clamp((positions[i] - lower) / (upper - lower), 0., 1.);
+      const auto shares = bernstein(degree, x);
+      for(int k = 0; k <= degree; ++k)
+      {
+        const double w = snapshot.weights[i] * shares[k];
+        weight[k] += w;
+        temperature[k] += w * snapshot.temperature[i];
+        solid[k] += w * snapshot.solid_fraction[i];
+      }
+    }
+    for(int k = 0; k <= degree; ++k)
+    {
+      const std::string where = fmt::format(" near {} = {}/{}", coordinate, k, degree);
+      add("temperature" + where, temperature[k] / weight[k]);
+      if(scene.changes_phase())
+        add("solid fraction" + where, solid[k] / weight[k]);
+    }
+  }
+
+  void CourseObserver::observe(const cases::Snapshot &snapshot)
+  {
+    if(!times.empty() && snapshot.time <= times.back())
+      return;
+    times.push_back(snapshot.time);
+    const auto [least, most] = std::ranges::minmax(snapshot.temperature);
+    lowest = std::min(lowest, least);
+    highest = std::max(highest, most);
+    const cases::Domain &domain = scene.domain;
+    if(scene.symmetry != cases::Symmetry::none)
+    {
+      const bool round = domain.round();
+      add_means(snapshot, round ? "r" : "x", coordinates.of(snapshot),
+                round ? domain.inner_radius : domain.lower[0],
+                round ? domain.radius : domain.upper[0]);
+    }
+    else
+      for(int d = 0; d < snapshot.dimension; ++d)
+        add_means(snapshot, std::string(1, "xyz"[d]), snapshot.positions[d],
+                  domain.round() ? -domain.radius : domain.lower[d],
+                  domain.round() ? domain.radius : domain.upper[d]);
+    if(!scene.changes_phase())
+      return;
+    const cases::Material &material = scene.material;
+    double volume = 0, solid = 0, heat = 0;
+    for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
+    {
+      const double w = snapshot.weights[i];
+      volume += w;
+      solid += w * snapshot.solid_fraction[i];
+      heat += w
+              * heat_density(material, snapshot.temperature[i],
+                             snapshot.solid_fraction[i]);
+    }
+    add("solid fraction", solid / volume);
+    if(material.solid.density == material.liquid.density)
+      add("heat", heat / volume);
+  }
+
+  StateCourse CourseObserver::course() const
+  {
+    StateCourse result;
+    result.lowest = lowest;
+    result.highest = highest;
+    const double tolerance = 1e-9 * (scene.end_time - scene.start_time);
+    for(const auto &[name, series] : values)
+      for(int k = 0; k <= course_intervals; ++k)
+        result.quantities[name].push_back(
+            interpolated(times, series, time_of(scene, k), tolerance));
+    return result;
+  }
+} // namespace meltfront::verification

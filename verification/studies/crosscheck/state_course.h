@@ -1,0 +1,70 @@
+#ifndef meltfront_verification_studies_crosscheck_state_course_h
+#define meltfront_verification_studies_crosscheck_state_course_h
+
+#include <cases/method.h>
+#include <cases/scene.h>
+#include <verification/matrix/run_statistics.h>
+#include <verification/measure/site_coordinates.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace meltfront::verification
+{
+  /** Times of a run, from its start to its end, at which methods are compared: the k-th
+   * is k/course_intervals of the duration. */
+  inline constexpr int course_intervals = 24;
+
+  /** What is compared of a run: quantities by name at the times of the course, NaN where
+   * there was no snapshot or the quantity is not defined. */
+  struct StateCourse
+  {
+    std::map<std::string, std::vector<double>> quantities;
+    double lowest = 0, highest = 0; ///< temperature of all sites at all snapshots
+  };
+
+  void to_json(nlohmann::json &json, const StateCourse &course);
+  void from_json(const nlohmann::json &json, StateCourse &course);
+
+  /**
+   * Follows a run and reads from each snapshot, by sums over the sites with their weights
+   * w, what every method can be asked for:
+   *
+   * solid fraction: sum of w f over sum of w;
+   * heat: sum of w rho (c (T - T_m) + L (1 - f)), with c = f c_s + (1 - f) c_l, over sum
+   * of w; of substances whose phases have one density;
+   * temperature, and solid fraction, `near x = k/m`: means with the weights
+   * w B(x), B Bernstein's polynomials of degree m (3 along a line, else 2) in each
+   * coordinate, or in the radius of a scene that is symmetric about a point or an axis.
+   *
+   * Without change of phase there are temperatures only. Values at the times of the
+   * course are interpolated by cubics between the steps around them.
+   */
+  class CourseObserver : public cases::Observer
+  {
+  public:
+    explicit CourseObserver(const cases::Scene &scene);
+
+    bool wants(long step, double time) override;
+    void observe(const cases::Snapshot &snapshot) override;
+
+    StateCourse course() const;
+
+  private:
+    void add_means(const cases::Snapshot &snapshot, const std::string &coordinate,
+                   std::span<const double> values, double lower, double upper);
+    void add(const std::string &name, double value);
+
+    cases::Scene scene;
+    SiteCoordinates coordinates;
+    MarkWatch marks;
+    std::vector<double> times;
+    std::map<std::string, std::vector<double>> values; ///< one for each of the times
+    double lowest, highest;
+  };
+} // namespace meltfront::verification
+
+#endif

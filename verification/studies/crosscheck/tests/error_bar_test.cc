@@ -1,0 +1,86 @@
+#include <verification/studies/crosscheck/error_bar.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    constexpr std::size_t times = 25;
+
+    /** Values 1 + factor h^order, with steps in proportion to 1/h. */
+    Level level(int n, double factor, double order, double steps_power = 1)
+    {
+      const double h = 1. / n;
+      return {h, std::pow(n, steps_power),
+              std::vector<double>(times, 1 + factor * std::pow(h, order))};
+    }
+
+    TEST(ErrorBar, HoldsTheTruthOfSecondOrderAtTheSafetyFactor)
+    {
+      const Estimate estimate
+          = estimate_at({level(20, 3, 2), level(40, 3, 2), level(80, 3, 2)}, 24, 0);
+      EXPECT_NEAR(estimate.order, 2, 1e-6);
+      const double error = 3. / 6400;
+      EXPECT_NEAR(estimate.bar, safety_factor * error, 1e-6 * error);
+      EXPECT_TRUE(estimate.converging);
+    }
+
+    TEST(ErrorBar, TakesNoOrderBeyondTheFormalOne)
+    {
+      const Estimate estimate
+          = estimate_at({level(20, 3, 4), level(40, 3, 4), level(80, 3, 4)}, 24, 0);
+      EXPECT_DOUBLE_EQ(estimate.order, highest_order);
+      EXPECT_GT(estimate.bar, safety_factor * 3 * std::pow(80, -4.));
+    }
+
+    TEST(ErrorBar, BelievesFirstOrderOnlyWhereStepsAreNotRefined)
+    {
+      const Estimate estimate = estimate_at(
+          {level(20, 3, 2, 0), level(40, 3, 2, 0), level(80, 3, 2, 0)}, 24, 0);
+      EXPECT_DOUBLE_EQ(estimate.order, 1);
+      EXPECT_NEAR(estimate.bar, safety_factor * 3 * (1. / 1600 - 1. / 6400), 1e-12);
+    }
+
+    TEST(ErrorBar, EqualEndValuesAreNoConvergenceWhereTheCourseDiffers)
+    {
+      std::vector<Level> levels{level(20, 0, 1), level(40, 0, 1), level(80, 0, 1)};
+      for(std::size_t k = 0; k + 1 < times; ++k)
+        for(std::size_t i = 0; i < levels.size(); ++i)
+          levels[i].values[k] += (k % 2 == 0 ? 1 : -1) * 0.4 * levels[i].spacing;
+      const Estimate estimate = estimate_at(levels, 24, 0);
+      EXPECT_DOUBLE_EQ(estimate.value, 1);
+      EXPECT_GT(estimate.bar, 0.2 / 80);
+    }
+
+    TEST(ErrorBar, LevelsThatDoNotConvergeGiveThreeTimesTheirDifference)
+    {
+      std::vector<Level> levels{level(20, 0, 1), level(40, 0, 1), level(80, 0, 1)};
+      for(double &value : levels[2].values)
+        value += 0.1;
+      levels[0].values.assign(times, 1.02);
+      const Estimate estimate = estimate_at(levels, 12, 1);
+      EXPECT_FALSE(estimate.converging);
+      EXPECT_NEAR(estimate.bar, 0.3 + reading_error, 1e-12);
+    }
+
+    TEST(ErrorBar, OneLevelKnowsNothingOfItsErrorTwoTakeFirstOrder)
+    {
+      EXPECT_TRUE(std::isinf(estimate_at({level(20, 3, 1)}, 24, 0).bar));
+      const Estimate estimate = estimate_at({level(20, 3, 1), level(40, 3, 1)}, 24, 0);
+      EXPECT_NEAR(estimate.bar, safety_factor * 3. / 40, 1e-12);
+    }
+
+    TEST(ErrorBar, FinestOfFiveLevelsCount)
+    {
+      // The two coarsest lie before the range in which errors fall as they should.
+      const std::vector<Level> finest{level(80, 3, 2), level(160, 3, 2),
+                                      level(320, 3, 2)};
+      std::vector<Level> all{level(20, 90, 0), level(40, -70, 0)};
+      all.insert(all.end(), finest.begin(), finest.end());
+      EXPECT_DOUBLE_EQ(estimate_at(all, 6, 1).bar, estimate_at(finest, 6, 1).bar);
+    }
+  } // namespace
+} // namespace meltfront::verification

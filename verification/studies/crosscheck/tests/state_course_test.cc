@@ -1,0 +1,94 @@
+#include <verification/measure/tests/fixtures.h>
+#include <verification/studies/crosscheck/state_course.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    /** Cells of a slab with the temperature x t and solid up to x = t/2. */
+    tests::State slab_at(double time)
+    {
+      constexpr int n = 64;
+      tests::State state;
+      for(int i = 0; i < n; ++i)
+      {
+        const double x = (i + 0.5) / n;
+        state.positions[0].push_back(x);
+        state.weights.push_back(1. / n);
+        state.temperature.push_back(x * time);
+        state.solid_fraction.push_back(std::clamp(time / 2 * n - i, 0., 1.));
+      }
+      return state;
+    }
+
+    StateCourse course_of_slab(const cases::Scene &scene)
+    {
+      CourseObserver observer(scene);
+      constexpr int steps = 2000;
+      for(int step = 0; step <= steps; ++step)
+      {
+        const double time = static_cast<double>(step) / steps;
+        if(step < steps && !observer.wants(step, time))
+          continue;
+        tests::State state = slab_at(time);
+        state.snapshot.step = step;
+        observer.observe(state.view(1, time));
+      }
+      return observer.course();
+    }
+
+    TEST(CourseObserver, ReadsMeansAtTheTimesOfTheCourse)
+    {
+      cases::Scene scene
+          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+      scene.material.latent_heat = 3;
+      scene.material.liquid.specific_heat_capacity = 2;
+      const StateCourse course = course_of_slab(scene);
+      EXPECT_EQ(course.lowest, 0);
+      EXPECT_NEAR(course.highest, 1 - 0.5 / 64, 1e-12);
+      for(const int k : {6, 12, 18, 24})
+      {
+        const double time = k / 24.;
+        EXPECT_NEAR(course.quantities.at("solid fraction")[k], time / 2, 1e-9);
+        // The mean of x weighted with 1, 3, 3, 1 times x^k (1-x)^(3-k) is (k + 1)/5.
+        for(int b = 0; b <= 3; ++b)
+          EXPECT_NEAR(
+              course.quantities.at("temperature near x = " + std::to_string(b) + "/3")[k],
+              time * (b + 1) / 5, 1e-3);
+        // Solid and liquid hold x t and 2 x t, the liquid 3 besides.
+        const double front = time / 2;
+        const double heat
+            = time * (front * front / 2 + (1 - front * front)) + 3 * (1 - front);
+        EXPECT_NEAR(course.quantities.at("heat")[k], heat, 0.02);
+      }
+    }
+
+    TEST(CourseObserver, IsKeptAsJson)
+    {
+      cases::Scene scene
+          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+      scene.material.liquid.density = 2;
+      const StateCourse course = course_of_slab(scene);
+      EXPECT_FALSE(course.quantities.contains("heat"));
+      const auto read
+          = nlohmann::json::parse(nlohmann::json(course).dump()).get<StateCourse>();
+      EXPECT_EQ(read.highest, course.highest);
+      EXPECT_EQ(read.quantities.at("solid fraction"),
+                course.quantities.at("solid fraction"));
+    }
+
+    TEST(CourseObserver, WithoutChangeOfPhaseThereAreTemperaturesOnly)
+    {
+      cases::Scene scene
+          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+      scene.material.latent_heat = 0;
+      for(const auto &[name, values] : course_of_slab(scene).quantities)
+        EXPECT_TRUE(name.starts_with("temperature")) << name;
+    }
+  } // namespace
+} // namespace meltfront::verification
