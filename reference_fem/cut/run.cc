@@ -24,8 +24,9 @@ namespace meltfront::reference_fem::cut
     /** Steps of backward Euler after a jump of the data at a wall. */
     constexpr int damping_steps = 4;
 
-    /** Of the span of the bounds: what counts as a jump. */
-    constexpr double least_jump = 1e-6;
+    /** Of the largest difference of a wall's temperature from the melting point: what
+     * counts as a jump. One that is smaller overshoots by less than anything counts. */
+    constexpr double least_jump = 1e-3;
 
     /** Of the run: how long before a jump the last step ends that knows nothing of it. */
     constexpr double just_before = 1e-9;
@@ -127,25 +128,30 @@ namespace meltfront::reference_fem::cut
     heat.project(state, found.temperature);
     step_number = found.time > scene.start_time ? 1 : 0;
     check(state);
-    if(largest_jump(found.temperature, state.time) > 0)
-      damped_steps = damping_steps;
+    damp_jump([&](const WallPoint &wall) { return found.temperature(wall.position); },
+              state.time);
     find_jumps_to_come();
   }
 
-  /** By how much held temperatures of walls differ from what is there before; 0 if by
-   * next to nothing. */
-  double CutRun::largest_jump(const PointFunction &before, double time) const
+  /** Damp the coming steps if held temperatures of walls at a time differ from what is
+   * there before. */
+  void CutRun::damp_jump(const std::function<double(const WallPoint &)> &before,
+                         double time)
   {
-    double largest = 0;
+    const double melting = scene.material.melting_temperature;
+    double largest = 0, scale = 0;
     for(const WallPoint &wall : state.geometry->walls)
     {
       const cases::Boundary &boundary = scene.boundary(wall.side);
-      if(boundary.kind == cases::BoundaryKind::fixed_temperature)
-        largest = std::max(largest, std::abs(boundary.value(position(wall.position), time)
-                                             - before(wall.position)));
+      if(boundary.kind != cases::BoundaryKind::fixed_temperature)
+        continue;
+      const double given = boundary.value(position(wall.position), time),
+                   was = before(wall);
+      largest = std::max(largest, std::abs(given - was));
+      scale = std::max({scale, std::abs(given - melting), std::abs(was - melting)});
     }
-    const double span = bounds.upper - bounds.lower;
-    return largest > (std::isfinite(span) ? least_jump * span : 0) ? largest : 0;
+    if(largest > least_jump * scale)
+      damped_steps = damping_steps;
   }
 
   void CutRun::find_jumps_to_come()
@@ -161,24 +167,17 @@ namespace meltfront::reference_fem::cut
   }
 
   /** After the step that ends just before walls' data may jump. */
-  void CutRun::damp_jump()
+  void CutRun::meet_jump()
   {
-    if(jumps_ahead.empty() || state.time < jumps_ahead.back())
-      return;
     const double margin = just_before * (scene.end_time - scene.start_time);
-    const double jump = jumps_ahead.back() + margin;
+    // The step ends there but for round-off.
+    if(jumps_ahead.empty() || state.time < jumps_ahead.back() - margin / 2)
+      return;
+    damp_jump(
+        [this](const WallPoint &wall)
+        { return scene.boundary(wall.side).value(position(wall.position), state.time); },
+        jumps_ahead.back() + 2 * margin);
     jumps_ahead.pop_back();
-    for(const WallPoint &wall : state.geometry->walls)
-    {
-      const cases::Boundary &boundary = scene.boundary(wall.side);
-      const auto before = [&](const Point &place)
-      { return boundary.value(position(place), state.time); };
-      if(boundary.kind == cases::BoundaryKind::fixed_temperature
-         && std::abs(boundary.value(position(wall.position), jump + margin)
-                     - before(wall.position))
-                > least_jump * (bounds.upper - bounds.lower))
-        damped_steps = damping_steps;
-    }
   }
 
   /**
@@ -344,7 +343,7 @@ namespace meltfront::reference_fem::cut
     damped_steps = std::max(0, damped_steps - 1);
     ++step_number;
     check(state);
-    damp_jump();
+    meet_jump();
     follow_front();
   }
 

@@ -8,6 +8,7 @@
 #include <reference_fem/cut/options.h>
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -33,9 +34,9 @@ namespace meltfront::reference_fem::cut
     void step();
     double next_step() const;
     double damping_step() const;
-    double largest_jump(const PointFunction &before, double time) const;
+    void damp_jump(const std::function<double(const WallPoint &)> &before, double time);
     void find_jumps_to_come();
-    void damp_jump();
+    void meet_jump();
     bool attempt(double step, bool last_chance, State &next);
     Values moved_front(double step, const SpeedField &end_speed, bool &limited) const;
     Values predicted_front(double step, bool &limited) const;
