@@ -24,10 +24,12 @@ namespace meltfront::reference_fem::cut
     /** Steps of backward Euler after a jump of the data at a wall. */
     constexpr int damping_steps = 4;
 
-    /** Of the span of the bounds: what counts as a jump. */
-    constexpr double least_jump = 1e-6;
+    /** Of the largest difference of a wall's temperature from the melting point: what
+     * counts as a jump. One that is smaller overshoots by less than anything counts. */
+    constexpr double least_jump = 1e-3;
 
-    /** Of the run: how long before a jump the last step ends that knows nothing of it. */
+    /** Of the run: how long after a breakpoint the data are read for what they jump to.
+     */
     constexpr double just_after = 1e-9;
 
     /** Of the run: a front that calls for shorter steps has lost its way. */
@@ -128,42 +130,29 @@ namespace meltfront::reference_fem::cut
     heat.project(state, found.temperature);
     step_number = found.time > scene.start_time ? 1 : 0;
     check(state);
-    if(largest_jump(found.temperature, state.time) > 0)
-      damped_steps = damping_steps;
+    damp_jump([&](const WallPoint &wall) { return found.temperature(wall.position); },
+              state.time);
   }
 
-  /** By how much held temperatures of walls differ from what is there before; 0 if by
-   * next to nothing. */
-  double CutRun::largest_jump(const PointFunction &before, double time) const
+  /** Damp the coming steps if held temperatures of walls at a time differ from what is
+   * there before. */
+  void CutRun::damp_jump(const std::function<double(const WallPoint &)> &before,
+                         double time)
   {
-    double largest = 0;
-    for(const WallPoint &wall : state.geometry->walls)
-    {
-      const cases::Boundary &boundary = scene.boundary(wall.side);
-      if(boundary.kind == cases::BoundaryKind::fixed_temperature)
-        largest = std::max(largest, std::abs(boundary.value(position(wall.position), time)
-                                             - before(wall.position)));
-    }
-    const double span = bounds.upper - bounds.lower;
-    return largest > (std::isfinite(span) ? least_jump * span : 0) ? largest : 0;
-  }
-
-  /** After a step that ended where walls' data may jump. */
-  void CutRun::damp_jump(double step_began)
-  {
-    const double after = state.time + just_after * (scene.end_time - scene.start_time);
+    const double melting = scene.material.melting_temperature;
+    double largest = 0, scale = 0;
     for(const WallPoint &wall : state.geometry->walls)
     {
       const cases::Boundary &boundary = scene.boundary(wall.side);
       if(boundary.kind != cases::BoundaryKind::fixed_temperature)
         continue;
-      const cases::Position place = position(wall.position);
-      const double jump
-          = boundary.value(place, after)
-            - cases::value_at_end(boundary.value, place, step_began, state.time);
-      if(std::abs(jump) > least_jump * (bounds.upper - bounds.lower))
-        damped_steps = damping_steps;
+      const double given = boundary.value(position(wall.position), time),
+                   was = before(wall);
+      largest = std::max(largest, std::abs(given - was));
+      scale = std::max({scale, std::abs(given - melting), std::abs(was - melting)});
     }
+    if(largest > least_jump * scale)
+      damped_steps = damping_steps;
   }
 
   /**
@@ -323,7 +312,7 @@ namespace meltfront::reference_fem::cut
 
   void CutRun::accept(State next)
   {
-    if(fresh)
+    if(fresh || damped_steps > 0)
       state.wall_power = next.wall_power;
     boundary_heat += (next.time - state.time) * (state.wall_power + next.wall_power) / 2;
     const double step_began = state.time;
@@ -336,7 +325,13 @@ namespace meltfront::reference_fem::cut
     if(fresh)
     {
       older.reset();
-      damp_jump(step_began);
+      damp_jump(
+          [&](const WallPoint &wall)
+          {
+            return cases::value_at_end(scene.boundary(wall.side).value,
+                                       position(wall.position), step_began, state.time);
+          },
+          state.time + just_after * (scene.end_time - scene.start_time));
     }
     ++step_number;
     check(state);

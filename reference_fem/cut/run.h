@@ -8,6 +8,7 @@
 #include <reference_fem/cut/options.h>
 
 #include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -34,8 +35,7 @@ namespace meltfront::reference_fem::cut
     double next_stop() const;
     double next_step() const;
     double damping_step() const;
-    double largest_jump(const PointFunction &before, double time) const;
-    void damp_jump(double step_began);
+    void damp_jump(const std::function<double(const WallPoint &)> &before, double time);
     bool attempt(double step, bool last_chance, State &next);
     Values moved_front(double step, const SpeedField &end_speed, bool &limited) const;
     Values predicted_front(double step, bool &limited) const;
