@@ -2,6 +2,7 @@
 #define meltfront_particles_front_tracking_tracking_options_h
 
 #include <cases/method.h>
+#include <cases/overshoot.h>
 
 #include <string>
 #include <vector>
@@ -10,6 +11,10 @@ namespace meltfront::particles::front_tracking
 {
   /** The word that a user types. */
   inline constexpr const char *method_name = "rkpm-tracked";
+
+  /** Collocation keeps the maximum principle in the limit only. */
+  inline constexpr cases::Overshoot overshoot_along_line{10, 0},
+      overshoot_in_plane{10, 0};
 
   /** How the equations are advanced in time: backward differentiation of an order. */
   enum class TimeScheme

@@ -14,6 +14,8 @@ namespace meltfront::particles
   {
     constexpr const char *method_name = "moab-integral";
 
+    constexpr cases::Overshoot overshoot{10, 0};
+
     template <typename Enumeration>
     Enumeration choice(const std::vector<std::string> &names, const std::string &name)
     {
@@ -94,7 +96,8 @@ namespace meltfront::particles
                          Effect::wall_flux, Effect::wall_transfer},
              .shapes = {{DomainShape::slab, {1}, walls}, {DomainShape::box, {2}, walls}},
              .front_origins = {cases::FrontOrigin::none},
-             .most_threads = cases::any_number_of_threads}};
+             .most_threads = cases::any_number_of_threads,
+             .overshoot = overshoot}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override;
@@ -155,6 +158,7 @@ namespace meltfront::particles
       const IntegralProblem problem(scene, nodes, read_parameters(scene, resolution));
       LinearDescription description;
       description.method = method_name;
+      description.overshoot = overshoot;
       description.run.dimension = dimension;
       description.run.spacing = nodes.spacing;
       description.run.smoothing_length = problem.dilation();

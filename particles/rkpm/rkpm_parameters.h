@@ -40,6 +40,9 @@ namespace meltfront::particles::rkpm
     double jitter = 0; ///< over the spacing
   };
 
+  /** Neither reproducing kernels nor BDF2 obey the maximum principle. */
+  inline constexpr cases::Overshoot overshoot{10, 0};
+
   std::vector<cases::OptionDeclaration> rkpm_options(const RkpmPolicy &policy);
 
   /** The options of a run in some dimension. */

@@ -42,7 +42,8 @@ namespace meltfront::reference_fem
                             {DomainShape::shell, {2, 3}, walls}},
                  .front_origins
                  = {FrontOrigin::initial_front, FrontOrigin::wall, FrontOrigin::source},
-                 .most_fronts = 1}};
+                 .most_fronts = 1,
+                 .overshoot = fitted::overshoot}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_fitted_options_h
 
 #include <cases/method.h>
+#include <cases/overshoot.h>
 #include <cases/scene.h>
 #include <reference_fem/fitted/time/integrator.h>
 
@@ -10,6 +11,9 @@
 
 namespace meltfront::reference_fem::fitted
 {
+  /** Elements of higher degree obey no maximum principle. */
+  inline constexpr cases::Overshoot overshoot{10, 0};
+
   /** The options of `fem-fitted`. */
   std::vector<cases::OptionDeclaration> fitted_options();
 
