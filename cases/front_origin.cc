@@ -15,8 +15,9 @@ namespace meltfront::cases
      * at the wall itself. */
     constexpr double next_to_wall = 1e-6;
 
-    /** Relative to the largest |T - T_m|: nearer to the melting point is at it. */
-    constexpr double round_off = 1e-12;
+    /** Relative to |T_m| and the largest |T - T_m|: nearer to the melting point is at it.
+     * What an exact solution keeps there misses it by round-off. */
+    constexpr double share_of_round_off = 1e-9;
 
     enum class InitialPhase
     {
@@ -40,12 +41,19 @@ namespace meltfront::cases
         const double front
             = scene.initial.front ? (*scene.initial.front)(p, scene.start_time) : 0;
         const double sign = front != 0 ? front : excess(p);
-        if(front != 0 || std::abs(sign) > round_off * largest)
+        if(front != 0 || std::abs(sign) > round_off())
           return sign < 0 ? InitialPhase::solid : InitialPhase::liquid;
         const double fraction = scene.initial.solid_fraction_at_melting;
         return fraction == 1   ? InitialPhase::solid
                : fraction == 0 ? InitialPhase::liquid
                                : InitialPhase::mush;
+      }
+
+      /** A temperature nearer to the melting point than this is at it (K). */
+      double round_off() const
+      {
+        return share_of_round_off
+               * std::max(largest, std::abs(scene.material.melting_temperature));
       }
 
       bool has(InitialPhase wanted) const
@@ -92,26 +100,25 @@ namespace meltfront::cases
       if(boundary.kind != BoundaryKind::fixed_temperature)
         return false;
       bool found = false;
-      visit_wall(
-          scene.domain, side,
-          [&](const Position &wall)
-          {
-            const InitialPhase phase = start.phase_at_wall(side, wall);
-            if(found || phase == InitialPhase::mush)
-              return;
-            const int times = boundary.value.constant ? 1 : times_looked_at;
-            for(int i = 0; i < times && !found; ++i)
-            {
-              const double time
-                  = scene.start_time
-                    + (scene.end_time - scene.start_time) * i / std::max(times - 1, 1);
-              const double excess
-                  = boundary.value(wall, time) - scene.material.melting_temperature;
-              // What an exact solution keeps at the melting point misses it by round-off.
-              const double margin = 1e-9 * std::abs(scene.material.melting_temperature);
-              found = phase == InitialPhase::solid ? excess > margin : excess < -margin;
-            }
-          });
+      visit_wall(scene.domain, side,
+                 [&](const Position &wall)
+                 {
+                   const InitialPhase phase = start.phase_at_wall(side, wall);
+                   if(found || phase == InitialPhase::mush)
+                     return;
+                   const int times = boundary.value.constant ? 1 : times_looked_at;
+                   for(int i = 0; i < times && !found; ++i)
+                   {
+                     const double time = scene.start_time
+                                         + (scene.end_time - scene.start_time) * i
+                                               / std::max(times - 1, 1);
+                     const double excess = boundary.value(wall, time)
+                                           - scene.material.melting_temperature;
+                     const double margin = start.round_off();
+                     found = phase == InitialPhase::solid ? excess > margin
+                                                          : excess < -margin;
+                   }
+                 });
       return found;
     }
 

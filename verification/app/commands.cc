@@ -1,6 +1,7 @@
 #include <cases/case_file/case_file.h>
 #include <cases/case_file/vary_case.h>
 #include <cases/error.h>
+#include <verification/app/capability_list.h>
 #include <verification/app/commands.h>
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
@@ -58,6 +59,7 @@ namespace meltfront::verification
       }
       write_summary(directory, result);
       write_report(result, directory);
+      write_atomically(directory + "/capabilities.txt", capability_text());
       std::fputs(console_summary(result).c_str(), stdout);
       fmt::print("Report: {}\n", std::filesystem::absolute(directory + "/report.html")
                                      .lexically_normal()

@@ -1,4 +1,5 @@
 #include <cases/case_file/case_file.h>
+#include <verification/app/capability_list.h>
 #include <verification/app/list.h>
 #include <verification/app/methods.h>
 #include <verification/matrix/matrix_file.h>
@@ -23,15 +24,6 @@ namespace meltfront::verification
       return text;
     }
 
-    template <typename List>
-    std::vector<std::string> words_of(const List &list)
-    {
-      std::vector<std::string> words;
-      for(const auto &item : list)
-        words.emplace_back(cases::to_string(item));
-      return words;
-    }
-
     std::string option_text(const cases::OptionDeclaration &option)
     {
       std::string range;
@@ -52,9 +44,6 @@ namespace meltfront::verification
       for(const auto &method : methods())
       {
         text += fmt::format("  {}: {}\n", method->name(), method->summary());
-        for(const cases::Capabilities &form : method->capabilities())
-          text += fmt::format("      effects{}{}: {}\n", form.form.empty() ? "" : " ",
-                              form.form, fmt::join(words_of(form.effects), ", "));
         for(const cases::OptionDeclaration &option : method->option_declarations())
           text += option_text(option);
       }
@@ -90,6 +79,8 @@ namespace meltfront::verification
       text += effect_list();
     if(what.empty() || what == "matrices")
       text += matrix_list();
+    if(what == "capabilities")
+      text += capability_text();
     if(what == "keys")
       text += cases::case_file_reference();
     return text;

@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <cases/options.h>
 #include <verification/app/calibrate.h>
+#include <verification/app/capability_list.h>
 #include <verification/app/commands.h>
 #include <verification/app/list.h>
 
@@ -28,6 +29,7 @@ namespace
     CalibrateArguments calibrate_arguments;
     std::string report_directory;
     std::string list_what;
+    bool list_as_json = false;
     std::function<int()> action;
 
     CommandLine();
@@ -142,15 +144,25 @@ namespace
   {
     auto *list_command = app.add_subcommand("list", "what there is");
     list_command
-        ->add_option("what", list_what,
-                     "cases, methods, effects, matrices, or keys of case files")
-        ->check(CLI::IsMember({"cases", "methods", "effects", "matrices", "keys"}));
+        ->add_option(
+            "what", list_what,
+            "cases, methods, effects, matrices, keys of case files, or capabilities "
+            "of methods")
+        ->check(CLI::IsMember(
+            {"cases", "methods", "effects", "matrices", "keys", "capabilities"}));
+    list_command->add_flag("--json", list_as_json, "capabilities as JSON");
     list_command->callback(
         [this]
         {
           action = [this]
           {
-            std::fputs(list_text(list_what).c_str(), stdout);
+            if(list_as_json && list_what != "capabilities")
+              throw meltfront::cases::InputError(
+                  "only capabilities are listed as JSON: meltfront list capabilities "
+                  "--json");
+            std::fputs(list_as_json ? capability_json().c_str()
+                                    : list_text(list_what).c_str(),
+                       stdout);
             return int(all_well);
           };
         });

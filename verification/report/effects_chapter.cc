@@ -153,6 +153,11 @@ namespace meltfront::verification
              + element("div", {{"class", "scroll"}},
                        element("table", element("thead", element("tr", head))
                                             + element("tbody", rows)));
+    content += element(
+        "p", text("Effects, domains, walls and fronts that each method "
+                  "takes: ")
+                 + element("a", {{"href", "capabilities.txt"}}, text("capabilities.txt"))
+                 + text(". All else is refused."));
     return element("section", {{"id", "effects"}}, content);
   }
 

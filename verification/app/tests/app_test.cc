@@ -211,3 +211,22 @@ TEST(App, NamesTheNearestOptionInALabelOfACriterion)
   expect_text(outcome, "'steps'");
   EXPECT_FALSE(fs::exists(directory.path() / "out/runs"));
 }
+
+TEST(App, CapabilitiesAreListedAsATableAndAsJson)
+{
+  const Outcome table = run_program("list capabilities");
+  EXPECT_EQ(table.status, 0);
+  for(const char *words : {"rkpm-tracked in the plane", "phase_change", "threads:  1"})
+    expect_text(table, words);
+  const Outcome json = run_program("list capabilities --json");
+  ASSERT_EQ(json.status, 0);
+  const auto methods = nlohmann::json::parse(json.output).at("methods");
+  EXPECT_GE(methods.size(), 20U);
+  for(const auto &method : methods)
+    for(const auto &form : method.at("forms"))
+    {
+      EXPECT_FALSE(form.at("problems").empty()) << method.at("name");
+      EXPECT_GE(form.at("most_threads").get<int>(), 1) << method.at("name");
+    }
+  EXPECT_EQ(run_program("list methods --json").status, 2);
+}

@@ -1,0 +1,122 @@
+#include <cases/scene.h>
+#include <verification/app/capability_list.h>
+#include <verification/app/methods.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    template <typename List>
+    std::vector<std::string> words_of(const List &list)
+    {
+      std::vector<std::string> words;
+      for(const auto &item : list)
+        words.emplace_back(cases::to_string(item));
+      return words;
+    }
+
+    std::string label_of(const cases::Method &method, const cases::Capabilities &form)
+    {
+      return form.form.empty() ? method.name()
+                               : fmt::format("{} {}", method.name(), form.form);
+    }
+
+    /** Rows are methods, columns effects by their number. */
+    std::string effect_table()
+    {
+      const auto &effects = cases::all_effects();
+      std::size_t width = 0;
+      for(const auto &method : methods())
+        for(const cases::Capabilities &form : method->capabilities())
+          width = std::max(width, label_of(*method, form).size());
+      std::string text = fmt::format("  {:{}}", "", width);
+      for(std::size_t e = 0; e < effects.size(); ++e)
+        text += fmt::format(" {:2}", e + 1);
+      text += "\n";
+      for(const auto &method : methods())
+        for(const cases::Capabilities &form : method->capabilities())
+        {
+          text += fmt::format("  {:{}}", label_of(*method, form), width);
+          for(const cases::Effect effect : effects)
+            text += form.takes(effect) ? "  x" : "  .";
+          text += "\n";
+        }
+      for(std::size_t e = 0; e < effects.size(); ++e)
+        text += fmt::format("  {:2}  {}\n", e + 1, cases::to_string(effects[e]));
+      return text;
+    }
+
+    std::string shape_text(const cases::ShapeCapability &shape)
+    {
+      return fmt::format("{} ({}D; walls: {})", cases::to_string(shape.shape),
+                         fmt::join(shape.dimensions, "D, "),
+                         fmt::join(words_of(shape.walls), ", "));
+    }
+
+    std::string form_text(const cases::Method &method, const cases::Capabilities &form)
+    {
+      std::vector<std::string> shapes;
+      for(const cases::ShapeCapability &shape : form.shapes)
+        shapes.push_back(shape_text(shape));
+      std::string text = fmt::format("  {}\n      problems: {}\n", label_of(method, form),
+                                     fmt::join(words_of(form.problems), ", "));
+      if(!shapes.empty())
+        text += fmt::format("      domains:  {}\n",
+                            fmt::join(shapes, "\n                "));
+      if(!form.front_origins.empty())
+        text += fmt::format(
+            "      fronts:   {}{}\n", fmt::join(words_of(form.front_origins), ", "),
+            form.most_fronts > 0 ? fmt::format("; at most {}", form.most_fronts) : "");
+      if(form.most_threads < cases::any_number_of_threads)
+        text += fmt::format("      threads:  {}\n", form.most_threads);
+      return text;
+    }
+
+    nlohmann::json form_json(const cases::Capabilities &form)
+    {
+      nlohmann::json shapes = nlohmann::json::array();
+      for(const cases::ShapeCapability &shape : form.shapes)
+        shapes.push_back({{"shape", cases::to_string(shape.shape)},
+                          {"dimensions", shape.dimensions},
+                          {"walls", words_of(shape.walls)}});
+      return {
+          {"form", form.form},
+          {"problems", words_of(form.problems)},
+          {"effects", words_of(form.effects)},
+          {"shapes", shapes},
+          {"front_origins", words_of(form.front_origins)},
+          {"most_fronts", form.most_fronts},
+          {"most_threads", form.most_threads},
+          {"overshoot",
+           {{"at_twenty", form.overshoot.at_twenty}, {"order", form.overshoot.order}}}};
+    }
+  } // namespace
+
+  std::string capability_text()
+  {
+    std::string text
+        = "What each method takes; all else is refused. Effects (x: simulated):\n"
+          + effect_table() + "\nDomains, walls and fronts:\n";
+    for(const auto &method : methods())
+      for(const cases::Capabilities &form : method->capabilities())
+        text += form_text(*method, form);
+    return text;
+  }
+
+  std::string capability_json()
+  {
+    nlohmann::json list = nlohmann::json::array();
+    for(const auto &method : methods())
+    {
+      nlohmann::json forms = nlohmann::json::array();
+      for(const cases::Capabilities &form : method->capabilities())
+        forms.push_back(form_json(form));
+      list.push_back({{"name", method->name()}, {"forms", forms}});
+    }
+    return nlohmann::json{{"methods", list}}.dump(2) + "\n";
+  }
+} // namespace meltfront::verification
