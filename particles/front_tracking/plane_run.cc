@@ -349,10 +349,9 @@ namespace meltfront::particles::front_tracking
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
     }
-    cases::check_temperature(bounds, lowest, highest, method_name, step_number,
-                             checked.time,
-                             cases::allowed_overshoot(overshoot_in_plane, nodes.spacing,
-                                                      scene.domain));
+    cases::check_temperature(
+        bounds, lowest, highest, method_name, step_number, checked.time,
+        cases::allowed_overshoot(overshoot_in_plane, nodes.spacing, scene.domain));
     for(const PlanePoint &place : heat.sinks.places)
       if(!(heat.front_index().signed_distance(place, nodes.spacing) < 0))
         throw cases::Refusal(fmt::format(

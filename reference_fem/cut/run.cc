@@ -284,10 +284,9 @@ namespace meltfront::reference_fem::cut
         highest = std::max(highest, temperature);
       }
     }
-    cases::check_temperature(bounds, lowest, highest, method_name, step_number,
-                             checked.time,
-                             cases::allowed_overshoot(overshoot, mesh.spacing,
-                                                      scene.domain));
+    cases::check_temperature(
+        bounds, lowest, highest, method_name, step_number, checked.time,
+        cases::allowed_overshoot(overshoot, mesh.spacing, scene.domain));
     for(const Point &place : heat.sinks.places)
       if(!heat.in_solid(checked, place))
         throw cases::Refusal(fmt::format(

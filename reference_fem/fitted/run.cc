@@ -105,9 +105,9 @@ namespace meltfront::reference_fem::fitted
         highest = std::max(highest, value);
       }
     cases::check_temperature(bounds, lowest, highest, method_name, step, time,
-                             cases::allowed_overshoot(
-                                 overshoot, scene.domain.side() / options.cells,
-                                 scene.domain));
+                             cases::allowed_overshoot(overshoot,
+                                                      scene.domain.side() / options.cells,
+                                                      scene.domain));
   }
 
   void FittedRun::enter(const Stretch &stretch, cases::Observer &observer)

@@ -144,7 +144,8 @@ namespace meltfront::verification
     const cases::TemperatureBounds &bounds = checks->bounds();
     const double beyond = std::max({bounds.lower - lowest, highest - bounds.upper, 0.});
     if(std::isfinite(bounds.upper - bounds.lower))
-      overshoot = std::fmax(overshoot, beyond > 0 ? beyond / (bounds.upper - bounds.lower) : 0);
+      overshoot
+          = std::fmax(overshoot, beyond > 0 ? beyond / (bounds.upper - bounds.lower) : 0);
     volume_times.push_back(snapshot.time);
     // Where no phase changes there is no front to read.
     const bool changes_phase = scene.changes_phase();

@@ -37,8 +37,7 @@ namespace meltfront::verification
     }
     double result = std::numeric_limits<double>::max();
     for(int d = 0; d < domain.dimension; ++d)
-      result = std::min(
-          {result, point[d] - domain.lower[d], domain.upper[d] - point[d]});
+      result = std::min({result, point[d] - domain.lower[d], domain.upper[d] - point[d]});
     return result;
   }
 

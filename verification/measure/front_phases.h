@@ -6,8 +6,8 @@
 
 namespace meltfront::verification
 {
-  /** Whether sites of a snapshot that stand for a volume are solid, or liquid, at least in
-   * part. */
+  /** Whether sites of a snapshot that stand for a volume are solid, or liquid, at least
+   * in part. */
   struct PhasesPresent
   {
     bool solid = false;

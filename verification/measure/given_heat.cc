@@ -13,13 +13,24 @@ namespace meltfront::verification
     constexpr int intervals = 64;
     constexpr double offset = 0.7745966692414834; // sqrt(3/5)
 
-    template <typename Function>
-    double integral(const Function &function, double from, double to)
+    /** Heat of a power between two times, and what it would be if all were positive. */
+    struct Heat
+    {
+      double net = 0, gross = 0;
+    };
+
+    Heat heat_between(const std::function<double(double)> &power, double from, double to)
     {
       const double middle = (from + to) / 2, half = (to - from) / 2;
-      return half / 9
-             * (5 * function(middle - offset * half) + 8 * function(middle)
-                + 5 * function(middle + offset * half));
+      Heat heat;
+      for(const auto &[place, weight] :
+          {std::pair(-offset, 5. / 9), std::pair(0., 8. / 9), std::pair(offset, 5. / 9)})
+      {
+        const double part = weight * half * power(middle + place * half);
+        heat.net += part;
+        heat.gross += std::abs(part);
+      }
+      return heat;
     }
   } // namespace
 
@@ -36,9 +47,9 @@ namespace meltfront::verification
     sums.assign(ends.size(), 0);
     for(std::size_t i = 1; i < ends.size(); ++i)
     {
-      sums[i] = sums[i - 1] + integral(power, ends[i - 1], ends[i]);
-      all += integral([this](double time) { return std::abs(power(time)); }, ends[i - 1],
-                      ends[i]);
+      const Heat heat = heat_between(power, ends[i - 1], ends[i]);
+      sums[i] = sums[i - 1] + heat.net;
+      all += heat.gross;
     }
   }
 
@@ -48,7 +59,7 @@ namespace meltfront::verification
     if(next == ends.begin())
       return 0;
     const auto last = static_cast<std::size_t>(next - ends.begin()) - 1;
-    return sums[last] + integral(power, ends[last], time);
+    return sums[last] + heat_between(power, ends[last], time).net;
   }
 
   GivenHeat::GivenHeat(const cases::Scene &scene)
@@ -70,7 +81,8 @@ namespace meltfront::verification
     for(const cases::Side side : scene.sides())
     {
       const cases::Boundary &boundary = scene.boundary(side);
-      if(boundary.kind == BoundaryKind::insulated || boundary.kind == BoundaryKind::periodic)
+      if(boundary.kind == BoundaryKind::insulated
+         || boundary.kind == BoundaryKind::periodic)
         continue;
       if(boundary.kind != BoundaryKind::flux)
       {

@@ -7,7 +7,8 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double spacings_to_front = 2;
+    /** Two, and round-off. */
+    constexpr double spacings_to_front = 2.001;
 
     double distance(const cases::Position &a, const cases::Position &b)
     {
@@ -32,14 +33,16 @@ namespace meltfront::verification
         const cases::Position place = site_position(snapshot, site);
         const double phase = snapshot.solid_fraction[site];
         bool found = false;
-        point_grid.visit(place, [&](std::uint32_t point)
-                         { found |= distance(site_position(points, point), place) <= reach; });
+        point_grid.visit(
+            place, [&](std::uint32_t point)
+            { found |= distance(site_position(points, point), place) <= reach; });
         if(!found)
           grid.visit(place,
                      [&](std::uint32_t other)
                      {
-                       found |= snapshot.solid_fraction[other] != phase
-                                && distance(site_position(snapshot, other), place) <= reach;
+                       found
+                           |= snapshot.solid_fraction[other] != phase
+                              && distance(site_position(snapshot, other), place) <= reach;
                      });
         return found;
       }
@@ -81,12 +84,10 @@ namespace meltfront::verification
     double melting = melting_temperature;
     if(diagram)
     {
-      const auto content = [&](std::size_t s)
-      {
+      const auto content = [&](std::size_t s) {
         return snapshot.concentration[s].empty() ? 0. : snapshot.concentration[s][site];
       };
-      melting = std::max(eutectic_temperature,
-                         diagram->liquidus(content(0), content(1)));
+      melting = std::max(eutectic_temperature, diagram->liquidus(content(0), content(1)));
       // Crystals are pure: what is solid and holds solute froze at the eutectic.
       if(fraction >= 1 && melting < melting_temperature)
         melting = eutectic_temperature;

@@ -8,8 +8,8 @@ namespace meltfront::verification
   namespace
   {
     /** Along each direction of a domain of one, two or three dimensions. */
-    constexpr int cells_along[] = {256, 24, 8};
-    constexpr int points_around = 192;
+    constexpr int cells_along[] = {256, 16, 8};
+    constexpr int points_around = 64;
 
     struct LinePoint
     {
@@ -29,8 +29,8 @@ namespace meltfront::verification
     }
 
     /** All points with those of a line in one more direction. */
-    std::vector<QuadraturePoint> extruded(const std::vector<QuadraturePoint> &points, int d,
-                                          const std::vector<LinePoint> &line)
+    std::vector<QuadraturePoint> extruded(const std::vector<QuadraturePoint> &points,
+                                          int d, const std::vector<LinePoint> &line)
     {
       std::vector<QuadraturePoint> result;
       for(const LinePoint &along : line)
@@ -78,7 +78,8 @@ namespace meltfront::verification
     if(domain.outline)
       return domain.outline->area();
     if(domain.round())
-      return cases::volume_between(symmetry_of(domain), domain.inner_radius, domain.radius);
+      return cases::volume_between(symmetry_of(domain), domain.inner_radius,
+                                   domain.radius);
     double volume = 1;
     for(int d = 0; d < domain.dimension; ++d)
       volume *= domain.upper[d] - domain.lower[d];
@@ -111,7 +112,8 @@ namespace meltfront::verification
       points.push_back({{}, 1});
       for(int d = 0; d < domain.dimension; ++d)
         points = extruded(
-            points, d, points_between(domain.lower[d], domain.upper[d], cells_of(domain)));
+            points, d,
+            points_between(domain.lower[d], domain.upper[d], cells_of(domain)));
     }
     else if(domain.round() && domain.dimension == 2)
       for(const LinePoint &ray :
@@ -131,12 +133,13 @@ namespace meltfront::verification
       return {};
     const int normal = static_cast<int>(side) / 2;
     std::vector<QuadraturePoint> points{{{}, 1}};
-    points[0].place[normal] = static_cast<int>(side) % 2 == 0 ? domain.lower[normal]
-                                                              : domain.upper[normal];
+    points[0].place[normal]
+        = static_cast<int>(side) % 2 == 0 ? domain.lower[normal] : domain.upper[normal];
     for(int d = 0; d < domain.dimension; ++d)
       if(d != normal)
         points = extruded(
-            points, d, points_between(domain.lower[d], domain.upper[d], cells_of(domain)));
+            points, d,
+            points_between(domain.lower[d], domain.upper[d], cells_of(domain)));
     return points;
   }
 } // namespace meltfront::verification

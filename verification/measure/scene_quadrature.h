@@ -21,11 +21,12 @@ namespace meltfront::verification
   double area_of(const cases::Domain &domain, cases::Side side);
 
   /** Points over a slab, a box, a disk or an annulus, two in each of 256 cells along a
-   * line, 24 along each direction of the plane, 8 in space; none for other shapes. */
+   * line, 16 along each direction of the plane, 64 around, 8 in space; none for other
+   * shapes. */
   std::vector<QuadraturePoint> points_over(const cases::Domain &domain);
 
-  /** Points over a wall: 48 on a box's in the plane, 192 around a round one; none for walls
-   * of other shapes. */
+  /** Points over a wall: 32 on a box's in the plane, 64 around a round one; none for
+   * walls of other shapes. */
   std::vector<QuadraturePoint> points_on(const cases::Domain &domain, cases::Side side);
 } // namespace meltfront::verification
 

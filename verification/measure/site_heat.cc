@@ -17,7 +17,8 @@ namespace meltfront::verification
       if(snapshot.weights[i] == 0)
         continue;
       const double solid = snapshot.solid_fraction[i], liquid = 1 - solid;
-      const double sensible = snapshot.weights[i] * (solid * of_solid + liquid * of_liquid)
+      const double sensible = snapshot.weights[i]
+                              * (solid * of_solid + liquid * of_liquid)
                               * (snapshot.temperature[i] - material.melting_temperature);
       const double latent = snapshot.weights[i] * liquid * of_melting;
       result.stored += sensible;
@@ -29,8 +30,9 @@ namespace meltfront::verification
 
   double SiteHeat::difference(const cases::HeatBudget &book) const
   {
-    const double scale = std::max(
-        {magnitude, std::abs(book.stored) + std::abs(book.latent), std::abs(book.initial)});
+    const double scale
+        = std::max({magnitude, std::abs(book.stored) + std::abs(book.latent),
+                    std::abs(book.initial)});
     const double off = std::abs(stored - book.stored) + std::abs(latent - book.latent);
     return scale > 0 ? off / scale : 0;
   }

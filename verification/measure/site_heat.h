@@ -6,8 +6,8 @@
 
 namespace meltfront::verification
 {
-  /** Heat that the sites of a snapshot hold, in the measure of the scene, as it is defined
-   * for cases::HeatBudget. */
+  /** Heat that the sites of a snapshot hold, in the measure of the scene, as it is
+   * defined for cases::HeatBudget. */
   struct SiteHeat
   {
     double stored = 0;

@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <cases/overshoot.h>
 #include <verification/measure/front_phases.h>
+#include <verification/measure/scene_quadrature.h>
 #include <verification/measure/site_coordinates.h>
 #include <verification/measure/site_heat.h>
 #include <verification/measure/snapshot_checks.h>
@@ -26,8 +27,20 @@ namespace meltfront::verification
     /** Within so many spacings of a wall or a source a front begins there. */
     constexpr double spacings_to_origin = 2;
 
-    /** Relative: what is summed in another order, and integrals over time. */
-    constexpr double heat_of_round_off = 1e-6;
+    /** Relative to the heat at hand: what is summed in another order. */
+    constexpr double sum_of_round_off = 1e-9;
+
+    /** Relative to what enters and leaves: sums over many steps. */
+    constexpr double integral_of_round_off = 1e-6;
+
+    /** Share of the domain in a layer half a spacing thick along its walls. */
+    double layer_of_walls(const cases::Scene &scene, double spacing)
+    {
+      double area = 0;
+      for(const cases::Side side : scene.sides())
+        area += area_of(scene.domain, side);
+      return 0.5 * spacing * area / volume_of(scene.domain);
+    }
 
     std::string place_text(const cases::Position &place, int dimension)
     {
@@ -69,9 +82,9 @@ namespace meltfront::verification
                       / (smallest_body * spacing))
     , entries{{.name = "phase against temperature"},
               {.name = "maximum principle"},
-              {.name = "heat of sites", .bound = spacing / scene.domain.side()},
-              {.name = "heat of walls", .bound = heat_of_round_off},
-              {.name = "heat of sources", .bound = heat_of_round_off},
+              {.name = "heat of sites"},
+              {.name = "heat of walls", .bound = integral_of_round_off},
+              {.name = "heat of sources", .bound = integral_of_round_off},
               {.name = "front against phases"}}
   {
     principle_bounds = bounds_of(scene, capillary_shift);
@@ -99,10 +112,15 @@ namespace meltfront::verification
     lowest_seen = std::min(lowest_seen, lowest);
     highest_seen = std::max(highest_seen, highest);
     tracks_front |= !snapshot.front[0].empty();
-    entries[principle].bound = snapshot.obeys_maximum_principle
-                                   ? cases::overshoot_of_round_off
-                                   : cases::allowed_overshoot(capabilities.overshoot,
-                                                              spacing, scene.domain);
+    entries[principle].bound
+        = snapshot.obeys_maximum_principle
+              ? cases::overshoot_of_round_off
+              : cases::allowed_overshoot(capabilities.overshoot, spacing, scene.domain);
+    // A tracked front cuts the volumes of sites, and so does a curved wall.
+    const bool sites_are_cut
+        = tracks_front || scene.domain.round() || scene.domain.outline;
+    entries[heat_of_sites_].bound
+        = sites_are_cut ? layer_of_walls(scene, spacing) : sum_of_round_off;
     judge_principle(snapshot);
     judge_phase(snapshot);
     judge_heat(snapshot);
@@ -185,17 +203,19 @@ namespace meltfront::verification
       return;
     const bool cold = below > above;
     const auto worst = cold ? lowest : highest;
-    end_run(snapshot, "temperature",
-            fmt::format("is {:.9g} at {}, {} value {:.9g} by {:.3g} of the span of the "
-                        "bounds, more than {:.3g} (maximum principle)",
-                        *worst,
-                        place_text(site_position(snapshot,
-                                                 static_cast<std::size_t>(
-                                                     worst - snapshot.temperature.begin())),
-                                   snapshot.dimension),
-                        cold ? "below the lowest initial and wall"
-                             : "above the highest initial and wall",
-                        cold ? principle_bounds.lower : principle_bounds.upper, value, entries[principle].bound));
+    end_run(
+        snapshot, "temperature",
+        fmt::format(
+            "is {:.9g} at {}, {} value {:.9g} by {:.3g} of the span of the "
+            "bounds, more than {:.3g} (maximum principle)",
+            *worst,
+            place_text(site_position(snapshot, static_cast<std::size_t>(
+                                                   worst - snapshot.temperature.begin())),
+                       snapshot.dimension),
+            cold ? "below the lowest initial and wall"
+                 : "above the highest initial and wall",
+            cold ? principle_bounds.lower : principle_bounds.upper, value,
+            entries[principle].bound));
   }
 
   void SnapshotChecks::judge_phase(const cases::Snapshot &snapshot)
@@ -210,12 +230,13 @@ namespace meltfront::verification
     if(add(phase, found.share))
       return;
     refuse_unnamed_front(snapshot, found);
-    end_run(snapshot, "phase",
-            fmt::format("is {} at {}, {:.3g} K {} its melting temperature; so is {:.3g} of "
-                        "the domain, away from fronts",
-                        found.solid ? "solid" : "liquid",
-                        place_text(site_position(snapshot, found.site), snapshot.dimension),
-                        found.beyond, found.solid ? "above" : "below", found.share));
+    end_run(
+        snapshot, "phase",
+        fmt::format("is {} at {}, {:.3g} K {} its melting temperature; so is {:.3g} of "
+                    "the domain, away from fronts",
+                    found.solid ? "solid" : "liquid",
+                    place_text(site_position(snapshot, found.site), snapshot.dimension),
+                    found.beyond, found.solid ? "above" : "below", found.share));
   }
 
   void SnapshotChecks::refuse_unnamed_front(const cases::Snapshot &snapshot,
@@ -277,8 +298,8 @@ namespace meltfront::verification
       const double off = std::abs(booked - expected);
       if(!add(kind, off == 0 ? 0 : off / scale))
         end_run(snapshot, entries[kind].name,
-                fmt::format("is {:.9g} in the book, and {:.9g} by the scene's data", booked,
-                            expected));
+                fmt::format("is {:.9g} in the book, and {:.9g} by the scene's data",
+                            booked, expected));
     };
     compare(heat_of_walls, snapshot.heat.boundary, given.through_walls(snapshot.time),
             given.gross_walls());
@@ -319,8 +340,9 @@ namespace meltfront::verification
     std::map<std::string, std::string> result;
     for(const Entry &entry : entries)
       if(!entry.value)
-        result[entry.name]
-            = entry.reason.empty() ? "the method reports no points of a front" : entry.reason;
+        result[entry.name] = entry.reason.empty()
+                                 ? "the method reports no points of a front"
+                                 : entry.reason;
     return result;
   }
 } // namespace meltfront::verification

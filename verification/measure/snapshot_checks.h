@@ -19,17 +19,18 @@ namespace meltfront::verification
    * What the harness asks of every snapshot of every method that conducts heat, from the
    * scene's data and the snapshot's sites and weights alone:
    *
-   * phase against temperature: the share of the domain that is solid above or liquid below
-   * its melting temperature, away from fronts (MetastableFinder); none may be, by more
-   * than temperatures may overshoot. Gibbs and Thomson's shift of the melting temperature
-   * is allowed for up to the curvature of a body four spacings across;
+   * phase against temperature: the share of the domain that is solid above or liquid
+   * below its melting temperature, away from fronts (MetastableFinder); none may be, by
+   * more than temperatures may overshoot. Gibbs and Thomson's shift of the melting
+   * temperature is allowed for up to the curvature of a body four spacings across;
    *
-   * maximum principle: how far temperatures pass the extremes of initial, wall and ambient
-   * temperatures, over their span; at most cases::allowed_overshoot() of what the method
-   * declares, or round-off in a snapshot that says that it obeys the principle;
+   * maximum principle: how far temperatures pass the extremes of initial, wall and
+   * ambient temperatures, over their span; at most cases::allowed_overshoot() of what the
+   * method declares, or round-off in a snapshot that says that it obeys the principle;
    *
    * heat of sites: how far stored and latent heat of the method's book are off what its
-   * sites hold (SiteHeat); at most half a site's layer;
+   * sites hold (SiteHeat); round-off, but where a tracked front or a curved wall cuts the
+   * volumes of sites: what a layer half a spacing thick along all walls is of the domain;
    *
    * heat of walls, heat of sources: how far the book's terms are off GivenHeat, over what
    * enters and leaves in the whole run;
@@ -66,8 +67,8 @@ namespace meltfront::verification
     /** Names of the checks that could not be made, with the reason. */
     std::map<std::string, std::string> unchecked() const;
 
-    /** The bounds of the maximum principle: what the scene's temperatures at the sites and
-     * curved fronts add to temperature_bounds(). */
+    /** The bounds of the maximum principle: what the scene's temperatures at the sites
+     * and curved fronts add to temperature_bounds(). */
     const cases::TemperatureBounds &bounds() const;
 
   private:

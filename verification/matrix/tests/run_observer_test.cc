@@ -261,8 +261,9 @@ namespace meltfront::verification
             [](State &state, int step)
             {
               cases::HeatBudget &heat = state.snapshot.heat;
-              const double scale = std::max({std::abs(heat.stored) + std::abs(heat.latent),
-                                             heat.initial, std::abs(heat.boundary)});
+              const double scale
+                  = std::max({std::abs(heat.stored) + std::abs(heat.latent), heat.initial,
+                              std::abs(heat.boundary)});
               heat.boundary += step == 40 ? 1e-6 * scale : 0;
             });
       EXPECT_NEAR(observer.quantities().at("budget_defect"), 1e-6, 1e-11);
@@ -273,10 +274,12 @@ namespace meltfront::verification
     {
       cases::Case c = tests::slab_case("slab");
       c.scene.end_time = c.scene.start_time;
-      EXPECT_THROW(RunObserver(c, c.scene, "fake", tests::fake_capabilities()), cases::InputError);
+      EXPECT_THROW(RunObserver(c, c.scene, "fake", tests::fake_capabilities()),
+                   cases::InputError);
       c.scene.end_time = 1;
       c.measurement.samples = 20;
-      EXPECT_THROW(RunObserver(c, c.scene, "fake", tests::fake_capabilities()), cases::InputError);
+      EXPECT_THROW(RunObserver(c, c.scene, "fake", tests::fake_capabilities()),
+                   cases::InputError);
     }
 
     TEST(RunObserver, NoticesARunThatDoesNotReachItsEnd)

@@ -178,14 +178,16 @@ namespace meltfront::verification
              state.snapshot.heat.sources += 0.5;
              state.snapshot.heat.boundary -= 0.5;
            }},
-          {"front against phases", [](tests::State &state)
-           { state.snapshot.front[0] = {&nowhere, 1}; }}};
+          {"front against phases", [](tests::State &state) {
+             state.snapshot.front[0] = {&nowhere, 1};
+           }}};
       for(const auto &[name, cheat] : cheats)
       {
         const RunRecord record = run_fake(FakeMethod("cheat", {}, 0.1, 1, cheat));
         EXPECT_EQ(record.status, RunStatus::failed) << name;
         for(const Check &check : record.checks)
-          EXPECT_EQ(check.passed, check.name != name) << check.name << ", cheat: " << name;
+          EXPECT_EQ(check.passed, check.name != name)
+              << check.name << ", cheat: " << name;
       }
     }
 

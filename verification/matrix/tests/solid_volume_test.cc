@@ -211,18 +211,21 @@ namespace meltfront::verification
       EXPECT_EQ(frames[0].x, (std::vector<double>{1, 2, 4}));
     }
 
-    TEST(TemperatureOvershoot, IsMeasuredAndBoundedByATenthForTrackedFronts)
+    TEST(TemperatureOvershoot, IsMeasuredAndBoundedByWhatTheMethodDeclares)
     {
       const cases::Case c = disk_case(); // between -0.5 and 1
       const auto run_with = [&](double highest, int points)
       {
-        RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+        cases::Capabilities capabilities = tests::fake_capabilities();
+        capabilities.overshoot = {.at_twenty = 0.1, .order = 0};
+        RunObserver observer(c, c.scene, "fake", capabilities);
         cases::RunDescription description;
         description.spacing = 0.1;
         observer.begin(description);
         for(int step = 0; step <= 100; ++step)
         {
           DiskState state(0.5, 0.3, points);
+          state.snapshot.obeys_maximum_principle = points == 0;
           if(step == 50)
             state.temperature[1] = highest;
           observer.observe(state.view_at(step, step / 100.));

@@ -49,7 +49,8 @@ namespace meltfront::verification
           total += point.weight;
         return total;
       };
-      const cases::Domain box = tests::scene_of(DomainShape::box, 3, Symmetry::none).domain;
+      const cases::Domain box
+          = tests::scene_of(DomainShape::box, 3, Symmetry::none).domain;
       EXPECT_NEAR(sum(points_over(box)), volume_of(box), 1e-12);
       EXPECT_NEAR(sum(points_on(box, Side::y_max)), area_of(box, Side::y_max), 1e-12);
       cases::Domain ring = tests::scene_of(DomainShape::ball, 2, Symmetry::none).domain;
@@ -57,7 +58,8 @@ namespace meltfront::verification
       ring.inner_radius = 0.2;
       EXPECT_NEAR(sum(points_over(ring)), std::numbers::pi * (0.25 - 0.04), 1e-12);
       EXPECT_NEAR(sum(points_on(ring, Side::inner)), 0.4 * std::numbers::pi, 1e-12);
-      const cases::Domain ball = tests::scene_of(DomainShape::ball, 3, Symmetry::none).domain;
+      const cases::Domain ball
+          = tests::scene_of(DomainShape::ball, 3, Symmetry::none).domain;
       EXPECT_TRUE(points_over(ball).empty());
       EXPECT_NEAR(area_of(ball, Side::outer), std::numbers::pi, 1e-12);
     }
@@ -84,7 +86,8 @@ namespace meltfront::verification
       cases::Scene scene = tests::scene_of(DomainShape::ball, 2, Symmetry::none);
       scene.heat_release = field([](const cases::Position &p, double t)
                                  { return (p[0] * p[0] + p[1] * p[1]) * 2 * t; });
-      scene.sources.push_back({.expression = {}, .power = [](double) { return -3.; },
+      scene.sources.push_back({.expression = {},
+                               .power = [](double) { return -3.; },
                                .energy = [](double t) { return -3 * t; }});
       const GivenHeat heat(scene);
       EXPECT_EQ(heat.unknown_sources, "");

@@ -136,7 +136,8 @@ namespace meltfront::verification
         state.temperature[i] = -0.1;
       cases::Capabilities one = capable_of({FrontOrigin::wall});
       one.most_fronts = 1;
-      EXPECT_TRUE(says(judged(scene, state.view(1, 0.5), one), "refused: fake does not simulate a second front"));
+      EXPECT_TRUE(says(judged(scene, state.view(1, 0.5), one),
+                       "refused: fake does not simulate a second front"));
       EXPECT_TRUE(says(judged(scene, state.view(1, 0.5)), "phase is liquid at"));
     }
 
@@ -144,7 +145,7 @@ namespace meltfront::verification
     {
       cases::Scene scene = freezing_slab();
       tests::State state = state_with(0.5);
-      state.temperature[26] = -0.1;
+      state.temperature[25] = -0.1;
       EXPECT_EQ(judged(scene, state.view(1, 0.5)), "");
       state.temperature[30] = -0.1;
       EXPECT_NE(judged(scene, state.view(1, 0.5)), "");
@@ -183,13 +184,15 @@ namespace meltfront::verification
       state.temperature.back() = 1.039;
       EXPECT_EQ(judged(scene, state.view(1, 0.5), capabilities), "");
       state.temperature.back() = 1.041;
-      EXPECT_EQ(judged(scene, state.view(1, 0.5), capabilities),
-                "fake, step 0, t = 0.5: temperature is 1.041 at x = 0.99, above the highest "
-                "initial and wall value 1 by 0.0205 of the span of the bounds, more than "
-                "0.02 (maximum principle)");
+      EXPECT_EQ(
+          judged(scene, state.view(1, 0.5), capabilities),
+          "fake, step 0, t = 0.5: temperature is 1.041 at x = 0.99, above the highest "
+          "initial and wall value 1 by 0.0205 of the span of the bounds, more than "
+          "0.02 (maximum principle)");
       state.temperature.back() = 1.001;
       state.snapshot.obeys_maximum_principle = true;
-      EXPECT_TRUE(says(judged(scene, state.view(1, 0.5), capabilities), "maximum principle"));
+      EXPECT_TRUE(
+          says(judged(scene, state.view(1, 0.5), capabilities), "maximum principle"));
     }
 
     TEST(SnapshotChecks, PassABodyAtRest)
@@ -216,7 +219,8 @@ namespace meltfront::verification
       SnapshotChecks checks(scene, capable_of({FrontOrigin::none}), "fake", spacing);
       EXPECT_EQ(judged(checks, state.view(1, 0.5)), "");
       EXPECT_TRUE(find(checks.checks(), "heat of walls")->passed);
-      EXPECT_TRUE(says(judged(scene, state.view(1, 0.4)), "heat of walls is 1 in the book, and 0.8 by the scene's data"));
+      EXPECT_TRUE(says(judged(scene, state.view(1, 0.4)),
+                       "heat of walls is 1 in the book, and 0.8 by the scene's data"));
       state.snapshot.heat.stored += 0.1;
       state.snapshot.heat.boundary += 0.1;
       EXPECT_TRUE(says(judged(checks, state.view(1, 0.5)), "heat of the sites is 0 "));
@@ -235,9 +239,11 @@ namespace meltfront::verification
       state.snapshot.front[0] = {&right, 1};
       EXPECT_EQ(judged(checks, state.view(1, 0.5)), "");
       state.snapshot.front[0] = {&wrong, 1};
-      EXPECT_TRUE(says(judged(checks, state.view(1, 0.5)), "front is reported at x = 0.7, where no phase changes"));
+      EXPECT_TRUE(says(judged(checks, state.view(1, 0.5)),
+                       "front is reported at x = 0.7, where no phase changes"));
       state.snapshot.front[0] = {};
-      EXPECT_TRUE(says(judged(checks, state.view(1, 0.5)), "front is not reported, and there are both phases"));
+      EXPECT_TRUE(says(judged(checks, state.view(1, 0.5)),
+                       "front is not reported, and there are both phases"));
       EXPECT_EQ(judged(scene, state.view(1, 0.5)), "") << "a method that tracks none";
     }
   } // namespace
