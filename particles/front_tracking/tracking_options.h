@@ -13,8 +13,8 @@ namespace meltfront::particles::front_tracking
   inline constexpr const char *method_name = "rkpm-tracked";
 
   /** Collocation keeps the maximum principle in the limit only. */
-  inline constexpr cases::Overshoot overshoot_along_line{10, 0},
-      overshoot_in_plane{10, 0};
+  inline constexpr cases::Overshoot overshoot_along_line{0.01, 1},
+      overshoot_in_plane{0.02, 1};
 
   /** How the equations are advanced in time: backward differentiation of an order. */
   enum class TimeScheme

@@ -20,7 +20,7 @@ namespace meltfront::particles
     const std::string method_name = "voronoi-fv";
 
     /** Of Crank-Nicolson and BDF2. */
-    constexpr cases::Overshoot overshoot{10, 0};
+    constexpr cases::Overshoot overshoot{0.01, 1};
 
     /** How the particles inside were placed, with what the relaxation says of itself. */
     struct Arranged

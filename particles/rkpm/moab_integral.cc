@@ -14,7 +14,7 @@ namespace meltfront::particles
   {
     constexpr const char *method_name = "moab-integral";
 
-    constexpr cases::Overshoot overshoot{10, 0};
+    constexpr cases::Overshoot overshoot{0.01, 1};
 
     template <typename Enumeration>
     Enumeration choice(const std::vector<std::string> &names, const std::string &name)

@@ -41,7 +41,7 @@ namespace meltfront::particles::rkpm
   };
 
   /** Neither reproducing kernels nor BDF2 obey the maximum principle. */
-  inline constexpr cases::Overshoot overshoot{10, 0};
+  inline constexpr cases::Overshoot overshoot{0.01, 1};
 
   std::vector<cases::OptionDeclaration> rkpm_options(const RkpmPolicy &policy);
 

@@ -11,7 +11,7 @@
 namespace meltfront::reference_fem::cut
 {
   /** Neither the elements nor BDF2 obey the maximum principle. */
-  inline constexpr cases::Overshoot overshoot{10, 0};
+  inline constexpr cases::Overshoot overshoot{0.02, 1};
 
   /** The options of `fem-cut`. */
   std::vector<cases::OptionDeclaration> cut_options();

@@ -12,7 +12,7 @@
 namespace meltfront::reference_fem::fitted
 {
   /** Elements of higher degree obey no maximum principle. */
-  inline constexpr cases::Overshoot overshoot{10, 0};
+  inline constexpr cases::Overshoot overshoot{0.01, 1};
 
   /** The options of `fem-fitted`. */
   std::vector<cases::OptionDeclaration> fitted_options();

@@ -91,6 +91,7 @@ namespace meltfront::verification
         return;
       }
       std::vector<QuadraturePoint> points = points_on(scene.domain, side);
+      walls_vary |= !boundary.value.constant;
       if(boundary.value.constant)
         points = {{{}, area_of(scene.domain, side)}};
       if(points.empty())
@@ -117,6 +118,7 @@ namespace meltfront::verification
       return;
     const cases::Field &release = *scene.heat_release;
     std::vector<QuadraturePoint> points = points_over(scene.domain);
+    sources_vary = !release.constant;
     if(release.constant)
       points = {{{}, volume_of(scene.domain)}};
     if(points.empty())

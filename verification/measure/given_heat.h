@@ -52,6 +52,10 @@ namespace meltfront::verification
     /** Why the heat of sources and of release is not known; empty if it is. */
     std::string unknown_sources;
 
+    /** Whether a flux, or the release, varies in space or time, so that methods integrate
+     * it by quadratures of their own. */
+    bool walls_vary = false, sources_vary = false;
+
     /** Heat in through all walls from the start to a time. */
     double through_walls(double time) const;
 

@@ -83,8 +83,12 @@ namespace meltfront::verification
     , entries{{.name = "phase against temperature"},
               {.name = "maximum principle"},
               {.name = "heat of sites"},
-              {.name = "heat of walls", .bound = integral_of_round_off},
-              {.name = "heat of sources", .bound = integral_of_round_off},
+              {.name = "heat of walls",
+               .bound = given.walls_vary ? spacing / scene.domain.side()
+                                         : integral_of_round_off},
+              {.name = "heat of sources",
+               .bound = given.sources_vary ? spacing / scene.domain.side()
+                                           : integral_of_round_off},
               {.name = "front against phases"}}
   {
     principle_bounds = bounds_of(scene, capillary_shift);
