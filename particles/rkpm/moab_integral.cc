@@ -14,7 +14,9 @@ namespace meltfront::particles
   {
     constexpr const char *method_name = "moab-integral";
 
-    constexpr cases::Overshoot overshoot{0.01, 1};
+    /** A slab whose wall is switched from 0 to 1 overshoots by 0.21, 0.012, 3e-11 at n =
+     * 10, 20, 40. */
+    constexpr cases::Overshoot overshoot{0.03, 4};
 
     template <typename Enumeration>
     Enumeration choice(const std::vector<std::string> &names, const std::string &name)

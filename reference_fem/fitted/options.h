@@ -11,7 +11,8 @@
 
 namespace meltfront::reference_fem::fitted
 {
-  /** Elements of higher degree obey no maximum principle. */
+  /** Elements of higher degree obey no maximum principle. A slab whose wall is switched
+   * on overshoots by 4e-5, 1.7e-5, 1.3e-8 at n = 8, 10, 20. */
   inline constexpr cases::Overshoot overshoot{0.01, 1};
 
   /** The options of `fem-fitted`. */

@@ -24,8 +24,9 @@ namespace meltfront::verification
   };
 
   /**
-   * Looks for solid and liquid within three spacings of each tracked point
-   * (Snapshot::front). Within a spacing of a wall a layer may be too thin for any site.
+   * Looks for solid and liquid in the cubes, three spacings wide, around each tracked
+   * point (Snapshot::front). Within a spacing of a wall a layer may be too thin for any
+   * site.
    *
    * @param spacing of the sites (m)
    */
