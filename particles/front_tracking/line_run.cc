@@ -19,8 +19,6 @@ namespace meltfront::particles::front_tracking
   {
     /** Steps shorter than this share of the run fail. */
     constexpr double shortest_step_over_run = 1e-13;
-    /** Collocation keeps the maximum principle in the limit only. */
-    constexpr double allowed_overshoot = 0.02;
     constexpr int scheme_order(TimeScheme scheme)
     {
       return static_cast<int>(scheme);
@@ -191,7 +189,8 @@ namespace meltfront::particles::front_tracking
             = std::minmax_element(state.temperature.begin(), state.temperature.end());
         cases::check_temperature(bounds, *lowest, *highest, method_name,
                                  first_step + stepper.steps(), state.time,
-                                 allowed_overshoot);
+                                 cases::allowed_overshoot(overshoot_along_line,
+                                                          problem.spacing, scene.domain));
         report(state, state.time == scene.end_time);
         if(parameters.relax > 0 && stepper.steps() % parameters.relax == 0)
           relax_nodes(step);

@@ -51,9 +51,6 @@ namespace meltfront::particles::front_tracking
     constexpr double largest_seed = 3, smallest_seed = 0.75;
     constexpr double contour_margin = 4;
 
-    /** Share of the span of the bounds by which temperatures may pass them. */
-    constexpr double bounds_slack = 0.02;
-
     PlaneHeatSettings settings_of(const cases::Scene &scene,
                                   const TrackingParameters &parameters, int threads)
     {
@@ -365,8 +362,9 @@ namespace meltfront::particles::front_tracking
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
     }
-    cases::check_temperature(bounds, lowest, highest, method_name, step_number,
-                             checked.time, bounds_slack);
+    cases::check_temperature(
+        bounds, lowest, highest, method_name, step_number, checked.time,
+        cases::allowed_overshoot(overshoot_in_plane, nodes.spacing, scene.domain));
     for(const PlanePoint &place : heat.sinks.places)
       if(!(heat.front_index().signed_distance(place, nodes.spacing) < 0))
         throw cases::Refusal(fmt::format(

@@ -32,7 +32,8 @@ namespace meltfront::particles
               .shapes = {{DomainShape::slab, {1}, walls},
                          {DomainShape::ball, {2, 3}, walls},
                          {DomainShape::shell, {2, 3}, walls}},
-              .front_origins = {FrontOrigin::initial_front, FrontOrigin::wall}};
+              .front_origins = {FrontOrigin::initial_front, FrontOrigin::wall},
+              .overshoot = overshoot_along_line};
     }
 
     cases::Capabilities in_plane()
@@ -49,7 +50,8 @@ namespace meltfront::particles
                          {DomainShape::shell, {2}, walls},
                          {DomainShape::outline, {2}, walls}},
               .front_origins = {FrontOrigin::initial_front, FrontOrigin::source},
-              .most_threads = cases::any_number_of_threads};
+              .most_threads = cases::any_number_of_threads,
+              .overshoot = overshoot_in_plane};
     }
 
     /** What a run takes: nodes with the stencils about them and, in the plane, the

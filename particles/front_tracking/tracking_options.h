@@ -2,6 +2,7 @@
 #define meltfront_particles_front_tracking_tracking_options_h
 
 #include <cases/method.h>
+#include <cases/overshoot.h>
 
 #include <string>
 #include <vector>
@@ -10,6 +11,11 @@ namespace meltfront::particles::front_tracking
 {
   /** The word that a user types. */
   inline constexpr const char *method_name = "rkpm-tracked";
+
+  /** Collocation keeps the maximum principle in the limit only. Slabs with walls and
+   * starts that jump do not overshoot along a line at n = 10, 20, 40. */
+  inline constexpr cases::Overshoot overshoot_along_line{0.01, 1},
+      overshoot_in_plane{0.02, 1};
 
   /** How the equations are advanced in time: backward differentiation of an order. */
   enum class TimeScheme

@@ -1,5 +1,6 @@
 #include <cases/demand.h>
 #include <cases/error.h>
+#include <cases/overshoot.h>
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
 #include <particles/relaxation/cell_conduction.h>
@@ -18,6 +19,9 @@ namespace meltfront::particles
     using cases::Effect;
 
     const std::string method_name = "voronoi-fv";
+
+    /** Of Crank-Nicolson and BDF2. */
+    constexpr cases::Overshoot overshoot{0.01, 1};
 
     /** How the particles inside were placed, with what the relaxation says of itself. */
     struct Arranged
@@ -157,7 +161,8 @@ namespace meltfront::particles
                  .shapes
                  = {{DomainShape::slab, {1}, walls}, {DomainShape::box, {2, 3}, walls}},
                  .front_origins = {cases::FrontOrigin::none},
-                 .most_threads = cases::any_number_of_threads}};
+                 .most_threads = cases::any_number_of_threads,
+                 .overshoot = overshoot}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -209,6 +214,7 @@ namespace meltfront::particles
         description.run.parameters.push_back(
             {"heat release at", resolution.options.get_string("source"), ""});
         description.obeys_maximum_principle = true;
+        description.overshoot = overshoot;
         description.setup_work = static_cast<long>(problem.operator_rows.size());
         for(const Effect effect : capabilities().front().effects)
           if(effects.contains(effect))

@@ -42,7 +42,8 @@ namespace meltfront::particles
                  .shapes
                  = {{DomainShape::slab, {1}, walls}, {DomainShape::box, {2, 3}, walls}},
                  .front_origins = {cases::FrontOrigin::none},
-                 .most_threads = cases::any_number_of_threads}};
+                 .most_threads = cases::any_number_of_threads,
+                 .overshoot = rkpm::overshoot}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -83,6 +84,7 @@ namespace meltfront::particles
                                         resolution.threads);
         LinearDescription description;
         description.method = policy.name;
+        description.overshoot = rkpm::overshoot;
         description.run.dimension = scene.domain.dimension;
         description.run.spacing = nodes.spacing;
         description.run.smoothing_length = problem.mean_dilation();

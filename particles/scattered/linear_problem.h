@@ -85,7 +85,8 @@ namespace meltfront::particles
     std::string method;
     cases::RunDescription run; ///< time_step and unknowns are filled in
     bool obeys_maximum_principle = false;
-    long setup_work = 0; ///< entries touched while rows were made
+    cases::Overshoot overshoot{}; ///< of the method's capabilities
+    long setup_work = 0;          ///< entries touched while rows were made
     std::vector<cases::EffectCost> effects;
     double setup_wall = 0, setup_cpu = 0; ///< s, spent on rows
   };

@@ -1,5 +1,6 @@
 #include <cases/demand.h>
 #include <cases/error.h>
+#include <cases/overshoot.h>
 #include <cases/stopwatch.h>
 #include <particles/scattered/linear_problem.h>
 
@@ -15,7 +16,6 @@ namespace meltfront::particles
   namespace
   {
     constexpr double singular = 1e-13;
-    constexpr double overshoot_of_high_order = 0.02, overshoot_of_round_off = 1e-9;
 
     const std::vector<std::string> &scheme_names()
     {
@@ -333,8 +333,11 @@ namespace meltfront::particles
         if(!finite)
           lowest = std::numeric_limits<double>::quiet_NaN();
         cases::check_temperature(bounds, lowest, highest, description.method, k, time,
-                                 obeys_maximum_principle() ? overshoot_of_round_off
-                                                           : overshoot_of_high_order);
+                                 obeys_maximum_principle()
+                                     ? cases::overshoot_of_round_off
+                                     : cases::allowed_overshoot(description.overshoot,
+                                                                description.run.spacing,
+                                                                scene.domain));
       }
 
       void observe(cases::Observer &observer, long k, double time)

@@ -38,7 +38,8 @@ namespace meltfront::reference_fem
                  .shapes = {{DomainShape::box, {2}, walls},
                             {DomainShape::ball, {2}, walls},
                             {DomainShape::shell, {2}, walls}},
-                 .front_origins = {FrontOrigin::initial_front, FrontOrigin::source}}};
+                 .front_origins = {FrontOrigin::initial_front, FrontOrigin::source},
+                 .overshoot = cut::overshoot}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

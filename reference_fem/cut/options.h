@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_cut_options_h
 
 #include <cases/method.h>
+#include <cases/overshoot.h>
 #include <reference_fem/cut/front_band.h>
 #include <reference_fem/cut/phase_problem.h>
 
@@ -9,6 +10,9 @@
 
 namespace meltfront::reference_fem::cut
 {
+  /** Neither the elements nor BDF2 obey the maximum principle. */
+  inline constexpr cases::Overshoot overshoot{0.02, 1};
+
   /** The options of `fem-cut`. */
   std::vector<cases::OptionDeclaration> cut_options();
 

@@ -51,10 +51,6 @@ namespace meltfront::reference_fem::cut
 
     /** Both phases are to be this deep at the start, in cells. */
     constexpr double least_depth = 1.4;
-
-    /** Share of the span of the bounds by which temperatures may pass them: neither the
-     * elements nor BDF2 obey the maximum principle. */
-    constexpr double bounds_slack = 0.02;
   } // namespace
 
   CutRun::CutRun(const cases::Scene &scene, const cases::EffectSet &effects,
@@ -377,8 +373,9 @@ namespace meltfront::reference_fem::cut
         highest = std::max(highest, temperature);
       }
     }
-    cases::check_temperature(bounds, lowest, highest, method_name, step_number,
-                             checked.time, bounds_slack);
+    cases::check_temperature(
+        bounds, lowest, highest, method_name, step_number, checked.time,
+        cases::allowed_overshoot(overshoot, mesh.spacing, scene.domain));
     for(const Point &place : heat.sinks.places)
       if(!heat.in_solid(checked, place))
         throw cases::Refusal(fmt::format(

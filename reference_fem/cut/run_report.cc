@@ -176,6 +176,7 @@ namespace meltfront::reference_fem::cut
     snapshot.temperature = temperatures;
     snapshot.solid_fraction = solid_fractions;
     snapshot.cells = site_cells;
+    snapshot.obeys_maximum_principle = false;
     snapshot.heat = {heat.sensible_heat(state), heat.latent_heat(state), boundary_heat,
                      heat.sinks.energy(state.time), initial_heat};
     observer.observe(snapshot);

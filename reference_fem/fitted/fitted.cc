@@ -17,9 +17,6 @@ namespace meltfront::reference_fem
         BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
         BoundaryKind::heat_transfer};
 
-    /** Of elements whose degree obeys no maximum principle. */
-    constexpr cases::Overshoot overshoot{0.01, 0};
-
     /** The form that follows fronts from their start to their end. */
     cases::Capabilities along_line()
     {
@@ -36,7 +33,7 @@ namespace meltfront::reference_fem
               .front_origins
               = {FrontOrigin::initial_front, FrontOrigin::wall, FrontOrigin::source},
               .most_fronts = 1,
-              .overshoot = overshoot};
+              .overshoot = fitted::overshoot};
     }
 
     /** The form that carries a front along that is there from the start. */
@@ -55,7 +52,7 @@ namespace meltfront::reference_fem
                          {DomainShape::shell, {2, 3}, walls}},
               .front_origins = {FrontOrigin::initial_front},
               .most_fronts = 1,
-              .overshoot = overshoot};
+              .overshoot = fitted::overshoot};
     }
 
     class FemFitted : public cases::Method

@@ -12,13 +12,6 @@
 
 namespace meltfront::reference_fem::fitted
 {
-  namespace
-  {
-    /** Elements of higher degree obey no maximum principle: what they may exceed the
-     * bounds by, of the bounds' span. */
-    constexpr double slack_of_bounds = 0.01;
-  } // namespace
-
   FittedRun::FittedRun(const cases::Scene &scene, const cases::EffectSet &effects,
                        const cases::Resolution &resolution)
     : scene(scene)
@@ -110,7 +103,9 @@ namespace meltfront::reference_fem::fitted
         highest = std::max(highest, value);
       }
     cases::check_temperature(bounds, lowest, highest, method_name, step, time,
-                             slack_of_bounds);
+                             cases::allowed_overshoot(overshoot,
+                                                      scene.domain.side() / options.cells,
+                                                      scene.domain));
   }
 
   void FittedRun::enter(const Stretch &stretch, cases::Observer &observer)

@@ -201,6 +201,18 @@ namespace meltfront::verification
             without_run);
       return text;
     }
+
+    /** What the harness asked of all snapshots: the worst value and its bound. */
+    std::string checks_text(const RunRecord &record)
+    {
+      std::string text = record.checks.empty() ? "" : "Checks:\n";
+      for(const Check &check : record.checks)
+        text += fmt::format("  {:24} {:.2g}, {} {:.2g}\n", check.name, check.value,
+                            check.passed ? "within" : "MORE THAN", check.bound);
+      for(const auto &[name, reason] : record.unchecked)
+        text += fmt::format("  {:24} not checked: {}\n", name, reason);
+      return text;
+    }
   } // namespace
 
   std::string console_summary(const MatrixResult &result)
@@ -257,6 +269,7 @@ namespace meltfront::verification
     }
     for(const RunEvent &event : record.events)
       text += fmt::format("At t = {:.6g}: {}\n", event.time, event.what);
+    text += checks_text(record);
     if(record.status != RunStatus::finished)
       return text;
     text += evidence_line(record.cost);

@@ -7,10 +7,11 @@ namespace meltfront::verification
   std::unique_ptr<RunMeasures> measures_of(const cases::Case &c,
                                            const cases::Scene &simulated,
                                            const std::string &method,
+                                           const cases::Capabilities &capabilities,
                                            cases::Observer *second, bool animated)
   {
     if(simulated.conducts_heat())
-      return std::make_unique<RunObserver>(c, simulated, method, second);
+      return std::make_unique<RunObserver>(c, simulated, method, capabilities, second);
     return std::make_unique<MotionObserver>(c, simulated, method, second, animated);
   }
 } // namespace meltfront::verification

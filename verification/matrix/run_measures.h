@@ -1,6 +1,7 @@
 #ifndef meltfront_verification_matrix_run_measures_h
 #define meltfront_verification_matrix_run_measures_h
 
+#include <cases/capabilities.h>
 #include <cases/case.h>
 #include <cases/method.h>
 #include <verification/matrix/run_record.h>
@@ -28,12 +29,14 @@ namespace meltfront::verification
    * @param c the case, which outlives them
    * @param simulated the case's scene as it is handed to the method, outlives them too
    * @param method its name, for messages
+   * @param capabilities of the method's form that takes the scene
    * @param second receives what it wants of the same run, or null
    * @param animated whether frames are to be kept throughout the run too
    */
   std::unique_ptr<RunMeasures>
   measures_of(const cases::Case &c, const cases::Scene &simulated,
-              const std::string &method, cases::Observer *second, bool animated = false);
+              const std::string &method, const cases::Capabilities &capabilities,
+              cases::Observer *second, bool animated = false);
 } // namespace meltfront::verification
 
 #endif

@@ -22,12 +22,6 @@ namespace meltfront::verification
     /** Relative to the duration: a time this near another is the same. */
     constexpr double time_tolerance = 1e-9;
 
-    /** Relative to the span of the temperature's bounds: how far beyond them a method may
-     * go. Round-off for methods that obey the maximum principle; polynomials that are
-     * continuous across a steep profile overshoot it on coarse meshes, and so do
-     * reproducing kernels. */
-    constexpr double overshoot_of_round_off = 1e-9, overshoot_of_high_order = 0.02;
-
     double partly_frozen_fraction(const cases::Snapshot &snapshot)
     {
       double sum = 0;
@@ -46,13 +40,15 @@ namespace meltfront::verification
   } // namespace
 
   RunObserver::RunObserver(const cases::Case &c, const cases::Scene &simulated,
-                           const std::string &method, cases::Observer *second)
+                           const std::string &method,
+                           const cases::Capabilities &capabilities,
+                           cases::Observer *second)
     : the_case(c)
     , scene(simulated)
     , exact(c.exact.get())
     , method(method)
     , second(second)
-    , bounds(cases::temperature_bounds(simulated))
+    , capabilities(capabilities)
     , samples(c.measurement.samples == 0 ? samples_of_every_step : c.measurement.samples)
     , last_time(nan)
     , farthest_point(nan)
@@ -76,6 +72,7 @@ namespace meltfront::verification
   void RunObserver::begin(const cases::RunDescription &description)
   {
     run_description = description;
+    checks.emplace(scene, capabilities, method, description.spacing);
     reader.emplace(scene, exact, description.spacing, description.smoothing_length);
     event_watch.emplace(scene, the_case.measurement.events, description.spacing);
     if(the_case.measurement.mirror)
@@ -140,41 +137,15 @@ namespace meltfront::verification
       second->note(time, event);
   }
 
-  void RunObserver::judge(const cases::Snapshot &snapshot, double lowest,
-                          double highest) const
-  {
-    const auto finite = [](double value) { return std::isfinite(value); };
-    if(!std::ranges::all_of(snapshot.temperature, finite))
-      throw cases::NumericalError(method, snapshot.step, snapshot.time, "temperature",
-                                  "is not finite");
-    if(!std::ranges::all_of(snapshot.solid_fraction, finite))
-      throw cases::NumericalError(method, snapshot.step, snapshot.time, "solid fraction",
-                                  "is not finite");
-    if(snapshot.heat.booked && !std::isfinite(snapshot.heat.defect()))
-      throw cases::NumericalError(method, snapshot.step, snapshot.time, "heat budget",
-                                  "is not finite");
-    // The temperature of a layer of some dozen particles fluctuates: nothing bounds it.
-    if(scene.particle_solid && !snapshot.heat.booked)
-      return;
-    cases::check_temperature(bounds, lowest, highest, method, snapshot.step,
-                             snapshot.time,
-                             snapshot.front[0].empty() && snapshot.obeys_maximum_principle
-                                 ? overshoot_of_round_off
-                                 : overshoot_of_high_order);
-  }
-
   void RunObserver::measure(const cases::Snapshot &snapshot, bool keep)
   {
+    checks->judge(snapshot);
     const auto [lowest, highest] = std::ranges::minmax(snapshot.temperature);
-    if(snapshot.step == 0 && std::isfinite(lowest) && std::isfinite(highest))
-    {
-      // The scene's bounds are sampled: its extremes may lie between the samples.
-      bounds.lower = std::min(bounds.lower, lowest);
-      bounds.upper = std::max(bounds.upper, highest);
-    }
-    judge(snapshot, lowest, highest);
+    const cases::TemperatureBounds &bounds = checks->bounds();
     const double beyond = std::max({bounds.lower - lowest, highest - bounds.upper, 0.});
-    overshoot = std::fmax(overshoot, beyond / (bounds.upper - bounds.lower));
+    if(std::isfinite(bounds.upper - bounds.lower))
+      overshoot
+          = std::fmax(overshoot, beyond > 0 ? beyond / (bounds.upper - bounds.lower) : 0);
     volume_times.push_back(snapshot.time);
     // Where no phase changes there is no front to read.
     const bool changes_phase = scene.changes_phase();
@@ -302,6 +273,10 @@ namespace meltfront::verification
     record.description = run_description;
     record.series = run_series;
     record.events = run_events;
+    if(!checks)
+      return;
+    record.checks = checks->checks();
+    record.unchecked = checks->unchecked();
   }
 
   void RunObserver::keep_results(RunRecord &record) const
@@ -423,8 +398,7 @@ namespace meltfront::verification
       values["front_points_rms"] = front_points.root_mean_square();
     values["front_points_max"] = farthest_point;
     add_volumes(values);
-    if(std::isfinite(bounds.upper - bounds.lower))
-      values["temperature_overshoot"] = overshoot;
+    values["temperature_overshoot"] = overshoot;
     const double advance
         = exact ? exact->front(scene.end_time) - exact->front(scene.start_time)
                 : course.net_advance();

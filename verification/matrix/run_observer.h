@@ -9,6 +9,7 @@
 #include <verification/measure/event_watch.h>
 #include <verification/measure/front_reader.h>
 #include <verification/measure/mirror_symmetry.h>
+#include <verification/measure/snapshot_checks.h>
 
 #include <map>
 #include <optional>
@@ -24,12 +25,8 @@ namespace meltfront::verification
    * Snapshots are taken of the initial state, of the first step at or after each of
    * Measurement::samples times equidistant in t or sqrt(t), of the end, and of the steps
    * around each of Measurement::marks. Events (Measurement::events) look at every step
-   * until they have happened, at nothing but the solid fractions. Each is judged: a state
-   * that is not finite or breaks the maximum principle ends the run with a
-   * NumericalError. Elements that carry or cut a tracked front (Snapshot::front) and
-   * reproducing kernels (Snapshot::obeys_maximum_principle) obey the principle in the
-   * limit only: they may overshoot by a fiftieth of the bounds' span, and
-   * temperature_overshoot tells by how much they did. Where no phase changes there is no
+   * until they have happened, at nothing but the solid fractions. Each is judged by
+   * SnapshotChecks: a breach ends the run. Where no phase changes there is no
    * front and no volume that is solid: these quantities are NaN.
    */
   class RunObserver : public RunMeasures
@@ -39,12 +36,14 @@ namespace meltfront::verification
      * @param c the case, which outlives the observer
      * @param simulated the case's scene as it is handed to the method, outlives it too
      * @param method its name, for messages
+     * @param capabilities of the method's form that takes the scene
      * @param second receives what it wants of the same run, or null
      * @throws InputError if the run ends when it starts (every error would be that of the
      * initial state), or for fewer than 50 samples (but 0, every step).
      */
     RunObserver(const cases::Case &c, const cases::Scene &simulated,
-                const std::string &method, cases::Observer *second = nullptr);
+                const std::string &method, const cases::Capabilities &capabilities,
+                cases::Observer *second = nullptr);
 
     void begin(const cases::RunDescription &description) override;
     bool wants(long step, double time) override;
@@ -113,7 +112,6 @@ namespace meltfront::verification
     bool sample_is_due(long step, double time) const;
     bool wants_itself(long step, double time) const;
     bool round_front() const;
-    void judge(const cases::Snapshot &snapshot, double lowest, double highest) const;
     void measure(const cases::Snapshot &snapshot, bool keep);
     void add_to_series(const cases::Snapshot &snapshot, const FrontReading &reading,
                        double lowest, double highest);
@@ -128,7 +126,8 @@ namespace meltfront::verification
     const cases::ExactSolution *exact;
     std::string method;
     cases::Observer *second;
-    cases::TemperatureBounds bounds;
+    cases::Capabilities capabilities;
+    std::optional<SnapshotChecks> checks;
 
     cases::RunDescription run_description;
     std::optional<FrontReader> reader;

@@ -90,10 +90,11 @@ namespace meltfront::verification
       const cases::EffectSet effects = cases::effects_called_for(c.scene);
       record.effects = effects.decisions();
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
-      cases::require_capable(method, scene, effects, resolution.threads);
+      const cases::Capabilities capabilities
+          = cases::require_capable(method, scene, effects, resolution.threads);
       require_affordable(method, scene, effects, resolution, record);
-      const auto measures
-          = measures_of(c, scene, method.name(), second, resolution.seed == 1);
+      const auto measures = measures_of(c, scene, method.name(), capabilities, second,
+                                        resolution.seed == 1);
       const auto keep_course = [&]
       {
         measures->keep_course(record);

@@ -309,6 +309,7 @@ namespace meltfront::verification
       json["animation"] = json_of(record.animation);
     json["events"] = json_of(record.events);
     json["checks"] = json_of(record.checks);
+    json["unchecked"] = record.unchecked;
     json["provenance"] = record.provenance;
   }
 
@@ -340,6 +341,7 @@ namespace meltfront::verification
     record.animation = particle_frames_in(list_in(json, "animation"));
     record.events = events_in(list_in(json, "events"));
     record.checks = checks_in(list_in(json, "checks"));
+    record.unchecked = json.value("unchecked", record.unchecked);
     json.at("provenance").get_to(record.provenance);
   }
 } // namespace meltfront::verification

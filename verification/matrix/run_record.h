@@ -2,6 +2,7 @@
 #define meltfront_verification_matrix_run_record_h
 
 #include <cases/method.h>
+#include <verification/measure/check.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -72,15 +73,6 @@ namespace meltfront::verification
     std::string what;
   };
 
-  /** What the harness itself asked of a run, at all its snapshots. */
-  struct Check
-  {
-    std::string name; ///< `phase against temperature`, `maximum principle`, ...
-    double value = 0; ///< the worst of all snapshots
-    double bound = 0; ///< largest value that passes
-    bool passed = true;
-  };
-
   /** Everything needed to repeat a run, and everything that is reported of it. */
   struct RunRecord
   {
@@ -117,6 +109,8 @@ namespace meltfront::verification
     std::vector<ParticleFrame> animation;       ///< of the first seed: throughout the run
     std::vector<RunEvent> events;
     std::vector<Check> checks;
+    /** Checks that could not be made, with the reason. */
+    std::map<std::string, std::string> unchecked;
 
     /** case_text, case_hash, program_version, compiler, flags, cpu, packages, date,
      * command_line. */

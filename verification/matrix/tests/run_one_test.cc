@@ -63,11 +63,11 @@ namespace meltfront::verification
           : FakeMethod("hastening")
         {
         }
-        cases::Cost solve(const cases::Scene &scene, const cases::EffectSet &effects,
-                          const cases::Resolution &resolution,
-                          cases::Observer &observer) const override
+        cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
+                        const cases::Resolution &resolution,
+                        cases::Observer &observer) const override
         {
-          cases::Cost cost = FakeMethod::solve(scene, effects, resolution, observer);
+          cases::Cost cost = FakeMethod::run(scene, effects, resolution, observer);
           cost.stepping_cpu = cost.stepping_wall = first_time / ++solves;
           return cost;
         }
@@ -100,9 +100,11 @@ namespace meltfront::verification
       {
       public:
         using FakeMethod::FakeMethod;
-        std::vector<cases::Effect> supported_effects() const override
+        std::vector<cases::Capabilities> capabilities() const override
         {
-          return {cases::Effect::wall_temperature};
+          cases::Capabilities result = tests::fake_capabilities();
+          result.effects = {cases::Effect::wall_temperature};
+          return {result};
         }
       };
       const RunRecord record = run_fake(OnlyConduction("conduction"));
@@ -140,6 +142,53 @@ namespace meltfront::verification
       EXPECT_NE(record.message.find("wild, step "), std::string::npos) << record.message;
       EXPECT_EQ(record.series.time.size(), 1u);
       EXPECT_TRUE(record.quantities.empty());
+    }
+
+    TEST(RunOne, JudgesWhatAMethodHandsOut)
+    {
+      const RunRecord honest = run_fake(FakeMethod("honest"));
+      EXPECT_EQ(honest.status, RunStatus::finished) << honest.message;
+      EXPECT_GE(honest.checks.size(), 4u);
+      for(const Check &check : honest.checks)
+        EXPECT_TRUE(check.passed) << check.name;
+
+      static const double nowhere = 0.9;
+      const std::map<std::string, FakeMethod::Cheat> cheats{
+          {"phase against temperature", // ignores the wall that freezes
+           [](tests::State &state)
+           {
+             std::ranges::fill(state.solid_fraction, 0);
+             state.book(0);
+           }},
+          {"maximum principle",
+           [](tests::State &state)
+           {
+             state.temperature.back() = 1.01;
+             state.book(0);
+           }},
+          {"heat of sites",
+           [](tests::State &state)
+           {
+             state.snapshot.heat.stored += 0.5;
+             state.snapshot.heat.boundary += 0.5;
+           }},
+          {"heat of sources",
+           [](tests::State &state)
+           {
+             state.snapshot.heat.sources += 0.5;
+             state.snapshot.heat.boundary -= 0.5;
+           }},
+          {"front against phases", [](tests::State &state) {
+             state.snapshot.front[0] = {&nowhere, 1};
+           }}};
+      for(const auto &[name, cheat] : cheats)
+      {
+        const RunRecord record = run_fake(FakeMethod("cheat", {}, 0.1, 1, cheat));
+        EXPECT_EQ(record.status, RunStatus::failed) << name;
+        for(const Check &check : record.checks)
+          EXPECT_EQ(check.passed, check.name != name)
+              << check.name << ", cheat: " << name;
+      }
     }
 
     TEST(RunLabel, NamesOptionsAndThreads)

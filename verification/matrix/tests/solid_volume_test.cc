@@ -92,7 +92,7 @@ namespace meltfront::verification
       cases::Case c = disk_case();
       c.measurement.samples = 50;
       c.measurement.marks = {0.3333, 0.5, 1};
-      RunObserver observer(c, c.scene, "fake");
+      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       const int taken = drive(observer, 1000, growing);
       EXPECT_LT(taken, 51 + 30);
       const auto values = observer.quantities();
@@ -111,7 +111,7 @@ namespace meltfront::verification
       cases::Case c = disk_case();
       c.measurement.samples = 50;
       c.measurement.events = {cases::TimedEvent::half_frozen};
-      RunObserver observer(c, c.scene, "fake");
+      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       // The first of two equal sites freezes until t = 0.8.
       const int taken
           = drive(observer, 1000,
@@ -131,7 +131,7 @@ namespace meltfront::verification
       for(const int direction : {0, 1})
       {
         c.measurement.mirror = direction;
-        RunObserver observer(c, c.scene, "fake");
+        RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
         drive(observer, 100, growing);
         const double asymmetry = observer.quantities().at("mirror_asymmetry");
         if(direction == 0)
@@ -144,18 +144,18 @@ namespace meltfront::verification
     TEST(SolidVolumeOverTime, TellsHowFarItFellBackOfItsNetChange)
     {
       const cases::Case c = disk_case();
-      RunObserver monotone(c, c.scene, "fake");
+      RunObserver monotone(c, c.scene, "fake", tests::fake_capabilities());
       drive(monotone, 100, growing);
       EXPECT_EQ(monotone.quantities().at("solid_volume_backsteps"), 0);
-      RunObserver dented(c, c.scene, "fake");
+      RunObserver dented(c, c.scene, "fake", tests::fake_capabilities());
       drive(dented, 100,
             [](double time) { return 0.2 + 0.5 * time - (time == 0.5) * 0.1; });
       EXPECT_NEAR(dented.quantities().at("solid_volume_backsteps"), (0.1 - 0.005) / 0.5,
                   1e-12);
-      RunObserver melting(c, c.scene, "fake");
+      RunObserver melting(c, c.scene, "fake", tests::fake_capabilities());
       drive(melting, 100, [](double time) { return 0.8 - 0.5 * time; });
       EXPECT_EQ(melting.quantities().at("solid_volume_backsteps"), 0);
-      RunObserver standing(c, c.scene, "fake");
+      RunObserver standing(c, c.scene, "fake", tests::fake_capabilities());
       drive(standing, 100, [](double) { return 0.5; });
       EXPECT_TRUE(std::isnan(standing.quantities().at("solid_volume_backsteps")));
     }
@@ -166,7 +166,7 @@ namespace meltfront::verification
       c.exact = std::make_shared<tests::LinearProfile>(cases::Symmetry::cylindrical);
       const auto exact = [](double time) { return 0.5 * std::sqrt(time); };
       const auto volume = [&](double time) { return pi * exact(time) * exact(time); };
-      RunObserver observer(c, c.scene, "fake");
+      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 200, volume,
             [&](double time) { return exact(time) + (time < 0.5 ? 1e-3 : -2e-3); });
       const auto values = observer.quantities();
@@ -175,7 +175,7 @@ namespace meltfront::verification
       EXPECT_NEAR(values.at("front_points_max"), 2e-3, 1e-12);
       EXPECT_NEAR(values.at("roundness_end"), 0, 1e-15);
       EXPECT_NEAR(values.at("front_rms"), 0, 1e-12);
-      RunObserver untracked(c, c.scene, "fake");
+      RunObserver untracked(c, c.scene, "fake", tests::fake_capabilities());
       drive(untracked, 200, volume, exact, 0);
       for(const char *name : {"front_points_rms", "front_points_max", "roundness_end"})
         EXPECT_TRUE(std::isnan(untracked.quantities().at(name))) << name;
@@ -186,7 +186,7 @@ namespace meltfront::verification
     {
       cases::Case c = disk_case();
       c.measurement.marks = {0.25, 0.5, 1};
-      RunObserver observer(c, c.scene, "fake");
+      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(
           observer, 40, growing, [](double time) { return 0.2 + 0.1 * time; }, 1000);
       const auto &frames = observer.frames();
@@ -211,18 +211,21 @@ namespace meltfront::verification
       EXPECT_EQ(frames[0].x, (std::vector<double>{1, 2, 4}));
     }
 
-    TEST(TemperatureOvershoot, IsMeasuredAndBoundedByATenthForTrackedFronts)
+    TEST(TemperatureOvershoot, IsMeasuredAndBoundedByWhatTheMethodDeclares)
     {
       const cases::Case c = disk_case(); // between -0.5 and 1
       const auto run_with = [&](double highest, int points)
       {
-        RunObserver observer(c, c.scene, "fake");
+        cases::Capabilities capabilities = tests::fake_capabilities();
+        capabilities.overshoot = {.at_twenty = 0.1, .order = 0};
+        RunObserver observer(c, c.scene, "fake", capabilities);
         cases::RunDescription description;
         description.spacing = 0.1;
         observer.begin(description);
         for(int step = 0; step <= 100; ++step)
         {
           DiskState state(0.5, 0.3, points);
+          state.snapshot.obeys_maximum_principle = points == 0;
           if(step == 50)
             state.temperature[1] = highest;
           observer.observe(state.view_at(step, step / 100.));
@@ -238,11 +241,11 @@ namespace meltfront::verification
     TEST(FrontModeEnd, IsMeasuredWhereTheCaseAsksForIt)
     {
       cases::Case c = disk_case();
-      RunObserver unasked(c, c.scene, "fake");
+      RunObserver unasked(c, c.scene, "fake", tests::fake_capabilities());
       drive(unasked, 100, growing);
       EXPECT_TRUE(std::isnan(unasked.quantities().at("front_mode_end")));
       c.measurement.front_mode = 1;
-      RunObserver observer(c, c.scene, "fake");
+      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 100, growing);
       // All solid lies at one site at phi = 0.
       EXPECT_NEAR(observer.quantities().at("front_mode_end"), std::sqrt(growing(1) / pi),

@@ -1,0 +1,39 @@
+#include <verification/measure/site_heat.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::verification
+{
+  SiteHeat heat_of_sites(const cases::Material &material, const cases::Snapshot &snapshot)
+  {
+    const double of_solid = material.solid.volumetric_heat_capacity();
+    const double of_liquid = material.liquid.volumetric_heat_capacity();
+    const double of_melting = material.liquid.density * material.latent_heat;
+    SiteHeat result;
+    for(std::size_t i = 0; i < snapshot.temperature.size(); ++i)
+    {
+      // What merely holds a boundary value need not be finite.
+      if(snapshot.weights[i] == 0)
+        continue;
+      const double solid = snapshot.solid_fraction[i], liquid = 1 - solid;
+      const double sensible = snapshot.weights[i]
+                              * (solid * of_solid + liquid * of_liquid)
+                              * (snapshot.temperature[i] - material.melting_temperature);
+      const double latent = snapshot.weights[i] * liquid * of_melting;
+      result.stored += sensible;
+      result.latent += latent;
+      result.magnitude += std::abs(sensible) + std::abs(latent);
+    }
+    return result;
+  }
+
+  double SiteHeat::difference(const cases::HeatBudget &book) const
+  {
+    const double scale
+        = std::max({magnitude, std::abs(book.stored) + std::abs(book.latent),
+                    std::abs(book.initial)});
+    const double off = std::abs(stored - book.stored) + std::abs(latent - book.latent);
+    return scale > 0 ? off / scale : 0;
+  }
+} // namespace meltfront::verification
