@@ -122,6 +122,7 @@ subsection Scene
   subsection Domain
     set shape = box
     set dimension = 2
+    set lower corner = 0, 0
     set upper corner = 1, 1
   end
   subsection Material
