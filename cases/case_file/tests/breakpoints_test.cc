@@ -76,6 +76,7 @@ namespace meltfront::cases
       const Case c = read_case_text(R"(
 set title = pulse
 subsection Scene
+  set symmetry = planar
   set end time = 100
   subsection Domain
     set shape = slab
@@ -116,10 +117,12 @@ end
       const Case c = read_case_text(R"(
 set title = pulse
 subsection Scene
+  set symmetry = none
   set end time = 1e4
   subsection Domain
     set shape = box
     set dimension = 2
+    set lower corner = 0, 0
     set upper corner = 1, 1
   end
   subsection Material
