@@ -33,18 +33,19 @@ namespace meltfront::particles::greenspan
     /** Of the triangle's force under this pressure; conductivities over the densities, as
      * lengths are masses per width. */
     constexpr double measured_pressure = 30;
-    constexpr MeasuredProperty measured[] = {
-        {"melting temperature", 44.99, 0.24,
-         [](const cases::Material &m) { return m.melting_temperature; }},
-        {"latent heat", 27.4, 1.4, [](const cases::Material &m) { return m.latent_heat; }},
-        {"solid's heat capacity", 2.41, 0.04,
-         [](const cases::Material &m) { return m.solid.specific_heat_capacity; }},
-        {"liquid's heat capacity", 4.86, 0.16,
-         [](const cases::Material &m) { return m.liquid.specific_heat_capacity; }},
-        {"solid's conductivity", 177, 10,
-         [](const cases::Material &m) { return m.solid.conductivity; }},
-        {"liquid's conductivity", 45, 3,
-         [](const cases::Material &m) { return m.liquid.conductivity; }}};
+    constexpr MeasuredProperty measured[]
+        = {{"melting temperature", 44.99, 0.24,
+            [](const cases::Material &m) { return m.melting_temperature; }},
+           {"latent heat", 27.4, 1.4,
+            [](const cases::Material &m) { return m.latent_heat; }},
+           {"solid's heat capacity", 2.41, 0.04,
+            [](const cases::Material &m) { return m.solid.specific_heat_capacity; }},
+           {"liquid's heat capacity", 4.86, 0.16,
+            [](const cases::Material &m) { return m.liquid.specific_heat_capacity; }},
+           {"solid's conductivity", 177, 10,
+            [](const cases::Material &m) { return m.solid.conductivity; }},
+           {"liquid's conductivity", 45, 3,
+            [](const cases::Material &m) { return m.liquid.conductivity; }}};
 
     /** Of a value stated from the standard error: beyond, it is another material. */
     constexpr double standard_errors = 3;

@@ -115,7 +115,8 @@ namespace meltfront::verification::claims
       if(kind == BoundaryKind::insulated || kind == BoundaryKind::periodic)
         return {.kind = kind, .value = {}};
       if(kind == BoundaryKind::fixed_temperature)
-        return held_at([wave](const Position &p, double time) { return wave.at(p, time); });
+        return held_at([wave](const Position &p, double time)
+                       { return wave.at(p, time); });
       const auto flux = [wave, domain, side](const Position &p, double time)
       {
         const Position outward = normal(domain, side, p), slope = wave.gradient(p);
@@ -127,9 +128,9 @@ namespace meltfront::verification::claims
       if(kind == BoundaryKind::flux)
         return {.kind = kind, .value = field(flux)};
       return {.kind = kind,
-              .value = field([wave, flux](const Position &p, double time)
-                             { return wave.at(p, time)
-                                      + flux(p, time) / transfer_coefficient; }),
+              .value = field(
+                  [wave, flux](const Position &p, double time)
+                  { return wave.at(p, time) + flux(p, time) / transfer_coefficient; }),
               .exact = false,
               .heat_transfer_coefficient = transfer_coefficient};
     }
@@ -165,9 +166,9 @@ namespace meltfront::verification::claims
     Trial released(double power)
     {
       const double k = material().conductivity;
-      Trial trial
-          = steady_slab([power, k](const Position &p)
-                        { return power * p[0] * (1 - p[0]) / (2 * k); }, 1. / 8);
+      Trial trial = steady_slab([power, k](const Position &p)
+                                { return power * p[0] * (1 - p[0]) / (2 * k); },
+                                1. / 8);
       if(power != 0)
         trial.scene.heat_release = cases::Field::uniform(power);
       return trial;
@@ -178,9 +179,7 @@ namespace meltfront::verification::claims
       const double outside = material().conductivity;
       const double flux = 1 / (0.5 / inside + 0.5 / outside);
       return [=](const Position &p)
-      {
-        return p[0] < 0.5 ? flux * p[0] / inside : 1 - flux * (1 - p[0]) / outside;
-      };
+      { return p[0] < 0.5 ? flux * p[0] / inside : 1 - flux * (1 - p[0]) / outside; };
     }
 
     cases::Inclusion left_half(double conductivity)
@@ -208,9 +207,8 @@ namespace meltfront::verification::claims
                                 : product_of_sines(factors_of(domain, kind, held));
     for(const Side side : trial.scene.sides())
     {
-      const bool chosen
-          = side == Side::x_min || side == Side::x_max || side == Side::outer
-            || (side == Side::inner && !round_one);
+      const bool chosen = side == Side::x_min || side == Side::x_max
+                          || side == Side::outer || (side == Side::inner && !round_one);
       const BoundaryKind other
           = held ? BoundaryKind::fixed_temperature : BoundaryKind::insulated;
       wall(trial.scene, side) = boundary_of(wave, domain, side, chosen ? kind : other);
@@ -224,6 +222,17 @@ namespace meltfront::verification::claims
     return trial;
   }
 
+  Trial dissolved(Trial trial)
+  {
+    cases::Solute solute;
+    solute.name = "solute";
+    solute.liquidus_slope = 1;
+    trial.scene.alloy = cases::Alloy{.solutes = {solute}};
+    trial.scene.initial.concentration = {cases::Field::uniform(0.1)};
+    trial.scene.material.latent_heat = 1;
+    return trial;
+  }
+
   std::optional<EffectTrials> steady_trials(Effect effect)
   {
     const double k = material().conductivity, h = transfer_coefficient;
@@ -231,11 +240,22 @@ namespace meltfront::verification::claims
     {
     case Effect::wall_temperature:
     {
-      const auto held = [](double temperature) {
-        return linear_slab(temperature, held_at([=](const Position &, double)
-                                                { return temperature; }));
+      // Surroundings at 0 beyond x_max make the solution unique without the held wall,
+      // too.
+      const auto held = [k, h](double temperature)
+      {
+        const double slope = -h * temperature / (k + h);
+        Trial trial = steady_slab(
+            [=](const Position &p) { return temperature + slope * p[0]; }, 1);
+        wall(trial.scene, Side::x_min)
+            = held_at([temperature](const Position &, double) { return temperature; });
+        wall(trial.scene, Side::x_max) = {.kind = BoundaryKind::heat_transfer,
+                                          .value = cases::Field::uniform(0),
+                                          .exact = false,
+                                          .heat_transfer_coefficient = h};
+        return trial;
       };
-      return EffectTrials{held(0), held(1)};
+      return EffectTrials{held(0.5), held(1)};
     }
     case Effect::wall_flux:
     {

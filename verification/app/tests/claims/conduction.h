@@ -10,11 +10,14 @@ namespace meltfront::verification::claims
   /**
    * A wave of heat that decays in a domain without a front, exact, with walls of a kind:
    * those at both ends of x of a slab or a box (the others hold the exact temperature, or
-   * are insulated where `held` is false), all of the other shapes. Where a round domain is
-   * insulated the wave is round.
+   * are insulated where `held` is false), all of the other shapes. Where a round domain
+   * is insulated the wave is round.
    */
   Trial heat_wave(cases::DomainShape shape, int dimension, cases::BoundaryKind kind,
                   bool held);
+
+  /** The same of an alloy so warm that nothing crystallises. */
+  Trial dissolved(Trial trial);
 
   /** Of an effect of conduction without a front: a steady slab with linear or quadratic
    * temperatures. */

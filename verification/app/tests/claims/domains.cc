@@ -33,8 +33,7 @@ namespace meltfront::verification::claims
     const std::vector<cases::Outline::Point> corners{
         {0, 0}, {1, 0}, {1, depth}, {0, depth}};
     domain.outline = round_outline ? std::make_shared<const cases::Outline>(
-                                         [](double) { return 1.; },
-                                         cases::Outline::Point{0, 0})
+                         [](double) { return 1.; }, cases::Outline::Point{0, 0})
                                    : std::make_shared<const cases::Outline>(corners);
     for(int d = 0; d < 2; ++d)
     {
@@ -53,8 +52,14 @@ namespace meltfront::verification::claims
     scene.symmetry = domain.shape == cases::DomainShape::slab ? cases::Symmetry::planar
                                                               : cases::Symmetry::none;
     scene.material.latent_heat = 0;
-    for(const cases::Side side : scene.sides())
-      wall(scene, side) = {};
+    using cases::Side;
+    if(domain.outline || domain.round())
+      wall(scene, Side::outer);
+    if(domain.shape == cases::DomainShape::shell)
+      wall(scene, Side::inner);
+    if(!domain.outline && !domain.round())
+      for(int s = 0; s < 2 * domain.dimension; ++s)
+        wall(scene, static_cast<Side>(s));
     return scene;
   }
 

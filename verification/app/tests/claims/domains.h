@@ -15,6 +15,7 @@ namespace meltfront::verification::claims
   /** A scene on a domain with insulated walls; all properties one, no latent heat. */
   cases::Scene scene_on(const cases::Domain &domain);
 
+  /** A wall of a scene, insulated until it is said otherwise. */
   cases::Boundary &wall(cases::Scene &scene, cases::Side side);
 
   using Value = std::function<double(const cases::Position &, double time)>;

@@ -23,15 +23,14 @@ namespace meltfront::verification::claims
 
     int resolution_of(int dimension)
     {
-      return dimension == 1 ? 60 : dimension == 2 ? 32 : 16;
+      return dimension == 1 ? 40 : dimension == 2 ? 24 : 14;
     }
 
     Symmetry symmetry_of(const cases::Domain &domain)
     {
-      return domain.round() || domain.outline ? domain.dimension == 2
-                                                    ? Symmetry::cylindrical
-                                                    : Symmetry::spherical
-                                              : Symmetry::planar;
+      return domain.round() || domain.outline
+                 ? domain.dimension == 2 ? Symmetry::cylindrical : Symmetry::spherical
+                 : Symmetry::planar;
     }
 
     Side far_side(const cases::Domain &domain)
@@ -48,9 +47,9 @@ namespace meltfront::verification::claims
     struct Start
     {
       double inner = 0, front = 0.4;
-      bool wall = true;        ///< there is a near wall
-      double warmest = 1;      ///< of the liquid (negative: undercooled), at the far end
-      bool straight = false;   ///< liquid profile: else a sine with no flux at its end
+      bool wall = true;      ///< there is a near wall
+      double warmest = 1;    ///< of the liquid (negative: undercooled), at the far end
+      bool straight = false; ///< liquid profile: else a sine with no flux at its end
 
       double operator()(double r) const
       {
@@ -78,17 +77,18 @@ namespace meltfront::verification::claims
       const cases::Domain &domain = scene.domain;
       if(symmetric)
         scene.symmetry = symmetry_of(domain);
-      scene.material.solid = {.conductivity = 2, .specific_heat_capacity = 1, .density = 1};
-      scene.material.liquid = {.conductivity = 1, .specific_heat_capacity = 2, .density = 1};
+      scene.material.solid
+          = {.conductivity = 2, .specific_heat_capacity = 1, .density = 1};
+      scene.material.liquid
+          = {.conductivity = 1, .specific_heat_capacity = 2, .density = 1};
       scene.material.latent_heat = 2;
       scene.end_time = 0.06;
       result.trial.n = resolution_of(dimension);
       result.trial.scale = 2;
       result.start.inner = domain.inner_radius;
       result.start.front = shape == DomainShape::shell ? 0.6 : 0.4;
-      result.start.wall
-          = shape == DomainShape::slab || shape == DomainShape::box
-            || shape == DomainShape::shell;
+      result.start.wall = shape == DomainShape::slab || shape == DomainShape::box
+                          || shape == DomainShape::shell;
       return result;
     }
 
@@ -149,7 +149,8 @@ namespace meltfront::verification::claims
       return solve(std::move(of));
     }
 
-    /** The surroundings are as warm as they must be for the wall to take up a given flux. */
+    /** The surroundings are as warm as they must be for the wall to take up a given flux.
+     */
     Trial with_transfer(FrontScene of, double strength)
     {
       complete(of);
@@ -170,7 +171,7 @@ namespace meltfront::verification::claims
       return of.trial;
     }
 
-    constexpr double strong_flux = 60;
+    constexpr double strong_flux = 150;
 
     /**
      * A front that heat drawn throughout the domain drives at a constant speed between
@@ -210,39 +211,53 @@ namespace meltfront::verification::claims
       problem.nodes = 24;
       problem.tolerance = 1e-9;
       of.trial.judge
-          = released ? temperature_judge([exact, end](const Position &p)
-                                         { return exact(p[0], end); },
-                                         from + speed * end)
-                     : solution_judge(scene,
-                                      std::make_shared<cases::SpectralOracle>(problem));
+          = released
+                ? temperature_judge([exact, end](const Position &p)
+                                    { return exact(p[0], end); },
+                                    from + speed * end)
+                : solution_judge(scene, std::make_shared<cases::SpectralOracle>(problem));
       of.trial.scale = 4;
       return of.trial;
     }
 
-    Trial mushy_layer(double slope, double diffusivity, double eutectic)
+    /** Data of a mushy layer. */
+    struct Mush
     {
-      constexpr double cold = -3, concentration = 0.25;
+      double slope = 4, diffusivity = 0;
+      double eutectic = cases::Alloy().eutectic_temperature;
+      double cold = -3;
+      double latent_heat = 5;
+      double liquid_conductivity = 1, liquid_heat_capacity = 1;
+    };
+
+    Trial mushy_layer(const Mush &mush)
+    {
+      constexpr double concentration = 0.25;
       Trial trial;
       trial.scene = scene_on(domain_of(DomainShape::slab, 1, false));
       cases::Scene &scene = trial.scene;
-      scene.material.latent_heat = 5;
-      scene.end_time = 0.05;
+      scene.material.latent_heat = mush.latent_heat;
+      scene.material.liquid.conductivity = mush.liquid_conductivity;
+      scene.material.liquid.specific_heat_capacity = mush.liquid_heat_capacity;
+      scene.end_time = 0.15;
       scene.initial.temperature = cases::Field::uniform(0);
       scene.initial.concentration = {cases::Field::uniform(concentration)};
       cases::Solute solute;
       solute.name = "solute";
-      solute.liquidus_slope = slope;
-      solute.diffusivity = diffusivity;
-      scene.alloy = cases::Alloy{.solutes = {solute}, .eutectic_temperature = eutectic};
+      solute.liquidus_slope = mush.slope;
+      solute.diffusivity = mush.diffusivity;
+      scene.alloy
+          = cases::Alloy{.solutes = {solute}, .eutectic_temperature = mush.eutectic};
       const auto layer = std::make_shared<cases::MushyLayer>(
-          scene.material, *scene.alloy, std::vector<double>{concentration}, cold, 0.);
+          scene.material, *scene.alloy, std::vector<double>{concentration}, mush.cold,
+          0.);
       wall(scene, Side::x_min) = {.kind = BoundaryKind::fixed_temperature,
-                                  .value = cases::Field::uniform(cold)};
+                                  .value = cases::Field::uniform(mush.cold)};
       wall(scene, Side::x_max) = held_at([layer](const Position &p, double time)
                                          { return layer->temperature(p[0], time); });
       trial.judge = solution_judge(scene, layer);
       trial.n = 80;
-      trial.scale = -cold;
+      trial.scale = 3;
       return trial;
     }
 
@@ -272,8 +287,9 @@ namespace meltfront::verification::claims
       const auto bracket = boost::math::tools::toms748_solve(
           excess, 0.2, outer, boost::math::tools::eps_tolerance<double>(40), iterations);
       const double radius = (bracket.first + bracket.second) / 2;
-      trial.judge = temperature_judge([=](const Position &) { return -coefficient / radius; },
-                                      radius * radius / (outer * outer));
+      trial.judge
+          = temperature_judge([=](const Position &) { return -coefficient / radius; },
+                              radius * radius / (outer * outer));
       trial.n = 24;
       trial.scale = undercooling;
       return trial;
@@ -297,7 +313,8 @@ namespace meltfront::verification::claims
     return solve(std::move(of));
   }
 
-  std::optional<EffectTrials> front_trials(Effect effect, DomainShape shape, int dimension)
+  std::optional<EffectTrials> front_trials(Effect effect, DomainShape shape,
+                                           int dimension)
   {
     const auto vary = [&](const auto &change)
     {
@@ -314,29 +331,28 @@ namespace meltfront::verification::claims
     {
     case Effect::phase_change:
       return vary([](FrontScene &of, bool second)
-                  { of.trial.scene.material.latent_heat = second ? 4 : 2; });
+                  { of.trial.scene.material.latent_heat = second ? 10 : 2; });
     case Effect::phase_conductivity:
       return vary([](FrontScene &of, bool second)
-                  { of.trial.scene.material.liquid.conductivity = second ? 6 : 2; });
+                  { of.trial.scene.material.liquid.conductivity = second ? 8 : 2; });
     case Effect::phase_heat_capacity:
       return vary(
           [](FrontScene &of, bool second)
-          { of.trial.scene.material.liquid.specific_heat_capacity = second ? 4 : 1; });
+          { of.trial.scene.material.liquid.specific_heat_capacity = second ? 8 : 1; });
     case Effect::wall_temperature:
       return vary(
           [](FrontScene &of, bool second)
           {
             const double rate = second ? 20 : 0;
-            wall(of.trial.scene, near_side(of.trial.scene.domain))
-                = held_at([rate](const Position &, double time)
-                          { return -1 - rate * time; });
+            wall(of.trial.scene, near_side(of.trial.scene.domain)) = held_at(
+                [rate](const Position &, double time) { return -1 - rate * time; });
           });
     case Effect::liquid_motion:
       return vary(
           [](FrontScene &of, bool second)
           {
             of.start.straight = true;
-            of.trial.scene.material.liquid.density = second ? 0.5 : 1;
+            of.trial.scene.material.liquid.density = second ? 0.4 : 1;
             wall(of.trial.scene, far_side(of.trial.scene.domain))
                 = held_at([](const Position &, double) { return 1.; });
           });
@@ -405,8 +421,8 @@ namespace meltfront::verification::claims
       to_freeze.latent_heat *= 0.5;
     }
     const auto neumann = std::make_shared<cases::PlanarNeumann>(to_freeze, cold, far);
-    wall(scene, Side::x_min) = {.kind = BoundaryKind::fixed_temperature,
-                                .value = cases::Field::uniform(cold)};
+    wall(scene, Side::x_min)
+        = {.kind = BoundaryKind::fixed_temperature, .value = cases::Field::uniform(cold)};
     wall(scene, Side::x_max) = held_at([neumann](const Position &p, double time)
                                        { return neumann->temperature(p, time); });
     const double front = neumann->front(scene.end_time);
@@ -417,18 +433,37 @@ namespace meltfront::verification::claims
     return trial;
   }
 
-  EffectTrials mush_trials(Effect effect)
+  std::optional<EffectTrials> mush_trials(Effect effect)
   {
-    const double none = cases::Alloy().eutectic_temperature;
+    Mush first, second;
     switch(effect)
     {
+    case Effect::phase_change:
+      second.latent_heat = 15;
+      break;
+    case Effect::phase_conductivity:
+      second.liquid_conductivity = 4;
+      break;
+    case Effect::phase_heat_capacity:
+      second.liquid_heat_capacity = 4;
+      break;
+    case Effect::wall_temperature:
+      second.cold = -1.6;
+      break;
     case Effect::solute:
-      return {mushy_layer(2, 0, none), mushy_layer(6, 0, none)};
+      first.slope = 2;
+      second.slope = 7;
+      break;
     case Effect::solute_diffusion:
-      return {mushy_layer(4, 0, none), mushy_layer(4, 0.3, none)};
+      second.diffusivity = 0.5;
+      break;
+    case Effect::eutectic:
+      second.eutectic = -1.3;
+      break;
     default:
-      return {mushy_layer(4, 0, none), mushy_layer(4, 0, -1.5)};
+      return {};
     }
+    return EffectTrials{mushy_layer(first), mushy_layer(second)};
   }
 
   EffectTrials capillary_trials()

@@ -26,8 +26,8 @@ namespace meltfront::verification::claims
    * point, where `partly_melted`. */
   Trial cold_wall(bool partly_melted);
 
-  /** Of solute, its diffusion and the eutectic: mushy layers. */
-  EffectTrials mush_trials(cases::Effect effect);
+  /** The same of an alloy: mushy layers. */
+  std::optional<EffectTrials> mush_trials(cases::Effect effect);
 
   /** A disk of solid whose melt has become as warm as its curved front. */
   EffectTrials capillary_trials();

@@ -1,7 +1,7 @@
 #ifndef meltfront_verification_app_tests_claims_tolerances_h
 #define meltfront_verification_app_tests_claims_tolerances_h
 
-#include <cases/scene.h>
+#include <verification/app/tests/claims/trial.h>
 
 #include <string>
 
@@ -13,6 +13,10 @@ namespace meltfront::verification::claims
     double sites; ///< root mean square, over the trial's scale
     double solid; ///< of the solid's share of the domain
   };
+
+  /** Resolution and options that suit a method: those of high order need fewer cells, the
+   * published SPH shorter steps. */
+  void adapt(const std::string &method, const std::string &form, Trial &trial);
 
   /** Of a method on the trials' grids. */
   Tolerance tolerance_of(const std::string &method, const cases::Scene &scene);

@@ -56,8 +56,9 @@ namespace meltfront::verification::claims
     constexpr int across = 40;
     std::vector<cases::Position> points;
     const int layers = domain.dimension == 3 ? across : 1;
-    const auto place = [&](int d, int i)
-    { return domain.lower[d] + (domain.upper[d] - domain.lower[d]) * (i + 0.5) / across; };
+    const auto place = [&](int d, int i) {
+      return domain.lower[d] + (domain.upper[d] - domain.lower[d]) * (i + 0.5) / across;
+    };
     for(int k = 0; k < layers; ++k)
       for(int j = 0; j < across; ++j)
         for(int i = 0; i < across; ++i)
