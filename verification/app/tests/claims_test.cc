@@ -28,6 +28,9 @@ namespace meltfront::verification::claims
     /** What is wrong or indistinguishable is at least so many tolerances off. */
     constexpr double margin = 5;
 
+    /** And what has happened at all, so many. */
+    constexpr double least_change = 2;
+
     /** A form of a method. */
     struct Form
     {
@@ -127,8 +130,12 @@ namespace meltfront::verification::claims
         return carried_ball(dimension, kind);
       if(form.is_bar())
         return particle_bar(75);
-      const bool held = std::ranges::find(shape.walls, BoundaryKind::fixed_temperature)
-                        != shape.walls.end();
+      // All of an outline is insulated, of a box the ends of x only.
+      const bool all_insulated
+          = shape.shape == DomainShape::outline && kind == BoundaryKind::insulated;
+      const bool held = !all_insulated
+                        && std::ranges::find(shape.walls, BoundaryKind::fixed_temperature)
+                               != shape.walls.end();
       if(form.needs_solute())
         return dissolved(heat_wave(shape.shape, dimension, kind, held));
       if(form.capabilities.takes(FrontOrigin::none))
@@ -214,15 +221,15 @@ namespace meltfront::verification::claims
                             << "', of which there is no scene";
         const auto &[first, second, one_value_only] = *trials;
         ASSERT_TRUE(cases::effects_called_for(second.scene).contains(effect));
-        const Tolerance tolerance = tolerance_of(form.method->name(), first.scene);
-        const Outcome with_first = form.run(first);
-        const Differences at_first = first.judge(with_first.end);
-        EXPECT_LE(in_tolerances(at_first, tolerance, first), 1) << words(at_first);
         if(one_value_only)
         {
           EXPECT_THROW(form.run(second), cases::Refusal);
           return;
         }
+        const Tolerance tolerance = tolerance_of(form.method->name(), first.scene);
+        const Outcome with_first = form.run(first);
+        const Differences at_first = first.judge(with_first.end);
+        EXPECT_LE(in_tolerances(at_first, tolerance, first), 1) << words(at_first);
         const Outcome with_second = form.run(second);
         const Differences at_second = second.judge(with_second.end),
                           ignored = second.judge(with_first.end);
@@ -230,8 +237,6 @@ namespace meltfront::verification::claims
         EXPECT_GT(in_tolerances(ignored, tolerance, second), margin)
             << "ignoring the effect would make too little difference: " << words(ignored);
         EXPECT_GT(calls_of(with_second.cost, effect), 0);
-        fmt::print("{}; {}; ignored {}\n", words(at_first), words(at_second),
-                   words(ignored));
         expect_nothing_spent(form, second, effect);
       }
 
@@ -266,9 +271,8 @@ namespace meltfront::verification::claims
         const Differences end = trial.judge(outcome.end),
                           start = trial.judge(outcome.start);
         EXPECT_LE(in_tolerances(end, tolerance, trial), 1) << words(end);
-        EXPECT_GT(in_tolerances(start, tolerance, trial), margin)
+        EXPECT_GT(in_tolerances(start, tolerance, trial), least_change)
             << "nothing happens in the scene: " << words(start);
-        fmt::print("{}; start {}\n", words(end), words(start));
       }
 
     private:

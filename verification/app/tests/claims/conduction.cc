@@ -295,7 +295,8 @@ namespace meltfront::verification::claims
       trial.scene.problem = cases::ProblemKind::stefan;
       trial.scene.initial.temperature
           = field([](const Position &p, double) { return p[0]; });
-      trial.scene.end_time = 0.8; // of which exp(-pi^2 a t) = 2e-6 is left
+      trial.scene.end_time = 0.5; // when exp(-pi^2 a t) = 3e-4 is left
+      trial.n = 16;
       return trial;
     };
     return {settled(material().conductivity), settled(5 * material().conductivity)};

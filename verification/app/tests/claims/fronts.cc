@@ -84,7 +84,6 @@ namespace meltfront::verification::claims
       scene.material.latent_heat = 2;
       scene.end_time = 0.06;
       result.trial.n = resolution_of(dimension);
-      result.trial.scale = 2;
       result.start.inner = domain.inner_radius;
       result.start.front = shape == DomainShape::shell ? 0.6 : 0.4;
       result.start.wall = shape == DomainShape::slab || shape == DomainShape::box
@@ -171,7 +170,7 @@ namespace meltfront::verification::claims
       return of.trial;
     }
 
-    constexpr double strong_flux = 150;
+    constexpr double strong_flux = 150, moderate_flux = 40;
 
     /**
      * A front that heat drawn throughout the domain drives at a constant speed between
@@ -216,7 +215,6 @@ namespace meltfront::verification::claims
                                     { return exact(p[0], end); },
                                     from + speed * end)
                 : solution_judge(scene, std::make_shared<cases::SpectralOracle>(problem));
-      of.trial.scale = 4;
       return of.trial;
     }
 
@@ -257,7 +255,6 @@ namespace meltfront::verification::claims
                                          { return layer->temperature(p[0], time); });
       trial.judge = solution_judge(scene, layer);
       trial.n = 80;
-      trial.scale = 3;
       return trial;
     }
 
@@ -291,7 +288,6 @@ namespace meltfront::verification::claims
           = temperature_judge([=](const Position &) { return -coefficient / radius; },
                               radius * radius / (outer * outer));
       trial.n = 24;
-      trial.scale = undercooling;
       return trial;
     }
   } // namespace
@@ -300,9 +296,9 @@ namespace meltfront::verification::claims
   {
     FrontScene of = front_scene(shape, dimension, symmetric);
     if(kind == BoundaryKind::flux)
-      return with_flux(std::move(of), strong_flux);
+      return with_flux(std::move(of), moderate_flux);
     if(kind == BoundaryKind::heat_transfer)
-      return with_transfer(std::move(of), strong_flux);
+      return with_transfer(std::move(of), moderate_flux);
     if(kind == BoundaryKind::fixed_temperature)
       wall(of.trial.scene, far_side(of.trial.scene.domain))
           = held_at([](const Position &, double) { return 1.; });
@@ -331,7 +327,7 @@ namespace meltfront::verification::claims
     {
     case Effect::phase_change:
       return vary([](FrontScene &of, bool second)
-                  { of.trial.scene.material.latent_heat = second ? 10 : 2; });
+                  { of.trial.scene.material.latent_heat = second ? 20 : 1; });
     case Effect::phase_conductivity:
       return vary([](FrontScene &of, bool second)
                   { of.trial.scene.material.liquid.conductivity = second ? 8 : 2; });
@@ -400,7 +396,7 @@ namespace meltfront::verification::claims
                       .energy = [strength](double time) { return -strength * time; }}};
     trial.judge = solution_judge(scene, sink, 0.2);
     trial.n = 40;
-    trial.scale = 1;
+    trial.scale = 2; // of the temperatures beside the line
     return trial;
   }
 
@@ -445,7 +441,7 @@ namespace meltfront::verification::claims
       second.liquid_conductivity = 4;
       break;
     case Effect::phase_heat_capacity:
-      second.liquid_heat_capacity = 4;
+      second.liquid_heat_capacity = 1.8;
       break;
     case Effect::wall_temperature:
       second.cold = -1.6;
@@ -455,7 +451,7 @@ namespace meltfront::verification::claims
       second.slope = 7;
       break;
     case Effect::solute_diffusion:
-      second.diffusivity = 0.5;
+      second.diffusivity = 0.3;
       break;
     case Effect::eutectic:
       second.eutectic = -1.3;

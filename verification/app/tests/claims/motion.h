@@ -7,8 +7,8 @@
 
 namespace meltfront::verification::claims
 {
-  /** A disk or ball that a uniform velocity carries along, across the domain's end and in
-   * again at the other where the walls of x are periodic. */
+  /** A disk or ball that a uniform velocity carries along, between walls of a kind at
+   * both ends of x. */
   Trial carried_ball(int dimension, cases::BoundaryKind kind);
 
   /** Particles that hardly bind each other, so that each goes its own way, which is

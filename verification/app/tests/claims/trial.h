@@ -56,8 +56,8 @@ namespace meltfront::verification::claims
   struct EffectTrials
   {
     Trial first, second;
-    /** The datum is a property of what the method simulates: any other value than the
-     * first is to be refused. */
+    /** The datum is a property of what the method simulates: the second is another value
+     * and to be refused. */
     bool one_value_only = false;
   };
 
