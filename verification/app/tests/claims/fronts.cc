@@ -237,8 +237,10 @@ namespace meltfront::verification::claims
       scene.material.latent_heat = mush.latent_heat;
       scene.material.liquid.conductivity = mush.liquid_conductivity;
       scene.material.liquid.specific_heat_capacity = mush.liquid_heat_capacity;
-      scene.end_time = 0.15;
-      scene.initial.temperature = cases::Field::uniform(0);
+      scene.end_time
+          = mush.diffusivity > 0 ? 0.06 : 0.15; // before the far wall is reached
+      constexpr double far = 1;
+      scene.initial.temperature = cases::Field::uniform(far);
       scene.initial.concentration = {cases::Field::uniform(concentration)};
       cases::Solute solute;
       solute.name = "solute";
@@ -248,7 +250,7 @@ namespace meltfront::verification::claims
           = cases::Alloy{.solutes = {solute}, .eutectic_temperature = mush.eutectic};
       const auto layer = std::make_shared<cases::MushyLayer>(
           scene.material, *scene.alloy, std::vector<double>{concentration}, mush.cold,
-          0.);
+          far);
       wall(scene, Side::x_min) = {.kind = BoundaryKind::fixed_temperature,
                                   .value = cases::Field::uniform(mush.cold)};
       wall(scene, Side::x_max) = held_at([layer](const Position &p, double time)
@@ -327,7 +329,7 @@ namespace meltfront::verification::claims
     {
     case Effect::phase_change:
       return vary([](FrontScene &of, bool second)
-                  { of.trial.scene.material.latent_heat = second ? 20 : 1; });
+                  { of.trial.scene.material.latent_heat = second ? 20 : 0.4; });
     case Effect::phase_conductivity:
       return vary([](FrontScene &of, bool second)
                   { of.trial.scene.material.liquid.conductivity = second ? 8 : 2; });
@@ -356,7 +358,7 @@ namespace meltfront::verification::claims
       return vary(
           [](FrontScene &of, bool second)
           {
-            of.start.warmest = second ? -0.4 : -0.1;
+            of.start.warmest = second ? -0.5 : -0.1;
             of.problem.metastable = true;
           });
     case Effect::wall_flux:
@@ -451,6 +453,7 @@ namespace meltfront::verification::claims
       second.slope = 7;
       break;
     case Effect::solute_diffusion:
+      first.diffusivity = 0.05;
       second.diffusivity = 0.3;
       break;
     case Effect::eutectic:
