@@ -15,7 +15,8 @@ namespace meltfront::particles
     using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
 
     cases::Capabilities capabilities_of(std::vector<Effect> effects,
-                                        std::vector<BoundaryKind> round_walls)
+                                        std::vector<BoundaryKind> round_walls,
+                                        std::vector<FrontOrigin> of_pure_substances)
     {
       std::vector<BoundaryKind> walls = round_walls;
       walls.push_back(BoundaryKind::periodic);
@@ -26,9 +27,7 @@ namespace meltfront::particles
                          {DomainShape::box, {2, 3}, walls},
                          {DomainShape::ball, {2, 3}, std::move(round_walls)},
                          {DomainShape::outline, {2}, {BoundaryKind::insulated}}},
-              .front_origins
-              = {FrontOrigin::none, FrontOrigin::initial_front,
-                 FrontOrigin::partly_melted, FrontOrigin::wall, FrontOrigin::source},
+              .front_origins = std::move(of_pure_substances),
               .most_threads = cases::any_number_of_threads};
     }
 
@@ -48,13 +47,15 @@ namespace meltfront::particles
 
       std::vector<cases::Capabilities> capabilities() const override
       {
-        return {
-            capabilities_of({Effect::phase_change, Effect::phase_conductivity,
-                             Effect::phase_heat_capacity, Effect::heat_sources,
-                             Effect::wall_temperature, Effect::wall_flux, Effect::solute,
-                             Effect::solute_diffusion, Effect::eutectic},
-                            {BoundaryKind::insulated, BoundaryKind::fixed_temperature,
-                             BoundaryKind::flux})};
+        return {capabilities_of(
+            {Effect::phase_change, Effect::phase_conductivity,
+             Effect::phase_heat_capacity, Effect::heat_sources, Effect::wall_temperature,
+             Effect::wall_flux, Effect::solute, Effect::solute_diffusion,
+             Effect::eutectic},
+            {BoundaryKind::insulated, BoundaryKind::fixed_temperature,
+             BoundaryKind::flux},
+            {FrontOrigin::none, FrontOrigin::initial_front, FrontOrigin::partly_melted,
+             FrontOrigin::wall, FrontOrigin::source})};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -99,7 +100,8 @@ namespace meltfront::particles
         return policy.corrected_form;
       }
 
-      /** The paper has no eutectic. */
+      /** The paper has no eutectic. Pure substances, whose front's origin could be told,
+       * are refused: two populations are told apart by the solute between them. */
       std::vector<cases::Capabilities> capabilities() const override
       {
         std::vector<Effect> effects{Effect::phase_change,
@@ -110,8 +112,9 @@ namespace meltfront::particles
                                     Effect::solute_diffusion};
         if(!policy.as_published)
           effects.push_back(Effect::eutectic);
-        return {capabilities_of(std::move(effects), {BoundaryKind::insulated,
-                                                     BoundaryKind::fixed_temperature})};
+        return {capabilities_of(
+            std::move(effects),
+            {BoundaryKind::insulated, BoundaryKind::fixed_temperature}, {})};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

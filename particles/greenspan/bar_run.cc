@@ -21,6 +21,55 @@ namespace meltfront::particles::greenspan
      * fluctuates by several spacings from one to the next. */
     constexpr double look_interval = 0.2, average_time = 5;
 
+    /** A property of the material that the particles make up, measured by `meltfront
+     * calibrate greenspan` (README.md), with its standard error. */
+    struct MeasuredProperty
+    {
+      const char *name;
+      double value, standard_error;
+      double (*of)(const cases::Material &);
+    };
+
+    /** Of the triangle's force under this pressure; conductivities over the densities, as
+     * lengths are masses per width. */
+    constexpr double measured_pressure = 30;
+    constexpr MeasuredProperty measured[]
+        = {{"melting temperature", 44.99, 0.24,
+            [](const cases::Material &m) { return m.melting_temperature; }},
+           {"latent heat", 27.4, 1.4,
+            [](const cases::Material &m) { return m.latent_heat; }},
+           {"solid's heat capacity", 2.41, 0.04,
+            [](const cases::Material &m) { return m.solid.specific_heat_capacity; }},
+           {"liquid's heat capacity", 4.86, 0.16,
+            [](const cases::Material &m) { return m.liquid.specific_heat_capacity; }},
+           {"solid's conductivity", 177, 10,
+            [](const cases::Material &m) { return m.solid.conductivity; }},
+           {"liquid's conductivity", 45, 3,
+            [](const cases::Material &m) { return m.liquid.conductivity; }}};
+
+    /** Of a value stated from the standard error: beyond, it is another material. */
+    constexpr double standard_errors = 3;
+
+    /** The particles conduct and melt as they do, whatever the scene states of its
+     * material: another is refused.
+     * @throws Refusal */
+    void require_measured_material(const cases::Scene &scene)
+    {
+      if(force_of(scene.particle_solid->law) != PairForce::triangle()
+         || scene.particle_solid->pressure != measured_pressure)
+        throw cases::Refusal(
+            fmt::format("what a bar of particles melts and conducts like is measured of "
+                        "the default pair law under a pressure of {} only",
+                        measured_pressure));
+      for(const MeasuredProperty &property : measured)
+        if(const double given = property.of(scene.material);
+           std::abs(given - property.value) > standard_errors * property.standard_error)
+          throw cases::Refusal(fmt::format(
+              "a bar of particles is its own material: its {} is measured to be {} +- "
+              "{}, the scene states {:.6g}",
+              property.name, property.value, property.standard_error, given));
+    }
+
     /** The mean of looks: squares of the molten mass, temperatures of layers. */
     BarLook mean_of(const std::deque<BarLook> &looks)
     {
@@ -179,6 +228,7 @@ namespace meltfront::particles::greenspan
       throw cases::Refusal(
           "greenspan conducts heat only through a bar of particles, which "
           "subsection 'Scene/Particle solid' of a slab describes");
+    require_measured_material(scene);
     cases::Stopwatch watch;
     Bar bar(settings_of(scene, resolution));
     BarShow show(scene, observer);

@@ -21,6 +21,8 @@ namespace meltfront::particles::greenspan
     double cutoff = 1.5;            ///< a pair acts up to this distance, inclusive
     bool compiled_exponents = true; ///< false: always take the general powers
 
+    bool operator==(const PairForce &) const = default;
+
     /** Of the triangular solid of the report. */
     static PairForce triangle();
 

@@ -303,7 +303,7 @@ namespace meltfront::particles
                  .shapes
                  = {{cases::DomainShape::box,
                      {2, 3},
-                     {cases::BoundaryKind::insulated, cases::BoundaryKind::periodic}}},
+                     {cases::BoundaryKind::insulated}}},
                  .front_origins = {},
                  .most_threads = cases::any_number_of_threads}};
       }

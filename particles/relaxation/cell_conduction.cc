@@ -1,5 +1,7 @@
+#include <cases/stopwatch.h>
 #include <particles/relaxation/cell_conduction.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,9 +20,13 @@ namespace meltfront::particles
     , balanced(cells.volumes)
   {
     std::vector<double> conductivity(nodes.size());
+    {
+      const cases::ScopedTimer timer(inclusion_seconds);
+      for(std::size_t i = 0; i < nodes.size(); ++i)
+        conductivity[i] = scene.conductivity_at(nodes.point(i));
+    }
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
-      conductivity[i] = scene.conductivity_at(nodes.point(i));
       if(nodes.sides[i] != 0)
         fixed[i] = wall_condition(scene, nodes, i);
       if(fixed[i].fixed)
@@ -129,13 +135,26 @@ namespace meltfront::particles
 
   void CellConduction::set_source(const LinearStep &step, std::span<double> source) const
   {
+    ++evaluations;
+    std::ranges::fill(source, 0.);
+    if(scene.heat_release)
+      set_release(step, source);
+    set_walls(step, source);
+  }
+
+  void CellConduction::set_release(const LinearStep &step, std::span<double> source) const
+  {
+    const cases::ScopedTimer timer(release_seconds);
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      source[i] = given.release(release_point(i), step) * balanced[i];
+  }
+
+  void CellConduction::set_walls(const LinearStep &step, std::span<double> source) const
+  {
+    const cases::ScopedTimer timer(wall_seconds);
     for(std::size_t i = 0; i < nodes.size(); ++i)
       if(fixed[i].fixed)
         source[i] = fixed_row * wall_temperature(static_cast<std::uint32_t>(i), step);
-      else
-        source[i] = scene.heat_release
-                        ? given.release(release_point(i), step) * balanced[i]
-                        : 0;
     for(const Contact &contact : contacts)
       source[contact.free] += contact.conductance * source[contact.fixed] / fixed_row;
     for(const WallFace &face : wall_faces)
@@ -170,6 +189,30 @@ namespace meltfront::particles
                                            * (value - temperature[face.cell]));
     }
     return result;
+  }
+
+  std::vector<cases::EffectCost>
+  CellConduction::effect_costs(const cases::EffectSet &effects) const
+  {
+    using cases::Effect;
+    std::vector<cases::EffectCost> costs;
+    if(effects.contains(Effect::heat_release))
+      costs.push_back({Effect::heat_release, evaluations, 0, release_seconds});
+    if(effects.contains(Effect::inclusion))
+      costs.push_back({Effect::inclusion, 1, 0, inclusion_seconds});
+    // One pass serves all walls: its time and memory are shared evenly.
+    std::vector<Effect> walls;
+    for(const Effect effect :
+        {Effect::wall_temperature, Effect::wall_flux, Effect::wall_transfer})
+      if(effects.contains(effect))
+        walls.push_back(effect);
+    const std::size_t bytes = fixed.size() * sizeof(WallCondition)
+                              + contacts.size() * sizeof(Contact)
+                              + wall_faces.size() * sizeof(WallFace);
+    for(const Effect effect : walls)
+      costs.push_back({effect, evaluations, static_cast<long>(bytes / walls.size()),
+                       wall_seconds / static_cast<double>(walls.size())});
+    return costs;
   }
 
   LinearProblem CellConduction::problem() const

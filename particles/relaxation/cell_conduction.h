@@ -1,6 +1,7 @@
 #ifndef meltfront_particles_relaxation_cell_conduction_h
 #define meltfront_particles_relaxation_cell_conduction_h
 
+#include <cases/method.h>
 #include <cases/scene.h>
 #include <particles/relaxation/voronoi.h>
 #include <particles/scattered/linear_problem.h>
@@ -45,6 +46,9 @@ namespace meltfront::particles
       return balanced;
     }
 
+    /** Calls, memory and time of the effects so far. */
+    std::vector<cases::EffectCost> effect_costs(const cases::EffectSet &effects) const;
+
   private:
     struct Contact
     {
@@ -66,6 +70,8 @@ namespace meltfront::particles
     double wall_temperature(std::uint32_t node, const LinearStep &step) const;
     cases::Position release_point(std::size_t cell) const;
     void set_source(const LinearStep &step, std::span<double> source) const;
+    void set_release(const LinearStep &step, std::span<double> source) const;
+    void set_walls(const LinearStep &step, std::span<double> source) const;
     HeatInflow inflow(const LinearStep &step, std::span<const double> temperature) const;
 
     const cases::Scene &scene;
@@ -79,6 +85,9 @@ namespace meltfront::particles
     std::vector<double> conductance;  ///< of each face (W/K)
     std::vector<Contact> contacts;    ///< faces between balanced cells and others
     std::vector<WallFace> wall_faces; ///< of balanced cells, with flux or transfer
+    double inclusion_seconds = 0;
+    mutable long evaluations = 0; ///< of the source
+    mutable double release_seconds = 0, wall_seconds = 0;
   };
 } // namespace meltfront::particles
 

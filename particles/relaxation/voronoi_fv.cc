@@ -216,14 +216,13 @@ namespace meltfront::particles
         description.obeys_maximum_principle = true;
         description.overshoot = overshoot;
         description.setup_work = static_cast<long>(problem.operator_rows.size());
-        for(const Effect effect : capabilities().front().effects)
-          if(effects.contains(effect))
-            description.effects.push_back({.effect = effect});
         const cases::Stopwatch::Seconds spent = watch.elapsed();
         description.setup_wall = spent.wall;
         description.setup_cpu = spent.cpu;
-        return run_linear_problem(scene, problem, sites, description, resolution,
-                                  observer);
+        cases::Cost cost = run_linear_problem(scene, problem, sites, description,
+                                              resolution, observer);
+        cost.effects = conduction.effect_costs(effects);
+        return cost;
       }
     };
   } // namespace

@@ -42,7 +42,7 @@ namespace meltfront::reference_fem
                              Effect::wall_temperature, Effect::wall_flux, Effect::solute,
                              Effect::solute_diffusion, Effect::eutectic,
                              Effect::heat_release, Effect::inclusion},
-                 .shapes = {{DomainShape::slab, {1}, of_box},
+                 .shapes = {{DomainShape::slab, {1}, walls},
                             {DomainShape::box, {2, 3}, of_box},
                             {DomainShape::ball, {2, 3}, walls},
                             {DomainShape::shell, {2, 3}, walls},

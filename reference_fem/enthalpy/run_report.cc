@@ -137,7 +137,8 @@ namespace meltfront::reference_fem
       switch(decision.effect)
       {
       case cases::Effect::phase_change:
-        result.push_back({decision.effect, graph.sweeps, graph.bytes, graph.seconds});
+        result.push_back({decision.effect, graph.sweeps + graph.linearisations,
+                          graph.bytes, graph.seconds});
         break;
       case cases::Effect::heat_sources:
         result.push_back(sources->cost());

@@ -1,0 +1,32 @@
+#ifndef meltfront_verification_app_tests_claims_domains_h
+#define meltfront_verification_app_tests_claims_domains_h
+
+#include <cases/scene.h>
+
+namespace meltfront::verification::claims
+{
+  /**
+   * A domain of a shape: 0 <= x <= 1 of a slab and a box, which is half as deep across;
+   * radius 1 of a ball; 0.4 to 1 of a shell. An outline is a disk of radius 1 where what
+   * happens is round, else the rectangle of the box.
+   */
+  cases::Domain domain_of(cases::DomainShape shape, int dimension, bool round_outline);
+
+  /** A scene on a domain with insulated walls; all properties one, no latent heat. */
+  cases::Scene scene_on(const cases::Domain &domain);
+
+  /** A wall of a scene, insulated until it is said otherwise. */
+  cases::Boundary &wall(cases::Scene &scene, cases::Side side);
+
+  using Value = std::function<double(const cases::Position &, double time)>;
+
+  cases::Field field(Value value);
+
+  cases::Boundary held_at(Value temperature);
+
+  /** Unit normal out of a domain at a point of its wall. */
+  cases::Position normal(const cases::Domain &domain, cases::Side side,
+                         const cases::Position &point);
+} // namespace meltfront::verification::claims
+
+#endif

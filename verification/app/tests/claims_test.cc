@@ -1,0 +1,337 @@
+// Whatever a method claims to take, its capabilities, is tested: every effect by a scene
+// with its datum at two values, every wall of every shape and every origin of fronts by a
+// run, all of them held against exact solutions. The list comes from the declarations
+// themselves.
+
+#include <cases/error.h>
+#include <verification/app/methods.h>
+#include <verification/app/tests/claims/conduction.h>
+#include <verification/app/tests/claims/fronts.h>
+#include <verification/app/tests/claims/motion.h>
+#include <verification/app/tests/claims/tolerances.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <map>
+
+namespace meltfront::verification::claims
+{
+  namespace
+  {
+    using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin,
+        cases::ProblemKind;
+
+    /** What is wrong or indistinguishable is at least so many tolerances off. */
+    constexpr double margin = 5;
+
+    /** And what has happened at all, so many. */
+    constexpr double least_change = 2;
+
+    /** A form of a method. */
+    struct Form
+    {
+      const cases::Method *method;
+      cases::Capabilities capabilities;
+
+      Outcome run(Trial trial) const
+      {
+        adapt(method->name(), capabilities.form, trial);
+        return claims::run(*method, trial);
+      }
+
+      bool solves(ProblemKind problem) const
+      {
+        return std::ranges::find(capabilities.problems, problem)
+               != capabilities.problems.end();
+      }
+
+      bool takes(DomainShape shape) const
+      {
+        return std::ranges::find(capabilities.shapes, shape,
+                                 &cases::ShapeCapability::shape)
+               != capabilities.shapes.end();
+      }
+
+      /** A form that is for alloys only: of those no origins of fronts are told. */
+      bool needs_solute() const
+      {
+        return capabilities.takes(Effect::solute) && capabilities.front_origins.empty();
+      }
+
+      bool is_bar() const
+      {
+        return method->name() == "greenspan" && solves(ProblemKind::stefan);
+      }
+
+      /** Scenes that depend on one coordinate say so, but where the plane is meant. */
+      bool symmetric() const
+      {
+        return capabilities.form != "in the plane";
+      }
+
+      std::string name() const
+      {
+        return capabilities.form.empty() ? method->name()
+                                         : method->name() + " " + capabilities.form;
+      }
+    };
+
+    std::vector<Form> forms()
+    {
+      std::vector<Form> result;
+      for(const auto &method : methods())
+        for(const cases::Capabilities &capabilities : method->capabilities())
+          result.push_back({method.get(), capabilities});
+      return result;
+    }
+
+    /** The scenes of an effect for a form of a method; none if there are none. */
+    std::optional<EffectTrials> trials_of(const Form &form, Effect effect)
+    {
+      if(form.solves(ProblemKind::particle_solid))
+        return free_particle_trials(effect);
+      if(form.is_bar())
+        return particle_bar_trials(effect);
+      if(form.needs_solute())
+        return mush_trials(effect);
+      switch(effect)
+      {
+      case Effect::solute:
+      case Effect::solute_diffusion:
+      case Effect::eutectic:
+        return mush_trials(effect);
+      case Effect::gibbs_thomson:
+        return capillary_trials();
+      case Effect::heat_sources:
+        return EffectTrials{line_sink(0.4, form.symmetric()),
+                            line_sink(0.7, form.symmetric())};
+      case Effect::inclusion:
+        if(!form.solves(ProblemKind::poisson))
+          return inclusion_trials();
+        break;
+      default:
+        break;
+      }
+      if(!form.capabilities.takes(Effect::phase_change))
+        return steady_trials(effect);
+      const bool slab = form.takes(DomainShape::slab);
+      return front_trials(effect, slab ? DomainShape::slab : DomainShape::box,
+                          slab ? 1 : 2);
+    }
+
+    Trial trial_of(const Form &form, const cases::ShapeCapability &shape, int dimension,
+                   BoundaryKind kind)
+    {
+      if(form.solves(ProblemKind::interface_advection))
+        return carried_ball(dimension, kind);
+      if(form.is_bar())
+        return particle_bar(75);
+      // All of an outline is insulated, of a box the ends of x only.
+      const bool all_insulated
+          = shape.shape == DomainShape::outline && kind == BoundaryKind::insulated;
+      const bool held = !all_insulated
+                        && std::ranges::find(shape.walls, BoundaryKind::fixed_temperature)
+                               != shape.walls.end();
+      if(form.needs_solute())
+        return dissolved(heat_wave(shape.shape, dimension, kind, held));
+      if(form.capabilities.takes(FrontOrigin::none))
+        return heat_wave(shape.shape, dimension, kind, held);
+      const bool round
+          = shape.shape == DomainShape::ball || shape.shape == DomainShape::shell;
+      return moving_front(shape.shape, dimension, kind, round && form.symmetric());
+    }
+
+    Trial trial_of(const Form &form, FrontOrigin origin)
+    {
+      if(form.is_bar())
+        return particle_bar(75);
+      switch(origin)
+      {
+      case FrontOrigin::none:
+        return heat_wave(DomainShape::slab, 1, BoundaryKind::fixed_temperature, true);
+      case FrontOrigin::initial_front:
+        return form.takes(DomainShape::slab)
+                   ? moving_front(DomainShape::slab, 1, BoundaryKind::insulated, false)
+                   : moving_front(DomainShape::box, 2, BoundaryKind::insulated, false);
+      case FrontOrigin::source:
+        return line_sink(0.6, form.symmetric());
+      default:
+        return cold_wall(origin == FrontOrigin::partly_melted);
+      }
+    }
+
+    /** Largest of the shares of the tolerances that differences make up. */
+    double in_tolerances(const Differences &differences, const Tolerance &tolerance,
+                         const Trial &trial)
+    {
+      return std::fmax(differences.sites / (tolerance.sites * trial.scale),
+                       differences.solid / tolerance.solid);
+    }
+
+    std::string words(const Differences &differences)
+    {
+      return fmt::format("sites differ by {:.3g}, the solid's share by {:.3g}",
+                         differences.sites, differences.solid);
+    }
+
+    long calls_of(const cases::Cost &cost, Effect effect)
+    {
+      long calls = 0;
+      for(const cases::EffectCost &entry : cost.effects)
+        calls += entry.effect == effect ? entry.calls : 0;
+      return calls;
+    }
+
+    /** An effect that is switched off costs nothing; a method may refuse what is left. */
+    void expect_nothing_spent(const Form &form, Trial trial, Effect effect)
+    {
+      trial.scene.effect_choices[effect] = cases::EffectChoice::off;
+      try
+      {
+        const Outcome off = form.run(trial);
+        for(const cases::EffectCost &entry : off.cost.effects)
+          if(entry.effect == effect)
+          {
+            EXPECT_EQ(entry.calls, 0);
+            EXPECT_EQ(entry.bytes, 0);
+          }
+      }
+      catch(const cases::Refusal &)
+      {
+      }
+    }
+
+    class EffectClaim : public testing::Test
+    {
+    public:
+      EffectClaim(Form form, Effect effect)
+        : form(std::move(form))
+        , effect(effect)
+      {
+      }
+
+      void TestBody() override
+      {
+        const std::optional<EffectTrials> trials = trials_of(form, effect);
+        ASSERT_TRUE(trials) << form.name() << " claims '" << cases::to_string(effect)
+                            << "', of which there is no scene";
+        const auto &[first, second, one_value_only] = *trials;
+        ASSERT_TRUE(cases::effects_called_for(second.scene).contains(effect));
+        if(one_value_only)
+        {
+          EXPECT_THROW(form.run(second), cases::Refusal);
+          return;
+        }
+        const Tolerance tolerance = tolerance_of(form.method->name(), first.scene);
+        const Outcome with_first = form.run(first);
+        const Differences at_first = first.judge(with_first.end);
+        EXPECT_LE(in_tolerances(at_first, tolerance, first), 1) << words(at_first);
+        const Outcome with_second = form.run(second);
+        const Differences at_second = second.judge(with_second.end),
+                          ignored = second.judge(with_first.end);
+        EXPECT_LE(in_tolerances(at_second, tolerance, second), 1) << words(at_second);
+        EXPECT_GT(in_tolerances(ignored, tolerance, second), margin)
+            << "ignoring the effect would make too little difference: " << words(ignored);
+        EXPECT_GT(calls_of(with_second.cost, effect), 0);
+        expect_nothing_spent(form, second, effect);
+      }
+
+    private:
+      Form form;
+      Effect effect;
+    };
+
+    /** A run that is held against the exact solution, and must do something. */
+    class RunClaim : public testing::Test
+    {
+    public:
+      using Make = std::function<Trial()>;
+
+      RunClaim(Form form, Make make, std::optional<FrontOrigin> origin = {})
+        : form(std::move(form))
+        , make(std::move(make))
+        , origin(origin)
+      {
+      }
+
+      void TestBody() override
+      {
+        const Trial trial = make();
+        if(origin)
+        {
+          const auto origins = cases::front_origins(trial.scene);
+          EXPECT_NE(std::ranges::find(origins, *origin), origins.end());
+        }
+        const Tolerance tolerance = tolerance_of(form.method->name(), trial.scene);
+        const Outcome outcome = form.run(trial);
+        const Differences end = trial.judge(outcome.end),
+                          start = trial.judge(outcome.start);
+        EXPECT_LE(in_tolerances(end, tolerance, trial), 1) << words(end);
+        EXPECT_GT(in_tolerances(start, tolerance, trial), least_change)
+            << "nothing happens in the scene: " << words(start);
+      }
+
+    private:
+      Form form;
+      Make make;
+      std::optional<FrontOrigin> origin;
+    };
+
+    /** Letters and digits only, as names of tests must have. */
+    std::string identifier(const std::string &text)
+    {
+      std::string result;
+      bool upper = true;
+      for(const char c : text)
+        if(std::isalnum(static_cast<unsigned char>(c)))
+        {
+          result += upper ? static_cast<char>(std::toupper(c)) : c;
+          upper = false;
+        }
+        else
+          upper = true;
+      return result;
+    }
+
+    template <typename Test, typename... Arguments>
+    void add(const Form &form, const std::string &suite, const std::string &name,
+             const Arguments &...arguments)
+    {
+      testing::RegisterTest(
+          suite.c_str(), (identifier(form.name()) + "_" + identifier(name)).c_str(),
+          nullptr, nullptr, __FILE__, __LINE__,
+          [=]() -> testing::Test * { return new Test(form, arguments...); });
+    }
+
+    void add_tests(const Form &form)
+    {
+      for(const Effect effect : form.capabilities.effects)
+        add<EffectClaim>(form, "EffectClaims", cases::to_string(effect), effect);
+      for(const FrontOrigin origin : form.capabilities.front_origins)
+        add<RunClaim>(form, "FrontOriginClaims", cases::to_string(origin),
+                      RunClaim::Make([=] { return trial_of(form, origin); }),
+                      std::optional(origin));
+      for(const cases::ShapeCapability &shape : form.capabilities.shapes)
+        for(const int dimension : shape.dimensions)
+          for(const BoundaryKind kind : shape.walls)
+            add<RunClaim>(
+                form, "WallClaims",
+                fmt::format("{} {}D {}", cases::to_string(shape.shape), dimension,
+                            cases::to_string(kind)),
+                RunClaim::Make([=] { return trial_of(form, shape, dimension, kind); }),
+                std::optional<FrontOrigin>());
+    }
+  } // namespace
+} // namespace meltfront::verification::claims
+
+int main(int argc, char **argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  for(const auto &form : meltfront::verification::claims::forms())
+    meltfront::verification::claims::add_tests(form);
+  return RUN_ALL_TESTS();
+}
