@@ -239,7 +239,7 @@ namespace meltfront::verification::claims
       scene.material.liquid.specific_heat_capacity = mush.liquid_heat_capacity;
       scene.end_time
           = mush.diffusivity > 0 ? 0.06 : 0.15; // before the far wall is reached
-      constexpr double far = 1;
+      constexpr double far = 0;
       scene.initial.temperature = cases::Field::uniform(far);
       scene.initial.concentration = {cases::Field::uniform(concentration)};
       cases::Solute solute;
@@ -453,7 +453,6 @@ namespace meltfront::verification::claims
       second.slope = 7;
       break;
     case Effect::solute_diffusion:
-      first.diffusivity = 0.05;
       second.diffusivity = 0.3;
       break;
     case Effect::eutectic:
