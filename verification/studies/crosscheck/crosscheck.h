@@ -19,7 +19,7 @@ namespace meltfront::verification
     int dimension = 0; ///< 0: any
     std::string directory;
     int jobs = 0;       ///< processes at once; 0: one for each core
-    double within = 20; ///< longest time of a run (wall s)
+    double within = 20; ///< longest time of a run (processor s)
     std::vector<const cases::Method *> methods;
     std::string program_version;
     std::string program_hash;      ///< empty: the SHA-256 of the running program's file

@@ -36,7 +36,9 @@ namespace meltfront::verification
     std::optional<Contradiction> contradiction;
   };
 
-  /** The three resolutions for a scene: coarser in more dimensions. */
+  /** The resolutions for a scene, coarser in more dimensions: the three at which every
+   * scene is run, and those of a second look. Each is 1.6 times the one before, and even.
+   */
   std::vector<int> crosscheck_resolutions(const cases::Scene &scene);
 
   /**
