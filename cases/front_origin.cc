@@ -1,16 +1,17 @@
 #include <cases/capabilities.h>
-#include <cases/sampling.h>
+#include <cases/dense_sampling.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace meltfront::cases
 {
   namespace
   {
-    constexpr int times_looked_at = 257;
-
     /** Off a wall by this share of the domain's side: initial and wall value may differ
      * at the wall itself. */
     constexpr double next_to_wall = 1e-6;
@@ -32,21 +33,23 @@ namespace meltfront::cases
       explicit Start(const Scene &scene)
         : scene(scene)
       {
-        visit_points(scene.domain, [&](const Position &p)
-                     { largest = std::fmax(largest, std::abs(excess(p))); });
+        std::vector<const Field *> fields{&scene.initial.temperature};
+        if(scene.initial.front)
+          fields.push_back(&*scene.initial.front);
+        std::vector<std::pair<double, double>> values;
+        visit_densely(scene, fields,
+                      [&](const Position &p)
+                      {
+                        values.emplace_back(front(p), excess(p));
+                        largest = std::fmax(largest, std::abs(values.back().second));
+                      });
+        for(const auto &[front, excess] : values)
+          found[static_cast<std::size_t>(phase(front, excess))] = true;
       }
 
       InitialPhase phase(const Position &p) const
       {
-        const double front
-            = scene.initial.front ? (*scene.initial.front)(p, scene.start_time) : 0;
-        const double sign = front != 0 ? front : excess(p);
-        if(front != 0 || std::abs(sign) > round_off())
-          return sign < 0 ? InitialPhase::solid : InitialPhase::liquid;
-        const double fraction = scene.initial.solid_fraction_at_melting;
-        return fraction == 1   ? InitialPhase::solid
-               : fraction == 0 ? InitialPhase::liquid
-                               : InitialPhase::mush;
+        return phase(front(p), excess(p));
       }
 
       /** A temperature nearer to the melting point than this is at it (K). */
@@ -58,10 +61,7 @@ namespace meltfront::cases
 
       bool has(InitialPhase wanted) const
       {
-        bool found = false;
-        visit_points(scene.domain,
-                     [&](const Position &p) { found = found || phase(p) == wanted; });
-        return found;
+        return found[static_cast<std::size_t>(wanted)];
       }
 
       /** What lies at a wall inside of a point of it. */
@@ -81,6 +81,22 @@ namespace meltfront::cases
       }
 
     private:
+      InitialPhase phase(double front, double excess) const
+      {
+        const double sign = front != 0 ? front : excess;
+        if(front != 0 || std::abs(sign) > round_off())
+          return sign < 0 ? InitialPhase::solid : InitialPhase::liquid;
+        const double fraction = scene.initial.solid_fraction_at_melting;
+        return fraction == 1   ? InitialPhase::solid
+               : fraction == 0 ? InitialPhase::liquid
+                               : InitialPhase::mush;
+      }
+
+      double front(const Position &p) const
+      {
+        return scene.initial.front ? (*scene.initial.front)(p, scene.start_time) : 0;
+      }
+
       double excess(const Position &p) const
       {
         const double value = scene.initial.temperature(p, scene.start_time)
@@ -90,6 +106,7 @@ namespace meltfront::cases
 
       const Scene &scene;
       double largest = 0;
+      std::array<bool, 3> found{}; ///< by InitialPhase
     };
 
     /** Whether the temperature of a wall is ever on the other side of the melting point
@@ -97,28 +114,28 @@ namespace meltfront::cases
     bool starts_front(const Scene &scene, const Start &start, Side side)
     {
       const Boundary &boundary = scene.boundary(side);
-      if(boundary.kind != BoundaryKind::fixed_temperature)
+      // Undercooled liquid does not freeze at a wall that is no colder than itself.
+      if(boundary.kind != BoundaryKind::fixed_temperature
+         || metastable_initial_phase(scene) != nullptr)
         return false;
-      bool found = false;
+      std::vector<Position> solid, liquid;
       visit_wall(scene.domain, side,
                  [&](const Position &wall)
                  {
                    const InitialPhase phase = start.phase_at_wall(side, wall);
-                   if(found || phase == InitialPhase::mush)
-                     return;
-                   const int times = boundary.value.constant ? 1 : times_looked_at;
-                   for(int i = 0; i < times && !found; ++i)
-                   {
-                     const double time = scene.start_time
-                                         + (scene.end_time - scene.start_time) * i
-                                               / std::max(times - 1, 1);
-                     const double excess = boundary.value(wall, time)
-                                           - scene.material.melting_temperature;
-                     const double margin = start.round_off();
-                     found = phase == InitialPhase::solid ? excess > margin
-                                                          : excess < -margin;
-                   }
+                   if(phase != InitialPhase::mush)
+                     (phase == InitialPhase::solid ? solid : liquid).push_back(wall);
                  });
+      bool found = false;
+      for(const auto &[positions, sign] :
+          {std::pair(&solid, 1.), std::pair(&liquid, -1.)})
+        visit_values_in_time(scene, boundary.value, *positions,
+                             [&, sign = sign](double temperature)
+                             {
+                               const double excess
+                                   = temperature - scene.material.melting_temperature;
+                               found = found || sign * excess > start.round_off();
+                             });
       return found;
     }
 

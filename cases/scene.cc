@@ -1,6 +1,8 @@
+#include <cases/dense_sampling.h>
 #include <cases/error.h>
-#include <cases/sampling.h>
+#include <cases/expression_words.h>
 #include <cases/scene.h>
+#include <cases/temperature_slack.h>
 
 #include <fmt/format.h>
 
@@ -91,11 +93,50 @@ namespace meltfront::cases
 
   namespace
   {
-    constexpr int samples_in_time = 65;
+    constexpr int samples_of_power = 257;
+    constexpr std::size_t samples_of_release = 1000;
 
-    /** Wall values given by an expression may hold short pulses; those of an exact
-     * solution do not. */
-    constexpr int samples_of_expression = 4097;
+    /** Release that varies in space and time is sampled at some points only. */
+    void visit_release(const Scene &scene, const ValueVisitor &visit)
+    {
+      const Field &release = *scene.heat_release;
+      std::vector<Position> positions;
+      const auto collect = [&](const Position &p) { positions.push_back(p); };
+      const bool steady = release.constant || !may_depend_on(release.expression, "t");
+      if(steady || !may_depend_on(release.expression, "xyz"))
+        visit_densely(scene, {&release}, collect);
+      else
+        visit_points(scene.domain, collect);
+      if(!steady && positions.size() > samples_of_release)
+      {
+        std::vector<Position> some;
+        const std::size_t stride = positions.size() / samples_of_release + 1;
+        for(std::size_t i = 0; i < positions.size(); i += stride)
+          some.push_back(positions[i]);
+        positions.swap(some);
+      }
+      visit_values_in_time(scene, release, positions, visit);
+    }
+
+    void visit_power(const Scene &scene, const PointSource &source,
+                     const ValueVisitor &visit)
+    {
+      double before = 0;
+      for(int i = 0; i < samples_of_power; ++i)
+      {
+        const double time
+            = scene.start_time
+              + (scene.end_time - scene.start_time) * i / (samples_of_power - 1);
+        visit(source.power(time));
+        if(!source.energy)
+          continue;
+        // A pulse between the samples shows in the energy.
+        const double energy = source.energy(time);
+        if(i > 0)
+          visit(energy - before);
+        before = energy;
+      }
+    }
   } // namespace
 
   TemperatureBounds temperature_bounds(const Scene &scene)
@@ -110,27 +151,6 @@ namespace meltfront::cases
       lower = std::min(lower, temperature);
       upper = std::max(upper, temperature);
     };
-    if(scene.problem != ProblemKind::poisson)
-      visit_points(scene.domain, [&](const Position &p)
-                   { include(scene.initial.temperature(p, scene.start_time)); });
-    for(const Side side : scene.sides())
-    {
-      const Boundary &boundary = scene.boundary(side);
-      if(boundary.kind != BoundaryKind::fixed_temperature
-         && boundary.kind != BoundaryKind::heat_transfer)
-        continue;
-      visit_wall(scene.domain, side,
-                 [&](const Position &wall)
-                 {
-                   const int samples = boundary.value.constant ? 1
-                                       : boundary.exact        ? samples_in_time
-                                                               : samples_of_expression;
-                   const double span = scene.end_time - scene.start_time;
-                   for(int i = 0; i < samples; ++i)
-                     include(boundary.value(
-                         wall, scene.start_time + span * i / std::max(samples - 1, 1)));
-                 });
-    }
     const auto widen = [&](double heat)
     {
       if(heat > 0)
@@ -138,22 +158,24 @@ namespace meltfront::cases
       if(heat < 0)
         lower = -infinity;
     };
-    for(int i = 0; i < samples_in_time; ++i)
+    if(scene.problem != ProblemKind::poisson)
+      visit_densely(scene, {&scene.initial.temperature},
+                    [&](const Position &p)
+                    { include(scene.initial.temperature(p, scene.start_time)); });
+    for(const Side side : scene.sides())
     {
-      const double time
-          = scene.start_time
-            + (scene.end_time - scene.start_time) * i / (samples_in_time - 1);
-      for(const PointSource &source : scene.sources)
-        widen(source.power(time));
-      if(scene.heat_release)
-        visit_points(scene.domain,
-                     [&](const Position &p) { widen((*scene.heat_release)(p, time)); });
-      for(const Side side : scene.sides())
-        if(scene.boundary(side).kind == BoundaryKind::flux)
-          visit_wall(scene.domain, side,
-                     [&](const Position &wall)
-                     { widen(scene.boundary(side).value(wall, time)); });
+      const Boundary &boundary = scene.boundary(side);
+      if(boundary.kind == BoundaryKind::fixed_temperature
+         || boundary.kind == BoundaryKind::heat_transfer)
+        visit_wall_values(scene, side, boundary.value, include);
     }
+    for(const Side side : scene.sides())
+      if(scene.boundary(side).kind == BoundaryKind::flux)
+        visit_wall_values(scene, side, scene.boundary(side).value, widen);
+    if(scene.heat_release)
+      visit_release(scene, widen);
+    for(const PointSource &source : scene.sources)
+      visit_power(scene, source, widen);
     // Walls that vary are sampled; their extremes may fall between the samples.
     const bool varying
         = std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
@@ -177,19 +199,19 @@ namespace meltfront::cases
       return nullptr;
     const double melting = scene.material.melting_temperature;
     double coldest_liquid = 0, warmest_solid = 0, span = 0;
-    visit_points(scene.domain,
-                 [&](const Position &p)
-                 {
-                   const double excess
-                       = scene.initial.temperature(p, scene.start_time) - melting;
-                   const double distance = (*scene.initial.front)(p, scene.start_time);
-                   if(std::isfinite(excess))
-                     span = std::max(span, std::abs(excess));
-                   if(distance > 0)
-                     coldest_liquid = std::min(coldest_liquid, excess);
-                   if(distance < 0)
-                     warmest_solid = std::max(warmest_solid, excess);
-                 });
+    visit_densely(scene, {&scene.initial.temperature, &*scene.initial.front},
+                  [&](const Position &p)
+                  {
+                    const double excess
+                        = scene.initial.temperature(p, scene.start_time) - melting;
+                    const double distance = (*scene.initial.front)(p, scene.start_time);
+                    if(std::isfinite(excess))
+                      span = std::max(span, std::abs(excess));
+                    if(distance > 0)
+                      coldest_liquid = std::min(coldest_liquid, excess);
+                    if(distance < 0)
+                      warmest_solid = std::max(warmest_solid, excess);
+                  });
     const double round_off = 1e-9 * span;
     if(coldest_liquid < -round_off)
       return "liquid is undercooled";
@@ -202,8 +224,9 @@ namespace meltfront::cases
       return false;
     const Field &concentration = scene.initial.concentration[solute];
     bool present = false;
-    visit_points(scene.domain, [&](const Position &p)
-                 { present |= concentration(p, scene.start_time) != 0; });
+    visit_densely(scene, {&concentration},
+                  [&](const Position &p)
+                  { present = present || concentration(p, scene.start_time) != 0; });
     return present;
   }
 
@@ -218,7 +241,8 @@ namespace meltfront::cases
       span = std::max({std::isfinite(bounds.upper) ? std::abs(bounds.upper) : 0,
                        std::isfinite(bounds.lower) ? std::abs(bounds.lower) : 0,
                        highest - lowest});
-    const double slack = tolerance * std::max(span, 1e-300);
+    const double slack
+        = tolerance * std::max(span, 1e-300) + temperature_round_off(bounds);
     if(lowest < bounds.lower - slack)
       throw NumericalError(
           method, step, time, "temperature",

@@ -203,6 +203,7 @@ namespace meltfront::cases
       complete_scene(prm, known, c.scene);
       check_effects(prm, c.scene);
       check_fields(prm, c.scene);
+      find_scene_breakpoints(prm, c.scene);
       check_alloy(prm, c.scene, sample_points(c.scene.domain));
       check_conduction(prm, c.scene, sample_points(c.scene.domain));
       check_exact_solution(prm, c);

@@ -1,6 +1,7 @@
 #include <cases/case_file/expression.h>
 #include <cases/case_file/prm_scan.h>
 #include <cases/error.h>
+#include <cases/expression_words.h>
 #include <cases/options.h>
 
 #include <deal.II/base/function_parser.h>
@@ -20,12 +21,6 @@ namespace meltfront::cases
 {
   namespace
   {
-    /** Those of deal.II's parser; it has no erf: 1 - erfc serves. */
-    const std::vector<std::string> functions{
-        "sin",  "cos",  "tan", "asin", "acos", "atan",  "atan2", "sinh",
-        "cosh", "tanh", "exp", "ln",   "log",  "log10", "sqrt",  "abs",
-        "min",  "max",  "pow", "erfc", "if",   "floor", "ceil",  "sign"};
-
     bool starts_name(char c)
     {
       return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
@@ -34,45 +29,6 @@ namespace meltfront::cases
     bool is_digit(char c)
     {
       return std::isdigit(static_cast<unsigned char>(c));
-    }
-
-    /** Position after the number that begins at a position. */
-    std::size_t skip_number(const std::string &text, std::size_t at)
-    {
-      while(at < text.size() && (is_digit(text[at]) || text[at] == '.'))
-        ++at;
-      if(at < text.size() && (text[at] == 'e' || text[at] == 'E'))
-      {
-        std::size_t exponent = at + 1;
-        if(exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-'))
-          ++exponent;
-        if(exponent < text.size() && is_digit(text[exponent]))
-          at = exponent;
-        while(at < text.size() && is_digit(text[at]))
-          ++at;
-      }
-      return at;
-    }
-
-    /** The names in an expression, in their order. */
-    std::vector<std::string> names_in(const std::string &text)
-    {
-      std::vector<std::string> names;
-      for(std::size_t i = 0; i < text.size();)
-      {
-        if(is_digit(text[i]) || text[i] == '.')
-          i = skip_number(text, i);
-        else if(starts_name(text[i]))
-        {
-          const std::size_t begin = i;
-          while(i < text.size() && (starts_name(text[i]) || is_digit(text[i])))
-            ++i;
-          names.push_back(text.substr(begin, i - begin));
-        }
-        else
-          ++i;
-      }
-      return names;
     }
 
     /**
@@ -121,7 +77,7 @@ namespace meltfront::cases
     void check_names(const std::vector<std::string> &names,
                      const std::vector<std::string> &variables)
     {
-      std::vector<std::string> valid = functions;
+      std::vector<std::string> valid = expression_functions();
       valid.push_back("pi");
       valid.insert(valid.end(), variables.begin(), variables.end());
       for(const std::string &name : names)
@@ -252,11 +208,16 @@ namespace meltfront::cases
   }
 
   std::function<double(double)> integral_from(std::function<double(double)> function,
-                                              double start, double end)
+                                              double start, double end,
+                                              const std::vector<double> &breakpoints)
   {
     constexpr int panels = 64;
-    const auto panel_start
-        = [start, end](int i) { return start + (end - start) * i / panels; };
+    std::vector<double> edges = breakpoints;
+    std::erase_if(edges, [=](double time) { return !(time > start && time < end); });
+    for(int i = 0; i <= panels; ++i)
+      edges.push_back(start + (end - start) * i / panels);
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     // Scaled to the unit interval: Boost compares errors there with a tolerance that
     // knows the interval's length, which short intervals could never meet.
     const auto over = [function = std::move(function)](double from, double to)
@@ -271,13 +232,13 @@ namespace meltfront::cases
                  0., 1., deepest, tolerance);
     };
     std::vector<double> sums{0.};
-    for(int i = 0; i < panels; ++i)
-      sums.push_back(sums.back() + over(panel_start(i), panel_start(i + 1)));
+    for(std::size_t i = 1; i < edges.size(); ++i)
+      sums.push_back(sums.back() + over(edges[i - 1], edges[i]));
     return [=](double time)
     {
-      const int panel = std::clamp(
-          static_cast<int>((time - start) / (end - start) * panels), 0, panels - 1);
-      return sums[panel] + over(panel_start(panel), time);
+      const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, time);
+      const auto panel = static_cast<std::size_t>(above - edges.begin()) - 1;
+      return sums[panel] + over(edges[panel], time);
     };
   }
 } // namespace meltfront::cases

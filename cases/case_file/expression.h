@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace meltfront::cases
 {
@@ -27,11 +28,13 @@ namespace meltfront::cases
 
   /**
    * Integral of a function of time from `start`, for times up to `end`: Gauss-Kronrod
-   * quadrature over 64 panels whose sums are kept, so that differences of two results are
-   * those of one and the same function.
+   * quadrature over 64 panels, which breakpoints (ascending) divide further, and whose
+   * sums are kept, so that differences of two results are those of one and the same
+   * function.
    */
   std::function<double(double time)>
-  integral_from(std::function<double(double time)> function, double start, double end);
+  integral_from(std::function<double(double time)> function, double start, double end,
+                const std::vector<double> &breakpoints = {});
 } // namespace meltfront::cases
 
 #endif

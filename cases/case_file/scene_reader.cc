@@ -1,4 +1,6 @@
 #include <cases/case_file/alloy_reader.h>
+#include <cases/case_file/breakpoints.h>
+#include <cases/case_file/case_checks.h>
 #include <cases/case_file/case_keys.h>
 #include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/domain_reader.h>
@@ -7,6 +9,7 @@
 #include <cases/case_file/particle_solid_reader.h>
 #include <cases/case_file/scene_reader.h>
 #include <cases/case_file/times_reader.h>
+#include <cases/sampling.h>
 
 #include <fmt/format.h>
 
@@ -40,6 +43,32 @@ namespace meltfront::cases
       {
         throw prm.error(subsection, key, error.what());
       }
+    }
+
+    void find_breakpoints_of(const PrmFile &prm, const std::string &subsection,
+                             const std::string &key, const Scene &scene,
+                             const std::vector<Position> &positions, Field &field)
+    {
+      try
+      {
+        add_breakpoints(field, positions, scene.start_time, scene.end_time);
+      }
+      catch(const InputError &error)
+      {
+        throw prm.error(subsection, key, error.what());
+      }
+    }
+
+    /** Some of many positions, so that what moves is seen at several. */
+    std::vector<Position> some_of(const std::vector<Position> &positions)
+    {
+      constexpr std::size_t wanted = 9;
+      std::vector<Position> result;
+      const std::size_t taken = std::min(wanted, positions.size());
+      for(std::size_t i = 0; i < taken; ++i)
+        result.push_back(
+            positions[i * (positions.size() - 1) / std::max<std::size_t>(taken - 1, 1)]);
+      return result;
     }
 
     /** Of a steady scene: it conducts, that is all. */
@@ -232,13 +261,7 @@ namespace meltfront::cases
       if(source.expression == "exact")
         return source;
       const Field field = read_field(prm, here, "power", "t");
-      const double start = scene.start_time;
       source.power = [field](double time) { return field({}, time); };
-      if(field.constant)
-        source.energy = [power = field({}, 0), start](double time)
-        { return power * (time - start); };
-      else
-        source.energy = integral_from(source.power, start, scene.end_time);
       return source;
     }
 
@@ -250,6 +273,24 @@ namespace meltfront::cases
         if(const std::string here = fmt::format("Scene/Source {}", i); prm.opened(here))
           subsections.push_back(here);
       return subsections;
+    }
+
+    /** The source's energy: the integral of its power, piece by piece between the times
+     * at which that breaks. */
+    void integrate_power(const PrmFile &prm, const std::string &here, const Scene &scene,
+                         PointSource &source)
+    {
+      const double start = scene.start_time;
+      Field field = read_field(prm, here, "power", "t");
+      if(field.constant)
+        source.energy = [power = field({}, 0), start](double time)
+        { return power * (time - start); };
+      else
+      {
+        find_breakpoints_of(prm, here, "power", scene, {Position{}}, field);
+        source.energy
+            = integral_from(source.power, start, scene.end_time, field.breakpoints);
+      }
     }
 
     /** The front of an exact solution as a level set, negative in solid. */
@@ -356,7 +397,10 @@ namespace meltfront::cases
     {
       PointSource &source = scene.sources[i];
       if(source.expression != "exact")
+      {
+        integrate_power(prm, subsections[i], scene, source);
         continue;
+      }
       if(!known.power)
         throw prm.error(subsections[i], "power",
                         "is 'exact' but the exact solution is not that of a sink");
@@ -365,5 +409,29 @@ namespace meltfront::cases
           = [energy = known.energy, before = known.energy(scene.start_time)](double time)
       { return energy(time) - before; };
     }
+  }
+
+  void find_scene_breakpoints(const PrmFile &prm, Scene &scene)
+  {
+    if(scene.problem == ProblemKind::poisson)
+      return;
+    for(const Side side : scene.sides())
+    {
+      Boundary &boundary = *scene.boundaries[static_cast<std::size_t>(side)];
+      if(boundary.exact || !boundary.value.value)
+        continue;
+      std::vector<Position> positions;
+      visit_wall(scene.domain, side,
+                 [&](const Position &wall) { positions.push_back(wall); });
+      const char *key = boundary.kind == BoundaryKind::flux ? "flux"
+                        : boundary.kind == BoundaryKind::heat_transfer
+                            ? "ambient temperature"
+                            : "temperature";
+      find_breakpoints_of(prm, wall_keys(side), key, scene, some_of(positions),
+                          boundary.value);
+    }
+    if(scene.heat_release)
+      find_breakpoints_of(prm, "Scene/Heat release", "power density", scene,
+                          some_of(sample_points(scene.domain)), *scene.heat_release);
   }
 } // namespace meltfront::cases

@@ -17,6 +17,10 @@ namespace meltfront::cases
    * so.
    */
   void complete_scene(const PrmFile &prm, const KnownSolution &known, Scene &scene);
+
+  /** Fill in the breakpoints of what walls prescribe and of the heat released.
+   * @throws InputError where one varies faster than can be told. */
+  void find_scene_breakpoints(const PrmFile &prm, Scene &scene);
 } // namespace meltfront::cases
 
 #endif

@@ -206,6 +206,16 @@ TEST(FrontOrigins, AWallThatKeepsItsPhaseStartsNone)
   EXPECT_EQ(least_number_of_fronts(scene), 2);
 }
 
+TEST(FrontOrigins, AWallOfUndercooledLiquidStartsNone)
+{
+  Scene scene = slab();
+  scene.initial.front = field([](const Position &p, double) { return p[0] - 0.3; });
+  scene.initial.temperature
+      = field([](const Position &p, double) { return std::min(0., 0.3 - p[0]); });
+  hold(scene, Side::x_max, Field::uniform(-0.7));
+  EXPECT_EQ(front_origins(scene), Origins{FrontOrigin::initial_front});
+}
+
 TEST(FrontOrigins, ASinkInLiquidAndASourceInSolid)
 {
   Scene scene = square();

@@ -4,6 +4,7 @@
 #include <particles/alloy/mixture_run.h>
 #include <particles/alloy/parameters.h>
 #include <particles/alloy/two_population_run.h>
+#include <particles/sph/demand.h>
 
 #include <fmt/format.h>
 
@@ -61,6 +62,13 @@ namespace meltfront::particles
         return mixture_options();
       }
 
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        return sph_demand(resolve_mixture_parameters(scene, resolution).sph, scene,
+                          {.per_particle = 600, .per_neighbour = 40});
+      }
+
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
                       const cases::Resolution &resolution,
                       cases::Observer &observer) const override
@@ -109,6 +117,14 @@ namespace meltfront::particles
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
         return two_population_options(policy);
+      }
+
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        return sph_demand(
+            resolve_two_population_parameters(policy, scene, resolution).sph, scene,
+            {.per_particle = 900, .per_neighbour = 60});
       }
 
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,

@@ -135,7 +135,7 @@ namespace meltfront::particles
     ConductionRows rows;
     MixtureConduction conduction;
     ConductionVariable wall_excess; ///< T - T_m of a wall
-    EffectMeter equilibrium_meter;
+    cases::EffectMeter equilibrium_meter;
     std::optional<SoluteDiffusion> diffusion;
     std::optional<HeatSources> heat_sources;
     std::optional<WallTemperature> wall_temperature;

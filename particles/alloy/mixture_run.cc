@@ -2,6 +2,8 @@
 #include <cases/scene.h>
 #include <cases/snapshot.h>
 #include <cases/stopwatch.h>
+#include <cases/temperature_slack.h>
+#include <cases/time_integral.h>
 #include <particles/alloy/implicit_mixture.h>
 #include <particles/alloy/mixture_flow.h>
 #include <particles/alloy/mixture_run.h>
@@ -60,7 +62,9 @@ namespace meltfront::particles
         }
         else
           scheme.emplace(plan, state_of_all.size(), state_of_all.size(), flows.threads());
-        flows.prepare_step(scene.start_time, time_of(1));
+        flows.prepare_step(
+            scene.start_time,
+            cases::end_of_piece(breakpoints, scene.start_time, time_of(1)));
         flows.hold_walls(0, view());
         extremes = flows.follow(view());
         initial_heat = heat_content();
@@ -120,7 +124,12 @@ namespace meltfront::particles
         if(implicit_scheme)
           end = implicit_scheme->make_step(*this, step, begin, heat);
         else
-          advance_explicitly(step, begin, end, heat);
+          while(begin < end)
+          {
+            const double next = cases::end_of_piece(breakpoints, begin, end);
+            advance_explicitly(step, begin, next, heat);
+            begin = next;
+          }
         boundary_heat.add(heat.through / dis.cross_section);
         boundary_heat.add(heat.held);
         return end;
@@ -130,19 +139,21 @@ namespace meltfront::particles
       {
         flows.prepare_step(begin, end);
         const bool super = plan.stages > 1 && step > plan.resolved_steps;
-        heat.through
+        double through
             = super ? take_super_step(end - begin) : take_euler_steps(end - begin);
-        heat.held = finish_step();
+        double held = finish_step();
         if(super && breaks_bounds())
         {
           // Only convex combinations keep the maximum principle for certain: repeat the
           // step with these.
           scheme->restore(state_of_all);
           flows.follow(view());
-          heat.through = take_euler_steps(end - begin);
-          heat.held = finish_step();
+          through = take_euler_steps(end - begin);
+          held = finish_step();
           ++repeated_steps;
         }
+        heat.through += through;
+        heat.held += held;
       }
 
       std::vector<double> &state() override
@@ -192,7 +203,8 @@ namespace meltfront::particles
       bool breaks_bounds() const
       {
         const double span = bounds.upper - bounds.lower;
-        const double slack = 0.5 * bound_tolerance * (std::isfinite(span) ? span : 0);
+        const double slack = 0.5 * bound_tolerance * (std::isfinite(span) ? span : 0)
+                             + 0.5 * cases::temperature_round_off(bounds);
         return !extremes.finite || extremes.lowest < bounds.lower - slack
                || extremes.highest > bounds.upper + slack || least_concentration() < 0;
       }
@@ -334,6 +346,7 @@ namespace meltfront::particles
       cases::TemperatureBounds bounds;
       double particle_mass;
       StepPlan plan;
+      std::vector<double> breakpoints = cases::breakpoints_of(scene); ///< s
 
       std::size_t fields; ///< that steps change: enthalpy, then concentrations
       std::vector<double> state_of_all; ///< field after field

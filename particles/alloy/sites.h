@@ -1,12 +1,12 @@
 #ifndef meltfront_particles_alloy_sites_h
 #define meltfront_particles_alloy_sites_h
 
+#include <cases/effect_meter.h>
 #include <cases/snapshot.h>
 #include <particles/alloy/kernel_sums.h>
 #include <particles/alloy/mixture_state.h>
 #include <particles/alloy/parameters.h>
 #include <particles/alloy/phase_exchange.h>
-#include <particles/sph/effect_meter.h>
 
 #include <array>
 #include <optional>
@@ -138,7 +138,7 @@ namespace meltfront::particles
     SiteExchange exchange;
     std::optional<CurvedLiquidus> curve;
     std::vector<double> weight; ///< of each solute in dissolved()
-    EffectMeter meter;
+    cases::EffectMeter meter;
     std::optional<KernelSums> kernel_sums;
     std::vector<double> normaliser;        ///< zeta of equation 4.14
     std::vector<double> new_ice, new_heat; ///< made by each liquid, not yet given

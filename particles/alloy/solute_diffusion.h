@@ -1,9 +1,9 @@
 #ifndef meltfront_particles_alloy_solute_diffusion_h
 #define meltfront_particles_alloy_solute_diffusion_h
 
+#include <cases/effect_meter.h>
 #include <particles/alloy/substance.h>
 #include <particles/sph/conduction_rows.h>
-#include <particles/sph/effect_meter.h>
 
 #include <span>
 #include <vector>
@@ -105,7 +105,7 @@ namespace meltfront::particles
     std::vector<double> mobility;  ///< liquid mass fraction
     std::vector<double> in_liquid; ///< C/f of each solute, one after another
     long touched = 0;
-    EffectMeter meter, joint_meter;
+    cases::EffectMeter meter, joint_meter;
   };
 } // namespace meltfront::particles
 

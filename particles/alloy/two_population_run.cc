@@ -1,6 +1,8 @@
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
+#include <cases/temperature_slack.h>
+#include <cases/time_integral.h>
 #include <particles/alloy/two_population_flow.h>
 #include <particles/alloy/two_population_run.h>
 #include <particles/alloy/two_population_stepper.h>
@@ -112,7 +114,9 @@ namespace meltfront::particles
         weights = dis.weights;
         for(const std::uint32_t a : dis.held)
           weights[a] = 0; // holds a boundary value only
-        flows.prepare_step(scene.start_time, time_of(1));
+        flows.prepare_step(
+            scene.start_time,
+            cases::end_of_piece(breakpoints, scene.start_time, time_of(1)));
         flows.hold_walls(0);
         sites.update();
         initial_heat = sites.heat_content(dis.cross_section).initial;
@@ -130,8 +134,12 @@ namespace meltfront::particles
         for(long step = 1; step <= plan.steps; ++step)
         {
           const double end = time_of(step);
-          boundary_heat.add(stepper.advance(step, time_of(step - 1), end)
-                            / dis.cross_section);
+          for(double begin = time_of(step - 1); begin < end;)
+          {
+            const double next = cases::end_of_piece(breakpoints, begin, end);
+            boundary_heat.add(stepper.advance(step, begin, next) / dis.cross_section);
+            begin = next;
+          }
           check(step, end);
           if(observer.wants(step, end) || step == plan.steps)
             stepping.without([&] { observer.observe(snapshot(step, end)); });
@@ -170,7 +178,8 @@ namespace meltfront::particles
       {
         const double melting = scene.material.melting_temperature;
         const double span = bounds.upper - bounds.lower;
-        const double slack = 1e-9 * (std::isfinite(span) ? span : 0);
+        const double slack = 1e-9 * (std::isfinite(span) ? span : 0)
+                             + cases::temperature_round_off(bounds);
         const auto check_one = [&](const Population &population, const char *what)
         {
           for(std::size_t a = 0; a < n; ++a)
@@ -289,6 +298,7 @@ namespace meltfront::particles
       TwoPopulationFlow flows;
       cases::TemperatureBounds bounds;
       StepPlan plan;
+      std::vector<double> breakpoints = cases::breakpoints_of(scene); ///< s
       TwoPopulationStepper stepper;
       std::vector<double> weights, temperature, solid_fraction; ///< for snapshots
       double initial_heat = 0, initial_mass = 0;

@@ -5,16 +5,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace meltfront::particles
 {
   namespace
   {
+    /** Particles are numbered by 32 bits. */
+    constexpr double most_particles = std::numeric_limits<std::uint32_t>::max();
+
+    void require_numbers(double particles)
+    {
+      if(!(particles <= most_particles))
+        throw cases::Refusal(
+            fmt::format("{:.3g} particles would be needed, and at most {:.3g} can be "
+                        "numbered: take a smaller n",
+                        particles, most_particles));
+    }
+
     std::vector<double> lattice_line(const LatticeDirection &direction, double spacing)
     {
       const double spacings = (direction.upper - direction.lower) / spacing;
       const double whole = std::round(spacings);
+      require_numbers(whole + 1);
       if(whole < 1 || std::abs(spacings - whole) > 1e-6)
         throw cases::InputError(fmt::format(
             "a side of {:.6g} m is {:.6g} particle spacings of {:.6g} m long, which is "
@@ -47,6 +61,7 @@ namespace meltfront::particles
     std::array<std::vector<double>, 3> line{{{0.}, {0.}, {0.}}};
     for(int d = 0; d < dimension; ++d)
       line[d] = lattice_line(directions[d], spacing);
+    require_numbers(double(line[0].size()) * line[1].size() * line[2].size());
     ParticleStorage particles{dimension, {}};
     for(const double z : line[2])
       for(const double y : line[1])
@@ -58,6 +73,7 @@ namespace meltfront::particles
   ParticleStorage arrange_in_shell(int dimension, double inner, double outer,
                                    double spacing, LatticeLayout layout)
   {
+    require_numbers(std::pow(2 * (outer / spacing + 2), dimension));
     const double offset = layout == LatticeLayout::cell_centred ? 0.5 : 0;
     const int reach = static_cast<int>(std::ceil(outer / spacing)) + 1;
     const int reach_y = dimension > 1 ? reach : 0, reach_z = dimension > 2 ? reach : 0;

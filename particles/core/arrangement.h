@@ -30,7 +30,8 @@ namespace meltfront::particles
 
   /**
    * A cubic lattice that fills a box: x, y, z ascending with x the fastest.
-   * @throws cases::InputError if a side is not a whole number of spacings.
+   * @throws cases::InputError if a side is not a whole number of spacings, cases::Refusal
+   * for more particles than can be numbered.
    */
   ParticleStorage arrange_in_box(int dimension,
                                  const std::array<LatticeDirection, 3> &directions,
@@ -40,6 +41,7 @@ namespace meltfront::particles
    * Points of a cubic lattice, symmetric about the origin, with
    * inner <= distance from the origin < outer: the particles of a disk or a ball
    * (inner = 0) or of a shell, or the rows of ghosts beyond their walls.
+   * @throws cases::Refusal for more particles than can be numbered.
    */
   ParticleStorage arrange_in_shell(int dimension, double inner, double outer,
                                    double spacing, LatticeLayout layout);

@@ -16,8 +16,12 @@ namespace meltfront::particles::front_tracking
   struct LineWall
   {
     cases::BoundaryKind kind = cases::BoundaryKind::insulated;
-    /** Temperature, heat flux into the domain (W/m^2) or ambient temperature. */
+    /** Temperature, heat flux into the domain (W/m^2) or ambient temperature; where it
+     * jumps, what it comes from. */
     std::function<double(double time)> value;
+    std::function<double(double time)> value_after; ///< what it jumps to
+    /** The mean over a time of a flux that varies, else empty. */
+    std::function<double(double begin, double end)> mean_flux;
     double transfer = 0; ///< of BoundaryKind::heat_transfer, W/(m^2 K)
 
     bool fixed() const
@@ -37,6 +41,9 @@ namespace meltfront::particles::front_tracking
     std::array<LineWall, 2> walls;
     bool axis = false; ///< the lower end is an axis or a centre, no wall
     std::function<double(double x, double time)> heat_release; ///< W/m^3, or empty
+    /** The mean over a time of the heat released (W/m^3). */
+    std::function<double(double x, double begin, double end)> mean_release;
+    std::vector<double> breakpoints; ///< at which steps are to end (s)
     Displaced displaced = Displaced::liquid;
     bool metastable = false; ///< phases beyond the melting temperature are meant
 

@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
+#include <cases/time_integral.h>
 #include <particles/front_tracking/line_relax.h>
 #include <particles/front_tracking/line_run.h>
 #include <particles/front_tracking/line_sites.h>
@@ -81,8 +82,8 @@ namespace meltfront::particles::front_tracking
           report(stepper.state(), false);
         }
         for(int k = 1; k <= parameters.steps; ++k)
-          if(planned_time(k) > stepper.state().time)
-            stepper.advance(planned_time(k), [this] { after_step(); });
+          while(planned_time(k) > stepper.state().time)
+            advance(planned_time(k));
         return cost(setup);
       }
 
@@ -101,6 +102,18 @@ namespace meltfront::particles::front_tracking
             = temperature_span(bounds, initial, scene.material.melting_temperature);
         result.shortest_step = shortest_step_over_run * duration;
         return result;
+      }
+
+      /** Advance to a time, or to a breakpoint before it. */
+      void advance(double target)
+      {
+        const double end
+            = cases::end_of_piece(problem.breakpoints, stepper.state().time, target);
+        stepper.advance(end, [this] { after_step(); });
+        if(!std::ranges::binary_search(problem.breakpoints, end))
+          return;
+        walls += stepper.begin_anew();
+        inflow = wall_heat(problem, stepper.state());
       }
 
       double planned_time(int step) const
@@ -168,12 +181,11 @@ namespace meltfront::particles::front_tracking
       {
         const LineState &state = stepper.state();
         const double now = wall_heat(problem, state);
-        const double release_now = release(state);
         const double step = state.time - last_time;
-        walls += step * (now + inflow) / 2;
-        released += step * (release_now + last_release) / 2;
+        walls += step * (now + inflow) / 2
+                 + given_wall_heat(problem, last_time, state.time);
+        released += release(last_time, state.time);
         inflow = now;
-        last_release = release_now;
         last_time = state.time;
         const auto [lowest, highest]
             = std::minmax_element(state.temperature.begin(), state.temperature.end());
@@ -199,8 +211,8 @@ namespace meltfront::particles::front_tracking
         stepper.nodes_moved(places, std::move(states));
       }
 
-      /** Heat released in the domain per time. */
-      double release(const LineState &state) const
+      /** Heat released in the domain in a step. */
+      double release(double begin, double end) const
       {
         if(!problem.heat_release)
           return 0;
@@ -208,10 +220,10 @@ namespace meltfront::particles::front_tracking
         const std::vector<double> &x = problem.nodes;
         for(std::size_t i = 0; i < x.size(); ++i)
         {
-          const double from = i == 0 ? x[i] : (x[i - 1] + x[i]) / 2;
-          const double to = i + 1 == x.size() ? x[i] : (x[i] + x[i + 1]) / 2;
-          sum += problem.heat_release(x[i], state.time)
-                 * cases::volume_between(problem.symmetry, from, to);
+          const double lower = i == 0 ? x[i] : (x[i - 1] + x[i]) / 2;
+          const double upper = i + 1 == x.size() ? x[i] : (x[i] + x[i + 1]) / 2;
+          sum += (end - begin) * problem.mean_release(x[i], begin, end)
+                 * cases::volume_between(problem.symmetry, lower, upper);
         }
         return sum;
       }
@@ -277,7 +289,7 @@ namespace meltfront::particles::front_tracking
       double initial_heat = heat_of(problem, initial).total();
       double booked = 0; ///< through the walls before the first step
       double walls = 0, released = 0;
-      double inflow = 0, last_release = 0, last_time = 0;
+      double inflow = 0, last_time = 0;
       long first_step = 0; ///< 1 if the run set out from the similarity solution
     };
   } // namespace

@@ -69,7 +69,7 @@ namespace meltfront::particles::front_tracking
       const double x = side == 0 ? problem.nodes.front() : problem.nodes.back();
       if(side == 0 && problem.axis)
         continue;
-      double flux = state.wall_flux[side];
+      double flux = problem.walls[side].mean_flux ? 0 : state.wall_flux[side];
       const bool solid = state.solid(side == 0 ? 0 : state.n_intervals() - 1);
       if(!state.fronts.empty() && problem.displacement(solid) != 0)
       {
@@ -87,6 +87,17 @@ namespace meltfront::particles::front_tracking
       }
       sum += flux * area(problem.symmetry, x);
     }
+    return sum;
+  }
+
+  double given_wall_heat(const LineProblem &problem, double begin, double end)
+  {
+    double sum = 0;
+    for(const std::size_t side : {0, 1})
+      if(problem.walls[side].mean_flux)
+        sum += (end - begin) * problem.walls[side].mean_flux(begin, end)
+               * area(problem.symmetry,
+                      side == 0 ? problem.nodes.front() : problem.nodes.back());
     return sum;
   }
 

@@ -25,6 +25,10 @@ namespace meltfront::particles::front_tracking
    * liquid or solid that moves through them. */
   double wall_heat(const LineProblem &problem, const LineState &state);
 
+  /** Heat that walls' fluxes that vary bring in over a time (J), which wall_heat() leaves
+   * out. */
+  double given_wall_heat(const LineProblem &problem, double begin, double end);
+
   /** A state as sites: nodes and fronts in ascending order. A node stands for what is
    * nearer to it than to its neighbours, up to the front; so the solid's volume is that
    * between the fronts. */

@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/time_integral.h>
 #include <particles/core/arrangement.h>
 #include <particles/front_tracking/line_start.h>
 #include <particles/front_tracking/similarity_start.h>
@@ -26,9 +27,24 @@ namespace meltfront::particles::front_tracking
       LineWall wall;
       wall.kind = boundary.kind;
       wall.transfer = boundary.heat_transfer_coefficient;
-      if(wall.kind != BoundaryKind::insulated)
-        wall.value = [field = boundary.value, x](double time)
-        { return field(position_on_line(x), time); };
+      if(wall.kind == BoundaryKind::insulated)
+        return wall;
+      // Far less than any step, far more than round-off.
+      const double beside = 1e-11 * (scene.end_time - scene.start_time);
+      const auto value_at = [field = boundary.value, x](double side)
+      {
+        return [field, x, side](double time)
+        {
+          return field(position_on_line(x),
+                       cases::breaks_at(field, time) ? time + side : time);
+        };
+      };
+      wall.value = value_at(-beside);
+      wall.value_after = value_at(beside);
+      const cases::TimeMean mean(boundary.value);
+      if(wall.kind == BoundaryKind::flux && !mean.steady())
+        wall.mean_flux = [mean, x](double begin, double end)
+        { return mean(position_on_line(x), begin, end); };
       return wall;
     }
 
@@ -134,9 +150,19 @@ namespace meltfront::particles::front_tracking
       problem.walls[0]
           = wall_of(scene, domain.round() ? Side::inner : Side::x_min, lower);
     problem.walls[1] = wall_of(scene, domain.round() ? Side::outer : Side::x_max, upper);
+    problem.breakpoints = cases::breakpoints_of(scene);
     if(scene.heat_release)
-      problem.heat_release = [field = *scene.heat_release](double x, double time)
-      { return field(position_on_line(x), time); };
+    {
+      const double beside = 1e-11 * (scene.end_time - scene.start_time);
+      problem.heat_release = [field = *scene.heat_release, beside](double x, double time)
+      {
+        return field(position_on_line(x),
+                     cases::breaks_at(field, time) ? time - beside : time);
+      };
+      problem.mean_release = [mean = cases::TimeMean(*scene.heat_release)](
+                                 double x, double begin, double end)
+      { return mean(position_on_line(x), begin, end); };
+    }
     problem.displaced = parameters.displaced;
     problem.metastable = cases::metastable_initial_phase(scene) != nullptr;
     return problem;

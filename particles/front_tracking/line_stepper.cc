@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <particles/front_tracking/line_sites.h>
 #include <particles/front_tracking/line_stepper.h>
 
 #include <fmt/format.h>
@@ -59,6 +60,20 @@ namespace meltfront::particles::front_tracking
     if(solver.states().size() > 1)
       next_step = time - solver.states()[1].time;
     insert_where_called_for();
+  }
+
+  double LineStepper::begin_anew()
+  {
+    LineState now = state();
+    const double before = heat_of(problem, now).total();
+    for(const std::size_t side : {0, 1})
+      if(problem.walls[side].fixed())
+        (side == 0 ? now.temperature.front() : now.temperature.back())
+            = problem.walls[side].value_after(now.time);
+    const double after = heat_of(problem, now).total();
+    restart(std::move(now));
+    insert_where_called_for();
+    return after - before;
   }
 
   void LineStepper::insert_where_called_for()

@@ -36,6 +36,11 @@ namespace meltfront::particles::front_tracking
      * @param older states before it, newest first, equally far apart */
     void start(LineState state, std::vector<LineState> older);
 
+    /** Begin anew from the state at hand, at a time at which what walls prescribe jumps
+     * or bends: without history, with the walls' temperatures from then on.
+     * @return heat content that this changed by the walls' nodes */
+    double begin_anew();
+
     /**
      * Advance to a time, reached exactly.
      * @param after_step called after every step that is kept

@@ -42,6 +42,7 @@ namespace meltfront::particles::front_tracking
     , older(older)
     , time(time)
     , step(time - last.time)
+    , span{last.time, last.time, time, 0, time}
   {
     if(!older)
       return;
@@ -49,6 +50,8 @@ namespace meltfront::particles::front_tracking
     a = (1 + 2 * ratio) / (1 + ratio);
     b = 1 + ratio;
     c = ratio * ratio / (1 + ratio);
+    span.before = older->time;
+    span.share_before = ratio / (1 + ratio);
   }
 
   PlaneHeat::PlaneHeat(const cases::Scene &scene, const PlaneNodes &nodes,
@@ -56,6 +59,7 @@ namespace meltfront::particles::front_tracking
     : sinks(scene, nearest_to_sink * nodes.spacing)
     , settings(settings)
     , scene(scene)
+    , given(scene)
     , nodes(nodes)
     , makers(settings.threads, StencilMaker(nodes, settings.order))
     , rows(nodes.size())
@@ -231,15 +235,28 @@ namespace meltfront::particles::front_tracking
         FrontValue &value = values[p];
         value.constant = front_temperature(bend[p]);
         if(phase == NodePhase::solid && !sinks.empty())
-        {
-          value.constant -= sinks.value(front.position[p], state.time);
-          slope += sinks.gradient(front.position[p], state.time).dot(front.normal[p]);
-        }
+          meters.sinks.measure(
+              [&]
+              {
+                value.constant -= sinks.value(front.position[p], state.time);
+                slope
+                    += sinks.gradient(front.position[p], state.time).dot(front.normal[p]);
+              });
         value.own = -slope;
         value.before = value.after = 0;
-        if(settings.capillarity == 0)
-          continue;
-        // Moving along n changes the curvature by kappa^2 d + d'' along the curve.
+      }
+    }
+    if(settings.capillarity != 0)
+      meters.capillarity.measure([&] { add_capillarity(front); });
+  }
+
+  /** Moving along n changes the curvature by kappa^2 d + d'' along the curve. */
+  void PlaneHeat::add_capillarity(const PlaneFront &front)
+  {
+    for(const NodePhase phase : phases)
+      for(std::size_t p = 0; p < front.size(); ++p)
+      {
+        FrontValue &value = front_values[index_of(phase)][p];
         const double left = (front.position[p] - front.position[before[p]]).norm(),
                      right = (front.position[after[p]] - front.position[p]).norm();
         const double stiffness = 2 * settings.capillarity / (left + right);
@@ -248,6 +265,57 @@ namespace meltfront::particles::front_tracking
         value.before = -stiffness / left;
         value.after = -stiffness / right;
       }
+  }
+
+  std::size_t PlaneHeat::front_bytes() const
+  {
+    std::size_t bytes = 0;
+    for(const NodePhase phase : phases)
+    {
+      bytes += front_values[index_of(phase)].size() * sizeof(FrontValue);
+      for(const PlaneStencil &stencil : front_stencils[index_of(phase)])
+        bytes
+            += sizeof(PlaneStencil)
+               + stencil.columns.size()
+                     * (sizeof(std::uint32_t) + stencil.weights.size() * sizeof(double));
+    }
+    return bytes;
+  }
+
+  std::size_t PlaneHeat::wall_bytes(cases::BoundaryKind kind) const
+  {
+    std::size_t pieces = 0;
+    for(const WallNode &wall : nodes.walls)
+      for(int i = 0; i < wall.n_pieces; ++i)
+        pieces += wall.pieces[i].boundary->kind == kind;
+    return pieces * sizeof(WallPiece);
+  }
+
+  cases::EffectCost PlaneHeat::cost(cases::Effect effect) const
+  {
+    using cases::BoundaryKind, cases::Effect;
+    const auto of_wall = [&](BoundaryKind kind) {
+      return meters.walls[static_cast<std::size_t>(kind)].cost(effect, wall_bytes(kind));
+    };
+    switch(effect)
+    {
+    case Effect::phase_change:
+      return meters.front.cost(effect, front_bytes());
+    case Effect::gibbs_thomson:
+      return meters.capillarity.cost(
+          effect, bend.size() * sizeof(double) + before.size() * 2 * sizeof(std::size_t));
+    case Effect::heat_sources:
+      return meters.sinks.cost(effect, scene.sources.size() * sizeof(PlanePoint));
+    case Effect::heat_release:
+      return meters.release.cost(effect, 0);
+    case Effect::wall_temperature:
+      return of_wall(BoundaryKind::fixed_temperature);
+    case Effect::wall_flux:
+      return of_wall(BoundaryKind::flux);
+    case Effect::wall_transfer:
+      return of_wall(BoundaryKind::heat_transfer);
+    default:
+      return {effect, solves, 0, 0};
     }
   }
 
@@ -279,15 +347,17 @@ namespace meltfront::particles::front_tracking
         for(int i = 0; i < wall.n_pieces; ++i)
         {
           const WallPiece &piece = wall.pieces[i];
-          if(piece.boundary->kind == cases::BoundaryKind::insulated)
+          const bool transfers
+              = piece.boundary->kind == cases::BoundaryKind::heat_transfer;
+          if(piece.boundary->kind == cases::BoundaryKind::insulated
+             || (!transfers && !given.mean_of(*piece.boundary).steady()))
             continue;
-          const double given
-              = piece.boundary->value({place.x(), place.y(), 0}, state.time);
+          const double value
+              = given.wall(*piece.boundary, {place.x(), place.y(), 0}, step.span);
           power += piece.length
-                   * (piece.boundary->kind == cases::BoundaryKind::heat_transfer
-                          ? piece.boundary->heat_transfer_coefficient
-                                * (given - temperature(state, wall.node))
-                          : given);
+                   * (transfers ? piece.boundary->heat_transfer_coefficient
+                                      * (value - temperature(state, wall.node))
+                                : value);
         }
         continue;
       }
@@ -310,6 +380,41 @@ namespace meltfront::particles::front_tracking
                         - known_rate(step, phase, wall.node));
     }
     return power;
+  }
+
+  double PlaneHeat::flux_heat(const PlaneStep &step, const PlaneState &state) const
+  {
+    double heat = 0;
+    for(const WallNode &wall : nodes.walls)
+    {
+      if(state.phase[wall.node] == NodePhase::front || wall.held())
+        continue;
+      const PlanePoint &place = nodes.position[wall.node];
+      for(int i = 0; i < wall.n_pieces; ++i)
+      {
+        const WallPiece &piece = wall.pieces[i];
+        if(piece.boundary->kind != cases::BoundaryKind::flux)
+          continue;
+        const cases::TimeMean &mean = given.mean_of(*piece.boundary);
+        if(!mean.steady())
+          heat += piece.length * step.step
+                  * mean({place.x(), place.y(), 0}, step.span.begin, step.time);
+      }
+    }
+    return heat;
+  }
+
+  double PlaneHeat::released_heat(const PlaneStep &step) const
+  {
+    if(!scene.heat_release)
+      return 0;
+    LinearStep span = step.span;
+    span.share_before = 0;
+    double heat = 0;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      heat += nodes.weight[i] * step.step
+              * given.release({nodes.position[i].x(), nodes.position[i].y(), 0}, span);
+    return heat;
   }
 
   double PlaneHeat::worst_condition(const PlaneState &state)

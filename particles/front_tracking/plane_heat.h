@@ -1,12 +1,15 @@
 #ifndef meltfront_particles_front_tracking_plane_heat_h
 #define meltfront_particles_front_tracking_plane_heat_h
 
+#include <cases/effect_meter.h>
 #include <particles/front_tracking/plane_sinks.h>
 #include <particles/front_tracking/plane_state.h>
 #include <particles/scattered/compressed_rows.h>
+#include <particles/scattered/given_values.h>
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +27,13 @@ namespace meltfront::particles::front_tracking
     double capillarity = 0;
   };
 
+  /** What the parts of the solver cost that effects call for. */
+  struct PlaneMeters
+  {
+    cases::EffectMeter front, capillarity, sinks, release;
+    std::array<cases::EffectMeter, cases::n_boundary_kinds> walls;
+  };
+
   /**
    * A time step by backward differentiation with one or two states before it:
    *
@@ -36,6 +46,7 @@ namespace meltfront::particles::front_tracking
     const PlaneState &last;
     const PlaneState *older; ///< null: backward Euler
     double time, step;
+    LinearStep span; ///< for what is prescribed
     double a = 1, b = 1, c = 0;
   };
 
@@ -76,9 +87,10 @@ namespace meltfront::particles::front_tracking
     /**
      * One pass on the front of `next` (set_front() first).
      * @param next has expansions, of the pass before or of the last state
-     * @return the displacements along the normals that are still to be made (m)
+     * @return the displacements along the normals that are still to be made (m); nothing
+     * where the matrix is singular
      */
-    std::vector<double> solve(const PlaneStep &step, PlaneState &next);
+    std::optional<std::vector<double>> solve(const PlaneStep &step, PlaneState &next);
 
     /** Temperature of the front's particles (K), curvature of the state. */
     double front_temperature(double curvature) const;
@@ -101,6 +113,10 @@ namespace meltfront::particles::front_tracking
 
     StencilRecord stencil_record() const;
 
+    /** What an effect has cost so far. Two conductivities or capacities in place of one
+     * are other numbers in the same rows, with no time of their own. */
+    cases::EffectCost cost(cases::Effect effect) const;
+
     /** Largest condition number of moment matrices at a state's front, the last set. */
     double worst_condition(const PlaneState &state);
 
@@ -108,7 +124,9 @@ namespace meltfront::particles::front_tracking
     PlaneHeatSettings settings;
     long entries = 0; ///< of all matrices factorised
     long solves = 0;
+    long singular = 0; ///< solves whose matrix was singular
     std::size_t most_unknowns = 0;
+    mutable PlaneMeters meters;
 
   private:
     /** What is collocated at a node: the Laplacian inside; on a wall the outward
@@ -134,6 +152,13 @@ namespace meltfront::particles::front_tracking
                   std::size_t node);
     void make_front_stencils(const PlaneState &state);
     void find_front_values(const PlaneState &state);
+    void add_capillarity(const PlaneFront &front);
+    std::size_t front_bytes() const;
+    std::size_t wall_bytes(cases::BoundaryKind kind) const;
+    cases::EffectMeter &wall_meter(const WallPiece &piece) const
+    {
+      return meters.walls[static_cast<std::size_t>(piece.boundary->kind)];
+    }
     void add_node(const PlaneStep &step, const PlaneState &next, std::size_t node);
     double known_rate(const PlaneStep &step, NodePhase phase, std::size_t node) const;
     void add_wall(const PlaneStep &step, const PlaneState &next, const WallNode &wall);
@@ -146,8 +171,11 @@ namespace meltfront::particles::front_tracking
                        std::span<const double> solution) const;
     double wall_power(const PlaneStep &step, const PlaneState &state,
                       std::span<const double> solution) const;
+    double flux_heat(const PlaneStep &step, const PlaneState &state) const;
+    double released_heat(const PlaneStep &step) const;
 
     const cases::Scene &scene;
+    GivenValues given;
     const PlaneNodes &nodes;
     std::vector<StencilMaker> makers; ///< one for each thread
     std::unique_ptr<FrontIndex> index;

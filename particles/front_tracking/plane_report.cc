@@ -91,7 +91,7 @@ namespace meltfront::particles::front_tracking
     snapshot.solid_fraction = measured.solid_fraction;
     snapshot.obeys_maximum_principle = false;
     snapshot.heat = {measured.sensible, measured.latent, boundary_heat,
-                     heat.sinks.energy(state.time), initial_heat};
+                     heat.sinks.energy(state.time) + released_heat, initial_heat};
     observer.observe(snapshot);
   }
 
@@ -100,7 +100,17 @@ namespace meltfront::particles::front_tracking
     std::vector<cases::EffectCost> result;
     for(const cases::EffectDecision &decision : effects.decisions())
       if(decision.on)
-        result.push_back({decision.effect, heat.solves, 0, 0});
+        result.push_back(heat.cost(decision.effect));
     return result;
+  }
+
+  std::map<std::string, double> PlaneRun::evidence() const
+  {
+    return {{"steps halved", double(halved_steps)},
+            {"singular matrices, met by halving the step", double(heat.singular)},
+            {"steps taken with 1e-4 to 1e-2 spacings left to move", double(capped_steps)},
+            {"heat that the front made up for (J/m)", closed_heat},
+            {"latent heat of areas that changed phase by decree (J/m)", decreed_heat},
+            {"largest distance of level set and front particles, in spacings", mismatch}};
   }
 } // namespace meltfront::particles::front_tracking

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace meltfront::particles::front_tracking
 {
@@ -36,7 +35,7 @@ namespace meltfront::particles::front_tracking
      * is made, and what it leaves is smaller by about its square. */
     constexpr double done = 1e-4;
 
-    /** What is accepted of a step that cannot be halved further. */
+    /** What is accepted, and counted, of a step that cannot be halved further. */
     constexpr double nearly_done = 1e-2;
 
     /** Shares of their distance within which front particles may stand. */
@@ -81,6 +80,7 @@ namespace meltfront::particles::front_tracking
           parameters.closure == Closure::always
           || (parameters.closure == Closure::given_walls && wall_heat_is_given(scene)))
     , bounds(cases::temperature_bounds(scene))
+    , breakpoints(cases::breakpoints_of(scene))
   {
     if(parameters.scheme == TimeScheme::bdf3)
       throw cases::Refusal("rkpm-tracked steps by bdf2 or backward-euler in the plane");
@@ -151,7 +151,13 @@ namespace meltfront::particles::front_tracking
     cost.most_iterations = most_passes;
     cost.capped_steps = capped_steps;
     cost.effects = effect_costs();
+    cost.evidence = evidence();
     return cost;
+  }
+
+  double PlaneRun::next_stop() const
+  {
+    return cases::end_of_piece(breakpoints, state.time, scene.end_time);
   }
 
   double PlaneRun::next_step() const
@@ -172,7 +178,7 @@ namespace meltfront::particles::front_tracking
     }
     step = std::min(step, longest_step_of_films(front, topology_settings()));
     step = fresh ? first_step_share * step : std::min(step, largest_growth * last_step);
-    const double rest = scene.end_time - state.time;
+    const double rest = next_stop() - state.time;
     if(step >= rest * (1 - 1e-10))
       return rest;
     return step > rest / 2 ? rest / 2 : step;
@@ -207,7 +213,8 @@ namespace meltfront::particles::front_tracking
     }
   }
 
-  /** Make the moves that are left. @return whether one of them met its limit. */
+  /** Make the moves that are left. @return whether one of them met its limit or is not
+   * finite. */
   bool PlaneRun::move(const std::vector<double> &displacement, PlaneState &next,
                       double &largest) const
   {
@@ -217,7 +224,7 @@ namespace meltfront::particles::front_tracking
     for(std::size_t p = 0; p < displacement.size(); ++p)
     {
       if(!std::isfinite(displacement[p]))
-        throw std::runtime_error("a front particle's speed is not finite");
+        return true;
       PlanePoint &place = next.front.position[p];
       const PlanePoint moved = place + displacement[p] * next.front.normal[p];
       const PlanePoint way = moved - state.front.position[p];
@@ -234,52 +241,50 @@ namespace meltfront::particles::front_tracking
     return limited;
   }
 
-  bool PlaneRun::attempt(double step, bool last_chance, PlaneState &next)
+  /** @return what is left of the front's way after the last pass, in spacings; infinite
+   * where particles would move too far or the matrix is singular. */
+  double PlaneRun::attempt(double step, PlaneState &next)
   {
-    const double rest = scene.end_time - state.time;
-    next.time = step == rest ? scene.end_time : state.time + step;
+    constexpr double failed = std::numeric_limits<double>::infinity();
+    const double stop = next_stop();
+    next.time = step == stop - state.time ? stop : state.time + step;
     const bool two_steps = older && parameters.scheme == TimeScheme::bdf2;
     const PlaneStep times(state, two_steps ? &*older : nullptr, next.time);
     predict(step, next);
-    double largest = std::numeric_limits<double>::infinity();
-    bool limited = false;
+    double largest = failed;
     long passes = 0;
     while(largest > done && passes < passes_allowed)
     {
       heat.set_front(next, passes >= regrouping_passes);
-      limited = move(heat.solve(times, next), next, largest);
+      const std::optional<std::vector<double>> ways = heat.solve(times, next);
       ++passes;
-      if(limited && !last_chance)
-        return false;
-    }
-    if(largest > nearly_done || limited)
-    {
-      if(!last_chance)
-        return false;
-      ++capped_steps;
+      if(!ways || move(*ways, next, largest))
+        return failed;
     }
     most_passes = std::max(most_passes, passes);
-    return true;
+    return largest;
   }
 
   void PlaneRun::step()
   {
     double step = next_step();
     PlaneState next;
-    try
+    double left = attempt(step, next);
+    for(int halvings = 0; left > done && halvings < most_halvings; ++halvings)
     {
-      for(int halvings = 0; !attempt(step, halvings == most_halvings, next); ++halvings)
-        step /= 2;
+      ++halved_steps;
+      step /= 2;
+      left = attempt(step, next);
     }
-    catch(const std::runtime_error &error)
-    {
-      if(dynamic_cast<const cases::Refusal *>(&error)
-         || dynamic_cast<const cases::NumericalError *>(&error))
-        throw;
-      throw cases::NumericalError(method_name, step_number + 1, state.time + step,
-                                  "temperature",
-                                  fmt::format("cannot be solved for: {}", error.what()));
-    }
+    if(left > nearly_done)
+      throw cases::NumericalError(
+          method_name, step_number + 1, state.time + step, "front",
+          std::isfinite(left)
+              ? fmt::format("has {:.2g} spacings left to move after {} passes, however "
+                            "short the step",
+                            left, passes_allowed)
+              : "moves too far or meets a singular matrix, however short the step");
+    capped_steps += left > done;
     last_step = step;
     accept(std::move(next));
   }
@@ -290,8 +295,9 @@ namespace meltfront::particles::front_tracking
     if(!closes_budget)
       return;
     const PlaneMeasure measured = measure(scene, nodes, heat, state);
-    const double missing = initial_heat + boundary_heat + heat.sinks.energy(state.time)
-                           - measured.sensible - measured.latent;
+    const double missing = initial_heat + boundary_heat + released_heat
+                           + heat.sinks.energy(state.time) - measured.sensible
+                           - measured.latent;
     const PlaneFront &front = state.front;
     const bool gone = std::ranges::none_of(front.active, [](char on) { return on; });
     closed_heat
@@ -320,6 +326,8 @@ namespace meltfront::particles::front_tracking
   {
     const double before = fresh ? next.wall_power : state.wall_power;
     boundary_heat += (next.time - state.time) * (before + next.wall_power) / 2;
+    boundary_heat += next.flux_heat;
+    released_heat += next.released_heat;
     older = std::move(state);
     state = std::move(next);
     fresh = false;
@@ -334,6 +342,11 @@ namespace meltfront::particles::front_tracking
     follow_topology();
     if(parameters.relax > 0 && !fresh && step_number % parameters.relax == 0)
       relax_nodes();
+    if(std::ranges::binary_search(breakpoints, state.time))
+    {
+      older.reset();
+      fresh = true;
+    }
   }
 
   void PlaneRun::check(const PlaneState &checked) const

@@ -11,6 +11,7 @@
 #include <particles/front_tracking/tracking_options.h>
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,8 +34,9 @@ namespace meltfront::particles::front_tracking
   private:
     void start();
     void step();
+    double next_stop() const;
     double next_step() const;
-    bool attempt(double step, bool last_chance, PlaneState &next);
+    double attempt(double step, PlaneState &next);
     void predict(double step, PlaneState &next) const;
     bool move(const std::vector<double> &displacement, PlaneState &next,
               double &largest) const;
@@ -53,6 +55,7 @@ namespace meltfront::particles::front_tracking
     void observe(cases::Observer &observer);
     void observe_initial(cases::Observer &observer);
     std::vector<cases::EffectCost> effect_costs() const;
+    std::map<std::string, double> evidence() const;
 
     const cases::Scene &scene;
     const cases::EffectSet &effects;
@@ -65,13 +68,16 @@ namespace meltfront::particles::front_tracking
     MarkedFront marked;
     bool closes_budget;
     cases::TemperatureBounds bounds;
+    std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
+    double released_heat = 0;        ///< throughout the domain (J/m)
     std::string start_in_words;
     PlaneState state;
     std::optional<PlaneState> older;
     double last_step = 0;
     bool warned_of_ripples = false;
     bool fresh = true; ///< no step was made since the start or an event
-    long step_number = 0, capped_steps = 0, most_passes = 0, next_meeting = 0;
+    long step_number = 0, halved_steps = 0, capped_steps = 0, most_passes = 0;
+    long next_meeting = 0;
     double boundary_heat = 0, initial_heat = 0, condition = 0;
     double closed_heat = 0;  ///< that the front made up for (J/m)
     double decreed_heat = 0; ///< latent, of areas that changed phase by decree (J/m)

@@ -66,8 +66,11 @@ namespace meltfront::particles::front_tracking
     std::array<FrontExpansion, n_phases> expansion; ///< by index_of(phase)
     std::vector<PlanePoint> expanded_about; ///< places of the front particles that they
                                             ///< are expansions about
-    double wall_power = 0;                  ///< heat in through walls (W/m)
-    PlaneBins expansion_bins;               ///< of expanded_about
+    /** Heat in through walls, without that of fluxes that vary (W/m). */
+    double wall_power = 0;
+    double flux_heat = 0;     ///< what these brought in the last step (J/m)
+    double released_heat = 0; ///< likewise of the heat released throughout (J/m)
+    PlaneBins expansion_bins; ///< of expanded_about
 
     /** The unknown of a phase at a place, also beyond the front: there by the expansion
      * about the nearest front particle. */

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace meltfront::particles::front_tracking
 {
@@ -83,15 +82,20 @@ namespace meltfront::particles::front_tracking
     if(step.older)
       known -= capacity * step.c * step.older->extended(phase, node, place);
     if(phase == NodePhase::solid && !sinks.empty())
-    {
-      known -= capacity
-               * (step.a * sinks.value(place, step.time)
-                  - step.b * sinks.value(place, step.last.time));
-      if(step.older)
-        known -= capacity * step.c * sinks.value(place, step.older->time);
-    }
+      meters.sinks.measure(
+          [&]
+          {
+            known -= capacity
+                     * (step.a * sinks.value(place, step.time)
+                        - step.b * sinks.value(place, step.last.time));
+            if(step.older)
+              known -= capacity * step.c * sinks.value(place, step.older->time);
+          });
     if(scene.heat_release)
-      known += (*scene.heat_release)({place.x(), place.y(), 0}, step.time);
+      known += meters.release.measure(
+          [&] {
+            return given.release({place.x(), place.y(), 0}, step.span);
+          });
     return known;
   }
 
@@ -109,7 +113,13 @@ namespace meltfront::particles::front_tracking
     if(const WallPiece *held = wall.held())
     {
       add(phase, wall.node, 1);
-      finish_row(held->boundary->value(position, step.time) - shift);
+      finish_row(wall_meter(*held).measure(
+                     [&]
+                     {
+                       return cases::value_at_end(held->boundary->value, position,
+                                                  step.last.time, step.time);
+                     })
+                 - shift);
       return;
     }
     const cases::PhaseProperties &material = properties(phase);
@@ -137,15 +147,16 @@ namespace meltfront::particles::front_tracking
                   * sinks.gradient(place, step.time).dot(piece.normal);
       if(piece.boundary->kind == cases::BoundaryKind::insulated)
         continue;
-      const double given = piece.boundary->value(position, step.time);
+      const double value = wall_meter(piece).measure(
+          [&] { return given.wall(*piece.boundary, position, step.span); });
       if(piece.boundary->kind == cases::BoundaryKind::heat_transfer)
       {
         const double transfer = piece.length * piece.boundary->heat_transfer_coefficient;
         add(phase, wall.node, transfer);
-        inflow += transfer * (given - shift);
+        inflow += transfer * (value - shift);
       }
       else
-        inflow += piece.length * given;
+        inflow += piece.length * value;
     }
     const Row &row = rows[wall.node];
     for(std::size_t e = 0; e < row.columns.size(); ++e)
@@ -200,18 +211,27 @@ namespace meltfront::particles::front_tracking
     finish_row(known);
   }
 
-  std::vector<double> PlaneHeat::solve(const PlaneStep &step, PlaneState &next)
+  std::optional<std::vector<double>> PlaneHeat::solve(const PlaneStep &step,
+                                                      PlaneState &next)
   {
     next.time = step.time;
     make_rows(next);
-    make_front_stencils(next);
-    find_front_values(next);
+    meters.front.measure(
+        [&]
+        {
+          make_front_stencils(next);
+          find_front_values(next);
+        });
     matrix = CompressedRows();
     right_side.clear();
     for(std::size_t i = 0; i < nodes.size(); ++i)
       add_node(step, next, i);
-    for(std::size_t p = 0; p < next.front.size(); ++p)
-      add_front(step, next, p);
+    meters.front.measure(
+        [&]
+        {
+          for(std::size_t p = 0; p < next.front.size(); ++p)
+            add_front(step, next, p);
+        });
     LinearSolverParameters parameters;
     parameters.method = LinearMethod::direct;
     LinearSolver solver(matrix, parameters);
@@ -221,13 +241,18 @@ namespace meltfront::particles::front_tracking
     entries += static_cast<long>(matrix.size());
     most_unknowns = std::max(most_unknowns, matrix.rows());
     if(!outcome.converged)
-      throw std::runtime_error("the collocation's matrix is singular");
+    {
+      ++singular;
+      return std::nullopt;
+    }
     next.unknown.assign(solution.begin(), solution.begin() + nodes.size());
     std::vector<double> displacement(next.front.size());
     for(std::size_t p = 0; p < displacement.size(); ++p)
       displacement[p] = nodes.spacing * solution[nodes.size() + p];
-    update_expansions(next, solution);
+    meters.front.measure([&] { update_expansions(next, solution); });
     next.wall_power = wall_power(step, next, solution);
+    next.flux_heat = flux_heat(step, next);
+    next.released_heat = released_heat(step);
     return displacement;
   }
 

@@ -1,3 +1,4 @@
+#include <cases/demand.h>
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <particles/front_tracking/line_run.h>
@@ -51,6 +52,25 @@ namespace meltfront::particles
               .most_threads = cases::any_number_of_threads};
     }
 
+    /** What a run takes: nodes with the stencils about them and, in the plane, the
+     * factors of the matrix of both phases; as measured. */
+    cases::Demand demand_of(const cases::Scene &scene,
+                            const cases::Resolution &resolution)
+    {
+      constexpr double per_line_node = 3000, per_plane_node = 1500, per_entry = 60;
+      const TrackingParameters parameters = read_tracking_parameters(scene, resolution);
+      const int dimension = simulated_dimension(scene, resolution.options);
+      const double nodes
+          = cases::lattice_points(scene.domain, dimension, parameters.intervals);
+      const double entries = cases::points_within(dimension, parameters.dilation);
+      const double per_node
+          = dimension == 1
+                ? per_line_node
+                : per_plane_node
+                      + per_entry * entries * cases::fill_of_factors(dimension, nodes);
+      return {cases::program_bytes + nodes * per_node, double(parameters.steps)};
+    }
+
     class RkpmTracked : public cases::Method
     {
     public:
@@ -73,6 +93,12 @@ namespace meltfront::particles
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
         return tracking_options();
+      }
+
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        return demand_of(scene, resolution);
       }
 
     protected:

@@ -299,6 +299,12 @@ namespace meltfront::particles
              1e9}};
       }
 
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        return scene.particle_solid ? solid_demand(scene, resolution) : cases::Demand();
+      }
+
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
                       const cases::Resolution &resolution,
                       cases::Observer &observer) const override

@@ -1,3 +1,4 @@
+#include <cases/demand.h>
 #include <cases/error.h>
 #include <particles/greenspan/generation.h>
 #include <particles/greenspan/scene_experiment.h>
@@ -105,6 +106,34 @@ namespace meltfront::particles::greenspan
     force.repulsion_exponent = law.repulsion_exponent;
     force.cutoff = law.cutoff;
     return force;
+  }
+
+  cases::Demand solid_demand(const cases::Scene &scene,
+                             const cases::Resolution &resolution)
+  {
+    using cases::SolidArrangement;
+    // Neighbours stand in rows as they are found, by name and in slices; among all pairs
+    // there is room for a row of everything first.
+    constexpr double per_particle = 300, per_neighbour = 12, of_pair = 4;
+    const cases::ParticleSolid &solid = *scene.particle_solid;
+    const bool bar = scene.problem == cases::ProblemKind::stefan;
+    const double n = resolution.n;
+    const double particles = solid.arrangement == SolidArrangement::table ? n
+                             : solid.arrangement == SolidArrangement::triangle
+                                 ? n * (n + 1) / 2
+                                 : n * solid.rows;
+    const double reach = (solid.law.cutoff + resolution.options.get_double("skin"))
+                         / force_of(solid.law).equilibrium_distance();
+    const double neighbours = cases::points_within(2, reach) * std::sqrt(4. / 3);
+    const bool all_pairs
+        = !bar && resolution.options.get_string("neighbours") == "all pairs";
+    const double step
+        = solid.time_step * (bar ? 1 : resolution.options.get_double("step_factor"));
+    return {cases::program_bytes
+                + particles
+                      * (per_particle + per_neighbour * neighbours
+                         + (all_pairs ? of_pair * particles : 0)),
+            (scene.end_time - scene.start_time) / step};
   }
 
   Experiment experiment_of(const cases::Scene &scene, const cases::Resolution &resolution)

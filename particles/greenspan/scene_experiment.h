@@ -10,6 +10,10 @@ namespace meltfront::particles::greenspan
   /** The force of a scene's particles. */
   PairForce force_of(const cases::PairLaw &law);
 
+  /** What a run of a solid of particles or of a bar takes. */
+  cases::Demand solid_demand(const cases::Scene &scene,
+                             const cases::Resolution &resolution);
+
   /**
    * The experiment that a scene of the kind `particle solid` describes.
    *

@@ -1,3 +1,4 @@
+#include <cases/demand.h>
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <cases/shape.h>
@@ -136,6 +137,23 @@ namespace meltfront::particles
                           n, "xyz"[d]));
       }
       return Grid(domain.dimension, domain.lower, spacing, cells);
+    }
+
+    /** Steps that the velocity calls for, found on a grid of a few cells: as many times
+     * more as cells are smaller. */
+    double estimated_steps(const cases::Scene &scene, const int n,
+                           const TransportParameters &transport)
+    {
+      constexpr int few = 16;
+      const cases::Domain &domain = scene.domain;
+      const double spacing = domain.side() / few;
+      std::array<int, 3> cells{};
+      for(int d = 0; d < domain.dimension; ++d)
+        cells[d] = std::max(4, static_cast<int>(std::min(
+                                   1e3, (domain.upper[d] - domain.lower[d]) / spacing)));
+      const Grid grid(domain.dimension, domain.lower, spacing, cells);
+      const StepCount count = count_steps(grid, *scene.interface->velocity, transport);
+      return double(count.steps) * n / few;
     }
 
     MarkerParameters marker_parameters(const Scheme scheme, const cases::Scene &scene,
@@ -297,6 +315,27 @@ namespace meltfront::particles
           for(cases::OptionDeclaration &option : marker_options(variant.scheme))
             list.push_back(std::move(option));
         return list;
+      }
+
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        // Nodes have values of a few stages, cells of the band their markers, as
+        // measured.
+        constexpr double per_node = 60, per_marker = 100, cells_across = 6;
+        const cases::Domain &domain = scene.domain;
+        const MarkerRunParameters parameters
+            = run_parameters(variant.scheme, scene, resolution);
+        const double nodes
+            = cases::lattice_points(domain, domain.dimension, resolution.n);
+        // A front as long or wide as the domain, a few times.
+        const double of_front = 3 * nodes / resolution.n;
+        const double markers
+            = variant.scheme == Scheme::alone
+                  ? 0
+                  : of_front * cells_across * parameters.markers.per_cell;
+        return {cases::program_bytes + per_node * nodes + per_marker * markers,
+                estimated_steps(scene, resolution.n, parameters.transport)};
       }
 
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &,

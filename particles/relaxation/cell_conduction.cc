@@ -10,6 +10,7 @@ namespace meltfront::particles
   CellConduction::CellConduction(const cases::Scene &scene, const NodeSet &nodes,
                                  VoronoiCells found, SourcePoint source_point)
     : scene(scene)
+    , given(scene)
     , nodes(nodes)
     , cells(std::move(found))
     , source_point(source_point)
@@ -114,9 +115,10 @@ namespace meltfront::particles
     return rows;
   }
 
-  double CellConduction::wall_temperature(std::uint32_t node, double time) const
+  double CellConduction::wall_temperature(std::uint32_t node,
+                                          const LinearStep &step) const
   {
-    return fixed[node].value(nodes.point(node), time);
+    return fixed[node].value(nodes.point(node), step, given);
   }
 
   cases::Position CellConduction::release_point(std::size_t cell) const
@@ -125,47 +127,47 @@ namespace meltfront::particles
                                                  : cells.centroids.point(cell);
   }
 
-  void CellConduction::set_source(double time, std::span<double> source) const
+  void CellConduction::set_source(const LinearStep &step, std::span<double> source) const
   {
     for(std::size_t i = 0; i < nodes.size(); ++i)
       if(fixed[i].fixed)
-        source[i] = fixed_row * wall_temperature(static_cast<std::uint32_t>(i), time);
+        source[i] = fixed_row * wall_temperature(static_cast<std::uint32_t>(i), step);
       else
         source[i] = scene.heat_release
-                        ? (*scene.heat_release)(release_point(i), time) * balanced[i]
+                        ? given.release(release_point(i), step) * balanced[i]
                         : 0;
     for(const Contact &contact : contacts)
       source[contact.free] += contact.conductance * source[contact.fixed] / fixed_row;
     for(const WallFace &face : wall_faces)
     {
-      const double given = face.boundary->value(nodes.point(face.cell), time);
-      source[face.cell] += face.area * given
+      const double value = given.wall(*face.boundary, nodes.point(face.cell), step);
+      source[face.cell] += face.area * value
                            * (face.boundary->kind == BoundaryKind::flux
                                   ? 1
                                   : face.boundary->heat_transfer_coefficient);
     }
   }
 
-  HeatInflow CellConduction::inflow(double time,
+  HeatInflow CellConduction::inflow(const LinearStep &step,
                                     std::span<const double> temperature) const
   {
     HeatInflow result;
     if(scene.heat_release)
       for(std::size_t i = 0; i < nodes.size(); ++i)
         if(balanced[i] > 0)
-          result.released += (*scene.heat_release)(release_point(i), time) * balanced[i];
+          result.released += given.release(release_point(i), step) * balanced[i];
     for(const Contact &contact : contacts)
       result.through_walls
           += contact.conductance
-             * (wall_temperature(contact.fixed, time) - temperature[contact.free]);
+             * (wall_temperature(contact.fixed, step) - temperature[contact.free]);
     for(const WallFace &face : wall_faces)
     {
-      const double given = face.boundary->value(nodes.point(face.cell), time);
+      const double value = given.wall(*face.boundary, nodes.point(face.cell), step);
       result.through_walls += face.area
                               * (face.boundary->kind == BoundaryKind::flux
-                                     ? given
+                                     ? value
                                      : face.boundary->heat_transfer_coefficient
-                                           * (given - temperature[face.cell]));
+                                           * (value - temperature[face.cell]));
     }
     return result;
   }
@@ -176,10 +178,10 @@ namespace meltfront::particles
     result.operator_rows = operator_rows();
     result.mass = mass();
     result.symmetric = true;
-    result.source
-        = [this](double time, std::span<double> source) { set_source(time, source); };
-    result.inflow = [this](double time, std::span<const double> temperature)
-    { return inflow(time, temperature); };
+    result.source = [this](const LinearStep &step, std::span<double> source)
+    { set_source(step, source); };
+    result.inflow = [this](const LinearStep &step, std::span<const double> temperature)
+    { return inflow(step, temperature); };
     return result;
   }
 } // namespace meltfront::particles

@@ -63,12 +63,13 @@ namespace meltfront::particles
     void find_wall_faces();
     CompressedRows operator_rows() const;
     CompressedRows mass() const;
-    double wall_temperature(std::uint32_t node, double time) const;
+    double wall_temperature(std::uint32_t node, const LinearStep &step) const;
     cases::Position release_point(std::size_t cell) const;
-    void set_source(double time, std::span<double> source) const;
-    HeatInflow inflow(double time, std::span<const double> temperature) const;
+    void set_source(const LinearStep &step, std::span<double> source) const;
+    HeatInflow inflow(const LinearStep &step, std::span<const double> temperature) const;
 
     const cases::Scene &scene;
+    GivenValues given;
     const NodeSet &nodes;
     VoronoiCells cells;
     SourcePoint source_point;

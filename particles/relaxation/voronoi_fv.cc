@@ -1,3 +1,4 @@
+#include <cases/demand.h>
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
@@ -164,6 +165,20 @@ namespace meltfront::particles
         std::vector<cases::OptionDeclaration> result = arrangement_options();
         std::ranges::move(linear_options(), std::back_inserter(result));
         return result;
+      }
+
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        const int dimension = scene.domain.dimension;
+        // A cell, its neighbours and the faces between them.
+        constexpr double entries[] = {0, 3, 7, 16};
+        return linear_demand(
+            scene, resolution,
+            {.nodes = cases::lattice_points(scene.domain, dimension, resolution.n),
+             .entries = entries[dimension],
+             .matrices = 4,
+             .per_node = 1000});
       }
 
     private:

@@ -36,6 +36,7 @@ namespace meltfront::particles
   IntegralProblem::IntegralProblem(const cases::Scene &scene, const NodeSet &nodes,
                                    const IntegralParameters &parameters)
     : scene(scene)
+    , given(scene)
     , nodes(nodes)
     , parameters(parameters)
   {
@@ -46,8 +47,8 @@ namespace meltfront::particles
         fixed.emplace_back(static_cast<std::uint32_t>(i),
                            wall_condition(scene, nodes, i).walls[0]);
     assemble();
-    problem.source = [this](double time, std::span<double> source)
-    { evaluate_sources(time, source); };
+    problem.source = [this](const LinearStep &step, std::span<double> source)
+    { evaluate_sources(step, source); };
   }
 
   void IntegralProblem::assemble()
@@ -90,7 +91,7 @@ namespace meltfront::particles
       coefficient *= capacity;
   }
 
-  void IntegralProblem::evaluate_sources(double time, std::span<double> source)
+  void IntegralProblem::evaluate_sources(const LinearStep &step, std::span<double> source)
   {
     ++evaluations;
     std::ranges::fill(source, 0.);
@@ -99,16 +100,16 @@ namespace meltfront::particles
       const cases::ScopedTimer timer(release_seconds);
       released.resize(nodes.size());
       for(std::size_t i = 0; i < nodes.size(); ++i)
-        released[i] = (*scene.heat_release)(nodes.point(i), time);
+        released[i] = given.release(nodes.point(i), step);
       rows.load.multiply(released, source, parameters.threads);
     }
     const cases::ScopedTimer timer(wall_seconds);
-    add_wall_sources(time, source);
+    add_wall_sources(step, source);
     for(const auto &[node, boundary] : fixed)
-      source[node] = boundary->value(nodes.point(node), time);
+      source[node] = boundary->value(nodes.point(node), step.at);
   }
 
-  void IntegralProblem::add_wall_sources(double time, std::span<double> source)
+  void IntegralProblem::add_wall_sources(const LinearStep &step, std::span<double> source)
   {
     if(rows.wall_particles.empty())
       return;
@@ -119,10 +120,10 @@ namespace meltfront::particles
       const cases::Boundary &boundary = scene.boundary(wall.side);
       const cases::Position position = nodes.point(wall.node);
       if(boundary.kind == BoundaryKind::flux)
-        wall_flux[w] = boundary.value(position, time);
+        wall_flux[w] = given.wall(boundary, position, step);
       else if(boundary.kind == BoundaryKind::heat_transfer)
         wall_flux[w]
-            = boundary.heat_transfer_coefficient * boundary.value(position, time);
+            = boundary.heat_transfer_coefficient * given.wall(boundary, position, step);
     }
     from_walls.resize(source.size());
     rows.flux.multiply(wall_flux, from_walls, parameters.threads);

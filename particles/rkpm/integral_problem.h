@@ -49,10 +49,11 @@ namespace meltfront::particles
 
   private:
     void assemble();
-    void evaluate_sources(double time, std::span<double> source);
-    void add_wall_sources(double time, std::span<double> source);
+    void evaluate_sources(const LinearStep &step, std::span<double> source);
+    void add_wall_sources(const LinearStep &step, std::span<double> source);
 
     const cases::Scene &scene;
+    GivenValues given;
     const NodeSet &nodes;
     const IntegralParameters parameters;
     std::vector<std::pair<std::uint32_t, const cases::Boundary *>> fixed; ///< particles

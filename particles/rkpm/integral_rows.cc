@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -14,6 +15,9 @@ namespace meltfront::particles
   {
     constexpr double growth = 1.1; ///< of the dilation from attempt to attempt
     constexpr std::size_t spare_particles = 3; ///< of a row, beyond its constraints
+    /** Loads whose sum is a smaller share of their magnitudes cancel but for round-off.
+     */
+    constexpr double least_sum = 1e-10;
     constexpr std::uint32_t no_wall_particle = std::numeric_limits<std::uint32_t>::max();
 
     /** One row while it is made. */
@@ -22,6 +26,7 @@ namespace meltfront::particles
       std::vector<std::uint32_t> columns, wall_columns;
       std::vector<double> laplacian, load, flux;
       double dilation = 0, residual = 0;
+      bool singular = false; ///< the loads cancel, and the row cannot be scaled
     };
 
     /** Outward normal of a side of a box: its direction and sign. */
@@ -103,7 +108,8 @@ namespace meltfront::particles
       {
       }
 
-      /** @return false if there are too few neighbours, so that the row is not made. */
+      /** @return false if there are too few neighbours, so that the row is not made, or
+       * if it is singular. */
       bool make(std::uint32_t node, std::span<const std::uint32_t> neighbours,
                 double dilation, Row &row)
       {
@@ -119,8 +125,8 @@ namespace meltfront::particles
         row.load.resize(n);
         row.residual = weights.compute(stencil, row.laplacian, row.load);
         row.dilation = dilation;
-        scale(row);
-        return true;
+        row.singular = !scale(row);
+        return !row.singular;
       }
 
     private:
@@ -218,12 +224,19 @@ namespace meltfront::particles
           }
       }
 
-      /** From the dilation as unit of length to the metre, over the kernel's integral. */
-      void scale(Row &row) const
+      /** From the dilation as unit of length to the metre, over the kernel's integral,
+       * the sum of the loads.
+       * @return whether that tells anything: terms of both signs may cancel */
+      bool scale(Row &row) const
       {
-        double integral = 0;
+        double integral = 0, magnitude = 0;
         for(const double load : row.load)
+        {
           integral += load;
+          magnitude += std::abs(load);
+        }
+        if(!(std::abs(integral) > least_sum * magnitude))
+          return false;
         const double d = row.dilation;
         for(double &value : row.laplacian)
           value /= integral * d * d;
@@ -231,6 +244,7 @@ namespace meltfront::particles
           value /= integral;
         for(double &value : row.flux)
           value /= integral * d;
+        return true;
       }
 
       const NodeSet &nodes;
@@ -324,7 +338,8 @@ namespace meltfront::particles
       const cases::Position at = nodes.point(pending.front());
       const Row &row = rows[pending.front()];
       const std::string reason
-          = row.dilation < dilation
+          = row.singular ? "the loads of its row cancel, whose sum all else is divided by"
+            : row.dilation < dilation
                 ? "too few particles are there"
                 : fmt::format("the constraints contradict each other by {:.2g}",
                               row.residual);

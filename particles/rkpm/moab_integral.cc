@@ -1,3 +1,4 @@
+#include <cases/demand.h>
 #include <cases/error.h>
 #include <cases/stopwatch.h>
 #include <particles/relaxation/relax_nodes.h>
@@ -98,6 +99,19 @@ namespace meltfront::particles
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override;
+
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        const int dimension = scene.domain.dimension;
+        return linear_demand(
+            scene, resolution,
+            {.nodes = cases::lattice_points(scene.domain, dimension, resolution.n),
+             .entries = cases::points_within(
+                 dimension, read_parameters(scene, resolution).dilation),
+             .matrices = 8,
+             .per_node = 500});
+      }
 
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
                       const cases::Resolution &resolution,

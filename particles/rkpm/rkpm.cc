@@ -1,3 +1,4 @@
+#include <cases/demand.h>
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
 #include <particles/relaxation/relax_nodes.h>
@@ -47,6 +48,24 @@ namespace meltfront::particles
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
         return rkpm::rkpm_options(policy);
+      }
+
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        const int dimension = scene.domain.dimension;
+        const rkpm::RkpmParameters parameters
+            = rkpm::read_parameters(policy, resolution.options, dimension);
+        const rkpm::SupportSettings &supports = parameters.supports;
+        const double entries = supports.rule == rkpm::SupportRule::nearest_neighbours
+                                   ? supports.neighbours
+                                   : cases::points_within(dimension, supports.alpha);
+        return linear_demand(
+            scene, resolution,
+            {.nodes = cases::lattice_points(scene.domain, dimension, resolution.n),
+             .entries = entries,
+             .matrices = parameters.unknowns == rkpm::Unknowns::nodal ? 4. : 6.,
+             .per_node = 300});
       }
 
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,

@@ -14,6 +14,7 @@ namespace meltfront::particles::rkpm
                            const RkpmParameters &parameters, const std::string &method,
                            int threads)
     : scene(scene)
+    , given(scene)
     , nodes(nodes)
     , parameters(parameters)
     , method(method)
@@ -40,8 +41,8 @@ namespace meltfront::particles::rkpm
     }
     symbol = checked_symbol();
     assemble();
-    problem.source = [this](double time, std::span<double> source)
-    { evaluate_sources(time, source); };
+    problem.source = [this](const LinearStep &step, std::span<double> source)
+    { evaluate_sources(step, source); };
   }
 
   /** Of all nodes but those of one region. */
@@ -234,7 +235,7 @@ namespace meltfront::particles::rkpm
     finish_row(problem.mass);
   }
 
-  void RkpmProblem::evaluate_sources(double time, std::span<double> source)
+  void RkpmProblem::evaluate_sources(const LinearStep &step, std::span<double> source)
   {
     ++evaluations;
     std::ranges::fill(source, 0.);
@@ -243,12 +244,12 @@ namespace meltfront::particles::rkpm
       const cases::ScopedTimer timer(release_seconds);
       for(const std::uint32_t i : nodes.inner)
         if(!on_surface(i))
-          source[i] = (*scene.heat_release)(nodes.point(i), time);
+          source[i] = given.release(nodes.point(i), step);
     }
     const cases::ScopedTimer timer(wall_seconds);
     for(std::size_t w = 0; w < wall_nodes.size(); ++w)
       if(walls[w].fixed || !on_surface(wall_nodes[w]))
-        source[wall_nodes[w]] = walls[w].value(nodes.point(wall_nodes[w]), time);
+        source[wall_nodes[w]] = walls[w].value(nodes.point(wall_nodes[w]), step, given);
   }
 
   long RkpmProblem::work() const

@@ -70,7 +70,7 @@ namespace meltfront::particles::rkpm
     void add_surface(std::size_t node);
     void collect(const Part &part, std::size_t node, const RowCoefficients &coefficients);
     void finish_row(CompressedRows &rows);
-    void evaluate_sources(double time, std::span<double> source);
+    void evaluate_sources(const LinearStep &step, std::span<double> source);
     const Part &part_of(std::size_t node) const;
     double conductivity_of(std::size_t node) const;
     bool on_surface(std::size_t node) const;
@@ -78,6 +78,7 @@ namespace meltfront::particles::rkpm
     std::vector<double> sampled_condition_numbers() const;
 
     const cases::Scene &scene;
+    GivenValues given;
     const NodeSet &nodes;
     const RkpmParameters &parameters;
     std::string method;

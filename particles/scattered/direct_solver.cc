@@ -1,8 +1,9 @@
+#include <cases/out_of_memory.h>
 #include <particles/scattered/direct_solver.h>
 
-#include <umfpack.h>
+#include <fmt/format.h>
 
-#include <new>
+#include <umfpack.h>
 
 namespace meltfront::particles
 {
@@ -18,6 +19,15 @@ namespace meltfront::particles
     const SuiteSparse_long *of(const std::vector<std::int64_t> &indices)
     {
       return reinterpret_cast<const SuiteSparse_long *>(indices.data());
+    }
+  } // namespace
+
+  namespace
+  {
+    [[noreturn]] void tell_lack_of_memory(std::size_t unknowns)
+    {
+      throw cases::OutOfMemory(
+          fmt::format("UMFPACK found none for the factors of {} unknowns", unknowns));
     }
   } // namespace
 
@@ -37,7 +47,7 @@ namespace meltfront::particles
                                   &numeric, nullptr, info);
     umfpack_dl_free_symbolic(&symbolic);
     if(status == UMFPACK_ERROR_out_of_memory)
-      throw std::bad_alloc();
+      tell_lack_of_memory(matrix.rows());
     if(status != UMFPACK_OK)
       return;
     rcond = info[UMFPACK_RCOND];
@@ -54,8 +64,11 @@ namespace meltfront::particles
   {
     if(rcond == 0)
       return false;
-    return umfpack_dl_solve(UMFPACK_At, of(offsets), of(columns), coefficients.data(),
-                            x.data(), right_hand_side.data(), numeric, nullptr, nullptr)
-           == UMFPACK_OK;
+    const SuiteSparse_long status
+        = umfpack_dl_solve(UMFPACK_At, of(offsets), of(columns), coefficients.data(),
+                           x.data(), right_hand_side.data(), numeric, nullptr, nullptr);
+    if(status == UMFPACK_ERROR_out_of_memory)
+      tell_lack_of_memory(x.size());
+    return status == UMFPACK_OK;
   }
 } // namespace meltfront::particles

@@ -13,12 +13,13 @@ namespace meltfront::particles
   class DirectSolver
   {
   public:
+    /** @throws cases::OutOfMemory */
     explicit DirectSolver(const CompressedRows &matrix);
     ~DirectSolver();
     DirectSolver(const DirectSolver &) = delete;
     DirectSolver &operator=(const DirectSolver &) = delete;
 
-    /** @return false for a singular matrix. */
+    /** @return false for a singular matrix. @throws cases::OutOfMemory */
     bool solve(std::span<const double> right_hand_side, std::span<double> x) const;
 
     /** Least over largest entry on the diagonal of U; 0 for a singular matrix. */

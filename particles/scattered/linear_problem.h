@@ -4,6 +4,7 @@
 #include <cases/method.h>
 #include <cases/scene.h>
 #include <particles/scattered/compressed_rows.h>
+#include <particles/scattered/given_values.h>
 #include <particles/scattered/linear_solver.h>
 
 #include <functional>
@@ -23,7 +24,7 @@ namespace meltfront::particles
   /**
    * Heat conduction on scattered unknowns,
    *
-   *   mass * dU/dt = operator * U + source(t),
+   *   mass * dU/dt = operator * U + source,
    *
    * with empty rows in the mass where an equation holds at each time (walls). A steady
    * problem is 0 = operator * U + source.
@@ -32,13 +33,15 @@ namespace meltfront::particles
   {
     CompressedRows operator_rows;
     CompressedRows mass;
-    /** Right-hand side at a time, one value per row; overwritten. */
-    std::function<void(double time, std::span<double>)> source;
+    /** Right-hand side of a step, one value per row; overwritten. */
+    std::function<void(const LinearStep &step, std::span<double>)> source;
     /** Temperatures at the sites from the unknowns; empty: the unknowns are them. */
     CompressedRows reconstruction;
     bool symmetric = false; ///< operator_rows is symmetric and -operator definite
-    /** Heat that flows in at a time; empty: the method does not balance heat. */
-    std::function<HeatInflow(double time, std::span<const double> unknowns)> inflow;
+    /** Heat that flows in with the unknowns at step.at and the right-hand side of a step;
+     * empty: the method does not balance heat. */
+    std::function<HeatInflow(const LinearStep &step, std::span<const double> unknowns)>
+        inflow;
   };
 
   /** The sites at which temperatures are reported; outlive the run. */
@@ -60,6 +63,21 @@ namespace meltfront::particles
   /** The options that all methods on linear problems share: linear solver and tolerance,
    * time scheme, number of steps. */
   std::vector<cases::OptionDeclaration> linear_options();
+
+  /** Matrices of a method, for what a run of it takes. */
+  struct LinearSize
+  {
+    double nodes;
+    double entries;  ///< of a row
+    double matrices; ///< with as many entries that are kept at a time
+    double per_node; ///< bytes that each node takes beside its rows
+  };
+
+  /** What a run on the linear problem of a scene takes, with the options of
+   * linear_options(). */
+  cases::Demand linear_demand(const cases::Scene &scene,
+                              const cases::Resolution &resolution,
+                              const LinearSize &size);
 
   /** What a run says of itself beside what all linear runs say. */
   struct LinearDescription

@@ -1,3 +1,4 @@
+#include <cases/demand.h>
 #include <cases/error.h>
 #include <cases/stopwatch.h>
 #include <particles/scattered/linear_problem.h>
@@ -21,6 +22,12 @@ namespace meltfront::particles
       static const std::vector<std::string> names{"backward-euler", "crank-nicolson",
                                                   "bdf2"};
       return names;
+    }
+
+    long steps_of(const cases::Resolution &resolution)
+    {
+      const long wanted = resolution.options.get_integer("steps");
+      return wanted > 0 ? wanted : std::max(50L, 4L * resolution.n);
     }
 
     template <typename Enumeration>
@@ -56,8 +63,7 @@ namespace meltfront::particles
         solver_parameters.tolerance = options.get_double("solver_tolerance");
         solver_parameters.symmetric = problem.symmetric;
         solver_parameters.dimension = sites.dimension;
-        const long wanted = options.get_integer("steps");
-        steps = wanted > 0 ? wanted : std::max(50L, 4L * resolution.n);
+        steps = steps_of(resolution);
         if(!problem.reconstruction.columns.empty())
           temperature.resize(n);
       }
@@ -77,7 +83,7 @@ namespace meltfront::particles
         LinearSolver solver
             = make_solver(sum_of(-1, problem.operator_rows, 0, problem.operator_rows), 1);
         const cases::Stopwatch::Seconds setup = watch.elapsed();
-        problem.source(scene.end_time, load);
+        problem.source(steady_step(scene.end_time), load);
         solve(solver, 1, scene.end_time);
         const cases::Stopwatch::Seconds total = watch.elapsed();
         observer.begin(describe(solver, 0));
@@ -200,10 +206,18 @@ namespace meltfront::particles
           take_bdf2_step(solver, k, end, length);
       }
 
-      /** load = factor * mass * vector + source(time). */
-      void set_load(double factor, std::span<const double> vector, double time)
+      /** The step to a time; the schemes of second order know the one before. */
+      LinearStep step_to(double end, double length, bool knows_before) const
       {
-        problem.source(time, source);
+        const double begin = end - length;
+        return {knows_before ? begin - length : begin, begin, end,
+                knows_before && scheme == LinearScheme::bdf2 ? 0.5 : 0., end};
+      }
+
+      /** load = factor * mass * vector + source. */
+      void set_load(double factor, std::span<const double> vector, const LinearStep &step)
+      {
+        problem.source(step, source);
         problem.mass.multiply(vector, load, threads);
         for(std::size_t i = 0; i < n; ++i)
           load[i] = factor * load[i] + source[i];
@@ -212,26 +226,30 @@ namespace meltfront::particles
 
       void take_euler_step(LinearSolver &solver, long k, double time, double length)
       {
-        set_load(1 / length, unknowns, time);
+        const LinearStep step = step_to(time, length, false);
+        set_load(1 / length, unknowns, step);
         solve(solver, k, time);
-        book(time, length, 1);
+        book(step, length, 1);
       }
 
       void take_crank_nicolson_step(LinearSolver &solver, long k, double end,
                                     double length)
       {
-        book(end - length, length, 0.5);
+        const LinearStep step = step_to(end, length, true);
+        LinearStep at_begin = step;
+        at_begin.at = step.begin;
+        book(at_begin, length, 0.5);
         previous.resize(n);
         problem.operator_rows.multiply(unknowns, previous, threads);
         work += static_cast<long>(problem.operator_rows.size());
-        problem.source(end - length, source);
+        problem.source(at_begin, source);
         for(std::size_t i = 0; i < n; ++i)
           previous[i] = algebraic(i) ? 0 : previous[i] + source[i];
-        set_load(2 / length, unknowns, end);
+        set_load(2 / length, unknowns, step);
         for(std::size_t i = 0; i < n; ++i)
           load[i] += previous[i];
         solve(solver, k, end);
-        book(end, length, 0.5);
+        book(step, length, 0.5);
       }
 
       /** A step of backward Euler, with a matrix of its own. */
@@ -250,14 +268,15 @@ namespace meltfront::particles
         for(std::size_t i = 0; i < n; ++i)
           previous[i] = 2 * unknowns[i] - 0.5 * before[i];
         before = unknowns;
-        set_load(1 / length, previous, end);
+        const LinearStep step = step_to(end, length, true);
+        set_load(1 / length, previous, step);
         solve(solver, k, end);
         // What has flowed in obeys the recursion of what is stored.
         const cases::HeatBudget last = booked;
         booked.boundary = (4 * last.boundary - booked_before.boundary) / 3;
         booked.sources = (4 * last.sources - booked_before.sources) / 3;
         booked_before = last;
-        book(end, length, 2. / 3);
+        book(step, length, 2. / 3);
       }
 
       bool algebraic(std::size_t row) const
@@ -265,11 +284,11 @@ namespace meltfront::particles
         return problem.mass.offsets[row] == problem.mass.offsets[row + 1];
       }
 
-      void book(double time, double length, double share)
+      void book(const LinearStep &step, double length, double share)
       {
         if(!problem.inflow)
           return;
-        const HeatInflow inflow = problem.inflow(time, unknowns);
+        const HeatInflow inflow = problem.inflow(step, unknowns);
         booked.boundary += share * length * inflow.through_walls;
         booked.sources += share * length * inflow.released;
       }
@@ -333,7 +352,7 @@ namespace meltfront::particles
         if(snapshot.heat.booked && scene.problem == cases::ProblemKind::poisson)
         {
           // Without release the walls' sum is round-off, with nothing to relate it to.
-          const HeatInflow inflow = problem.inflow(time, unknowns);
+          const HeatInflow inflow = problem.inflow(steady_step(time), unknowns);
           snapshot.heat.booked = inflow.released != 0;
           snapshot.heat.boundary = inflow.through_walls;
           snapshot.heat.sources = inflow.released;
@@ -430,6 +449,34 @@ namespace meltfront::particles
             {"steps", "1", 0L,
              "Time steps of transient scenes; 0: four times n, but at least 50.", 0,
              1e9}};
+  }
+
+  cases::Demand linear_demand(const cases::Scene &scene,
+                              const cases::Resolution &resolution, const LinearSize &size)
+  {
+    // An entry has a coefficient and a column.
+    constexpr double per_entry = 16;
+    LinearSolverParameters solver;
+    solver.method = choice<LinearMethod>(linear_method_names(),
+                                         resolution.options.get_string("linear_solver"));
+    solver.dimension = scene.domain.dimension;
+    double fill = 2;
+    switch(chosen_method(static_cast<std::size_t>(size.nodes), solver))
+    {
+    case LinearMethod::direct:
+      fill = cases::fill_of_factors(solver.dimension, size.nodes);
+      break;
+    case LinearMethod::gmres_ilut:
+      fill = solver.ilut_fill;
+      break;
+    default:
+      break;
+    }
+    return {
+        cases::program_bytes
+            + size.nodes
+                  * (size.per_node + size.entries * per_entry * (size.matrices + fill)),
+        scene.problem == cases::ProblemKind::poisson ? 1. : double(steps_of(resolution))};
   }
 
   cases::Cost run_linear_problem(const cases::Scene &scene, const LinearProblem &problem,

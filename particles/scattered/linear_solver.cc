@@ -21,18 +21,6 @@ namespace meltfront::particles
     /** Unknowns beyond which the preconditioner must not weaken with their number. */
     constexpr std::size_t multigrid_from = 100'000;
 
-    LinearMethod chosen(std::size_t unknowns, const LinearSolverParameters &parameters)
-    {
-      if(parameters.method != LinearMethod::automatic)
-        return parameters.method;
-      if(unknowns <= direct_up_to[std::clamp(parameters.dimension, 1, 3)])
-        return LinearMethod::direct;
-      if(unknowns > multigrid_from)
-        return parameters.symmetric ? LinearMethod::cg_multigrid
-                                    : LinearMethod::gmres_multigrid;
-      return parameters.symmetric ? LinearMethod::cg_jacobi : LinearMethod::gmres_ilut;
-    }
-
     /** One over the largest entry of each row; of a row of zeros, which makes the matrix
      * singular, one. */
     std::vector<double> row_scales(const CompressedRows &matrix)
@@ -66,10 +54,23 @@ namespace meltfront::particles
     return names;
   }
 
+  LinearMethod chosen_method(std::size_t unknowns,
+                             const LinearSolverParameters &parameters)
+  {
+    if(parameters.method != LinearMethod::automatic)
+      return parameters.method;
+    if(unknowns <= direct_up_to[std::clamp(parameters.dimension, 1, 3)])
+      return LinearMethod::direct;
+    if(unknowns > multigrid_from)
+      return parameters.symmetric ? LinearMethod::cg_multigrid
+                                  : LinearMethod::gmres_multigrid;
+    return parameters.symmetric ? LinearMethod::cg_jacobi : LinearMethod::gmres_ilut;
+  }
+
   struct LinearSolver::Implementation
   {
     Implementation(const CompressedRows &given, const LinearSolverParameters &parameters)
-      : method(chosen(given.rows(), parameters))
+      : method(chosen_method(given.rows(), parameters))
       , tolerance(parameters.tolerance)
       , matrix(given)
     {

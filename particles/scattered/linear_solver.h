@@ -36,6 +36,10 @@ namespace meltfront::particles
     int dimension = 2;      ///< of space: what `automatic` goes by
   };
 
+  /** The method that `automatic` stands for with so many unknowns; others as asked for. */
+  LinearMethod chosen_method(std::size_t unknowns,
+                             const LinearSolverParameters &parameters);
+
   /**
    * One matrix, factorised or preconditioned once and solved for many right-hand sides.
    * Every row is scaled by its largest entry first, unless the matrix is symmetric.

@@ -223,16 +223,17 @@ namespace meltfront::particles
     return nodes;
   }
 
-  double WallCondition::value(const cases::Position &position, double time) const
+  double WallCondition::value(const cases::Position &position, const LinearStep &step,
+                              const GivenValues &values) const
   {
     double sum = 0;
     for(const cases::Boundary *wall : walls)
     {
       if(!wall || wall->kind == BoundaryKind::insulated)
         continue;
-      const double given = wall->value(position, time);
       if(fixed)
-        return given;
+        return wall->value(position, step.at);
+      const double given = values.constraint(*wall, position, step);
       sum += wall->kind == BoundaryKind::heat_transfer
                  ? wall->heat_transfer_coefficient * given
                  : given;

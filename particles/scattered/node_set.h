@@ -4,6 +4,7 @@
 #include <cases/method.h>
 #include <cases/scene.h>
 #include <particles/core/particle_storage.h>
+#include <particles/scattered/given_values.h>
 
 #include <array>
 #include <cstdint>
@@ -86,8 +87,9 @@ namespace meltfront::particles
     double transfer = 0; ///< W/(m^2 K)
     std::array<const cases::Boundary *, 3> walls{};
 
-    /** The right-hand side at a time: temperature, or W/m^2. */
-    double value(const cases::Position &position, double time) const;
+    /** The right-hand side of a step: temperature, or W/m^2. */
+    double value(const cases::Position &position, const LinearStep &step,
+                 const GivenValues &given) const;
   };
 
   /** A node where one of its walls prescribes the temperature takes that. */

@@ -1,3 +1,4 @@
+#include <cases/time_integral.h>
 #include <particles/sph/explicit_stepper.h>
 
 #include <utility>
@@ -16,6 +17,17 @@ namespace meltfront::particles
   double ExplicitStepper::make_step(long step, double begin)
   {
     const double end = time_of(step);
+    while(begin < end)
+    {
+      const double next = cases::end_of_piece(breakpoints, begin, end);
+      cross(step, begin, next);
+      begin = next;
+    }
+    return end;
+  }
+
+  void ExplicitStepper::cross(long step, double begin, double end)
+  {
     heat_flow.prepare_step(begin, end);
     const bool super = plan.stages > 1 && step > plan.resolved_steps;
     double wall_heat = super ? scheme.take_super_step(
@@ -34,7 +46,6 @@ namespace meltfront::particles
       ++repeated;
     }
     book(wall_heat, held_heat);
-    return end;
   }
 
   double ExplicitStepper::euler_steps(double duration)

@@ -21,6 +21,9 @@ namespace meltfront::particles
   private:
     double make_step(long step, double begin) override;
 
+    /** Make a step in which no breakpoint lies. */
+    void cross(long step, double begin, double end);
+
     double euler_steps(double duration);
 
     ExplicitScheme scheme;

@@ -1,9 +1,9 @@
 #ifndef meltfront_particles_sph_front_exchange_h
 #define meltfront_particles_sph_front_exchange_h
 
+#include <cases/effect_meter.h>
 #include <cases/material.h>
 #include <particles/core/particle_operator.h>
-#include <particles/sph/effect_meter.h>
 #include <particles/sph/parameters.h>
 
 #include <algorithm>
@@ -189,7 +189,7 @@ namespace meltfront::particles
     std::vector<unsigned char> phases;   ///< of a slice's particles, a set of bits
     std::vector<std::uint32_t> fronts;   ///< slices that reach more than one phase
     long touched = 0;
-    EffectMeter meter;
+    cases::EffectMeter meter;
   };
 } // namespace meltfront::particles
 

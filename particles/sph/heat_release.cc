@@ -2,7 +2,6 @@
 #include <particles/sph/heat_release.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace meltfront::particles
 {
@@ -19,15 +18,10 @@ namespace meltfront::particles
     meter.measure_setup(
         [&]
         {
-          const double middle = 0.5 * (begin + end);
-          const double offset = 0.5 * (end - begin) * std::sqrt(0.6);
           CarefulSum sum;
           for(std::size_t a = 0; a < power.size(); ++a)
           {
-            const cases::Position p = dis.particles.point(a);
-            const double mean = (5 * density(p, middle - offset) + 8 * density(p, middle)
-                                 + 5 * density(p, middle + offset))
-                                / 18;
+            const double mean = density(dis.particles.point(a), begin, end);
             power[a] = mean * dis.particle_volume;
             sum.add(power[a]);
           }

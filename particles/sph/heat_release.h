@@ -1,8 +1,9 @@
 #ifndef meltfront_particles_sph_heat_release_h
 #define meltfront_particles_sph_heat_release_h
 
+#include <cases/effect_meter.h>
+#include <cases/time_integral.h>
 #include <particles/sph/discretisation.h>
-#include <particles/sph/effect_meter.h>
 
 #include <span>
 #include <vector>
@@ -11,7 +12,7 @@ namespace meltfront::particles
 {
   /**
    * Heat released throughout the domain: each particle takes the power density at its
-   * place times its volume, averaged over the step by Gauss's rule with three points.
+   * place times its volume, averaged over the step (cases::TimeMean).
    *
    * What was released by the end of a step is the sum of what the steps gave to the
    * particles, so that the budget closes to round-off.
@@ -44,10 +45,10 @@ namespace meltfront::particles
     };
 
     const Discretisation &dis;
-    const cases::Field &density;
+    cases::TimeMean density;
     std::vector<double> power; ///< W m^(d-3)
     std::vector<Released> released;
-    EffectMeter meter;
+    cases::EffectMeter meter;
   };
 } // namespace meltfront::particles
 

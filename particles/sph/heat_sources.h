@@ -1,8 +1,8 @@
 #ifndef meltfront_particles_sph_heat_sources_h
 #define meltfront_particles_sph_heat_sources_h
 
+#include <cases/effect_meter.h>
 #include <particles/sph/discretisation.h>
-#include <particles/sph/effect_meter.h>
 
 #include <span>
 #include <vector>
@@ -47,7 +47,7 @@ namespace meltfront::particles
     double start_time;
     std::vector<Share> shares;
     std::vector<double> power;
-    EffectMeter meter;
+    cases::EffectMeter meter;
   };
 } // namespace meltfront::particles
 

@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <cases/scene.h>
+#include <cases/time_integral.h>
 #include <particles/sph/implicit_scheme.h>
 
 #include <algorithm>
@@ -26,6 +27,7 @@ namespace meltfront::particles
     , plan(plan)
     , start(scene.start_time)
     , last(scene.end_time)
+    , breakpoints(cases::breakpoints_of(scene))
     , method(std::move(method))
     , next_step(plan.monotone)
     , moved(fields, 0.)
@@ -33,9 +35,11 @@ namespace meltfront::particles
   {
   }
 
-  TimeScheme ImplicitScheme::scheme_of(long step) const
+  TimeScheme ImplicitScheme::scheme_of(long step, double begin) const
   {
-    return step <= damped_steps ? TimeScheme::backward_euler : scheme;
+    return step <= damped_steps || std::ranges::binary_search(breakpoints, begin)
+               ? TimeScheme::backward_euler
+               : scheme;
   }
 
   double ImplicitScheme::make_step(Subject &subject, long step, double begin,
@@ -44,14 +48,19 @@ namespace meltfront::particles
     if(wanted_error > 0)
       return make_controlled_step(subject, step, begin, heat);
     const double end = step == plan.steps ? last : start + step * plan.step;
-    if(scheme_of(step) != scheme)
+    while(begin < end)
     {
-      const double middle = 0.5 * (begin + end);
-      cross(subject, step, begin, middle, TimeScheme::backward_euler, 0, heat);
-      cross(subject, step, middle, end, TimeScheme::backward_euler, 0, heat);
+      const double next = cases::end_of_piece(breakpoints, begin, end);
+      if(scheme_of(step, begin) != scheme)
+      {
+        const double middle = 0.5 * (begin + next);
+        cross(subject, step, begin, middle, TimeScheme::backward_euler, 0, heat);
+        cross(subject, step, middle, next, TimeScheme::backward_euler, 0, heat);
+      }
+      else
+        cross(subject, step, begin, next, scheme, 0, heat);
+      begin = next;
     }
-    else
-      cross(subject, step, begin, end, scheme, 0, heat);
     return end;
   }
 
@@ -117,12 +126,14 @@ namespace meltfront::particles
                                               WallHeat &heat)
   {
     const double shortest = 1e-12 * (last - start);
-    const TimeScheme with = scheme_of(step);
+    const TimeScheme with = scheme_of(step, begin);
     const double order = with == TimeScheme::crank_nicolson ? 2 : 1;
     for(;;)
     {
       // No rest much shorter than the steps is left over.
-      const double end = begin + 1.01 * next_step >= last ? last : begin + next_step;
+      const double end = cases::end_of_piece(
+          breakpoints, begin,
+          begin + 1.01 * next_step >= last ? last : begin + next_step);
       WallHeat added;
       const double error = compare(subject, begin, end, with, added);
       constexpr double caution = 0.9, least = 0.2, most = 2;

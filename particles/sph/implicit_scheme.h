@@ -65,8 +65,9 @@ namespace meltfront::particles
     double make_controlled_step(Subject &subject, long step, double begin,
                                 WallHeat &heat);
 
-    /** The scheme of a step; the first are always backward Euler. */
-    TimeScheme scheme_of(long step) const;
+    /** The scheme of a step; the first are always backward Euler, and those that begin
+     * at a breakpoint. */
+    TimeScheme scheme_of(long step, double begin) const;
 
     /** Cross a time in one step, or in halves of it until they succeed. */
     void cross(Subject &subject, long step, double begin, double end, TimeScheme scheme,
@@ -85,7 +86,8 @@ namespace meltfront::particles
     TimeScheme scheme;
     double wanted_error; ///< of a step; 0: steps of equal length
     StepPlan plan;
-    double start, last; ///< times of the run
+    double start, last;              ///< times of the run
+    std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
     std::string method;
     double next_step;           ///< to be tried next where an error is wanted (s)
     std::vector<double> moved;  ///< all changes of each field so far, summed

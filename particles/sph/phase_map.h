@@ -1,9 +1,9 @@
 #ifndef meltfront_particles_sph_phase_map_h
 #define meltfront_particles_sph_phase_map_h
 
+#include <cases/effect_meter.h>
 #include <cases/effects.h>
 #include <cases/material.h>
-#include <particles/sph/effect_meter.h>
 
 #include <span>
 #include <vector>
@@ -66,7 +66,7 @@ namespace meltfront::particles
     bool is_mapped;
     double solid_factor;  ///< k_s/c_s
     double liquid_factor; ///< k_l/c_l
-    EffectMeter meter;
+    cases::EffectMeter meter;
   };
 } // namespace meltfront::particles
 

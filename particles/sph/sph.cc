@@ -1,4 +1,5 @@
 #include <cases/scene.h>
+#include <particles/sph/demand.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/sph_run.h>
 
@@ -57,6 +58,13 @@ namespace meltfront::particles
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
         return sph_options(policy);
+      }
+
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        return sph_demand(resolve_parameters(policy, scene, resolution), scene,
+                          {.per_particle = 400, .per_neighbour = 40});
       }
 
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,

@@ -1,3 +1,5 @@
+#include <cases/temperature_slack.h>
+#include <cases/time_integral.h>
 #include <particles/sph/explicit_stepper.h>
 #include <particles/sph/implicit_stepper.h>
 #include <particles/sph/stepper.h>
@@ -18,6 +20,7 @@ namespace meltfront::particles
     : heat_flow(heat_flow)
     , dis(discretisation)
     , plan(plan)
+    , breakpoints(cases::breakpoints_of(discretisation.scene))
     , n(initial.size())
     , method(std::move(method))
     , enthalpy(std::move(initial))
@@ -25,7 +28,9 @@ namespace meltfront::particles
     , particle_mass(dis.particle_volume * dis.scene.material.solid.density)
   {
     enthalpy.resize(heat_flow.padded_size(), 0.);
-    heat_flow.prepare_step(dis.scene.start_time, time_of(1));
+    heat_flow.prepare_step(
+        dis.scene.start_time,
+        cases::end_of_piece(breakpoints, dis.scene.start_time, time_of(1)));
     heat_flow.hold_walls(0, enthalpy);
     heat_flow.follow(enthalpy);
   }
@@ -62,8 +67,10 @@ namespace meltfront::particles
     // Where a source leaves one bound only, the temperatures at hand set the scale.
     const double span = bounds.upper - bounds.lower;
     const double slack
-        = 0.5 * bound_tolerance
-          * (std::isfinite(span) ? span : extremes.highest - extremes.lowest);
+        = 0.5
+          * (bound_tolerance
+                 * (std::isfinite(span) ? span : extremes.highest - extremes.lowest)
+             + cases::temperature_round_off(bounds));
     return !extremes.finite || extremes.lowest < bounds.lower - slack
            || extremes.highest > bounds.upper + slack;
   }

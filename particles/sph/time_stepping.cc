@@ -13,10 +13,20 @@ namespace meltfront::particles
     /** Fewest steps of a run, so that fronts can be sampled at 100 times. */
     constexpr long fewest_steps = 200;
 
+    /** Equal steps of at most some length. @throws cases::Refusal for too many. */
+    long steps_within(double duration, double step)
+    {
+      const double steps = std::ceil(duration / step * (1 - 1e-12));
+      if(!(steps <= cases::most_steps))
+        throw cases::Refusal(fmt::format("steps of {:.3g} s would be {:.3g} in number, "
+                                         "and at most {:.0e} are possible",
+                                         step, steps, cases::most_steps));
+      return std::max(1L, static_cast<long>(steps));
+    }
+
     long steps_for(double duration, double step)
     {
-      return std::max(fewest_steps,
-                      static_cast<long>(std::ceil(duration / step * (1 - 1e-12))));
+      return std::max(fewest_steps, steps_within(duration, step));
     }
   } // namespace
 
@@ -49,10 +59,9 @@ namespace meltfront::particles
      * step of explicit Euler. */
     int stages_for(double reach)
     {
-      int stages = 3;
-      while(super_step_reach(stages) < reach * (1 - 1e-12))
-        ++stages;
-      return stages;
+      // (s^2 + s - 2)/4 = reach
+      const double root = std::sqrt(2.25 + 4 * reach * (1 - 1e-12)) - 0.5;
+      return static_cast<int>(std::ceil(std::clamp(root, 3., 1e9)));
     }
 
     void refuse_unstable_step(double step, double monotone)
@@ -111,8 +120,7 @@ namespace meltfront::particles
                              : published_step(scene.material, smoothing_length);
     if(is_implicit(p.time_scheme) && p.steps == 0)
     {
-      const long steps
-          = std::max(1L, std::lround(std::ceil(duration / euler * (1 - 1e-12))));
+      const long steps = steps_within(duration, euler);
       return {steps, duration / steps, 1, monotone, 1, 0};
     }
     if(!is_implicit(p.time_scheme))
@@ -120,8 +128,7 @@ namespace meltfront::particles
     StepPlan plan = p.steps > 0 ? plan_given_steps(p, duration, euler, monotone)
                                 : plan_long_steps(p, duration, euler, monotone);
     plan.step = duration / plan.steps;
-    plan.euler_substeps
-        = std::max(1, static_cast<int>(std::ceil(plan.step / euler * (1 - 1e-12))));
+    plan.euler_substeps = static_cast<int>(steps_within(plan.step, euler));
     return plan;
   }
 

@@ -10,7 +10,7 @@ namespace meltfront::particles
 
   void WallFlux::prepare_step(double begin, double end)
   {
-    meter.measure_setup([&] { values.prepare_step(begin, end); });
+    meter.measure_setup([&] { values.average_step(begin, end); });
   }
 
   double WallFlux::add(double fraction, std::span<double> flow, double flow_scale)

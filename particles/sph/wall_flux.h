@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_sph_wall_flux_h
 #define meltfront_particles_sph_wall_flux_h
 
-#include <particles/sph/effect_meter.h>
+#include <cases/effect_meter.h>
 #include <particles/sph/wall_values.h>
 
 #include <span>
@@ -11,7 +11,8 @@ namespace meltfront::particles
   /**
    * Walls with a prescribed heat flux: each particle near such a wall takes the flux on
    * its share of the wall's area. The shares come from the mirror images' gradient and
-   * add up to the wall's area.
+   * add up to the wall's area. A step takes the flux's mean over it, so that what has
+   * come in is the flux's integral whatever it does within a step.
    */
   class WallFlux
   {
@@ -37,7 +38,7 @@ namespace meltfront::particles
   private:
     std::vector<WallLink> links;
     WallValues values;
-    EffectMeter meter;
+    cases::EffectMeter meter;
   };
 } // namespace meltfront::particles
 

@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_sph_wall_temperature_h
 #define meltfront_particles_sph_wall_temperature_h
 
-#include <particles/sph/effect_meter.h>
+#include <cases/effect_meter.h>
 #include <particles/sph/phase_map.h>
 #include <particles/sph/wall_values.h>
 
@@ -113,7 +113,7 @@ namespace meltfront::particles
     std::vector<double> held_weights; ///< mass in the measure of the scene
     WallValues values;
     std::vector<double> wall_variable;
-    EffectMeter meter;
+    cases::EffectMeter meter;
   };
 } // namespace meltfront::particles
 

@@ -59,36 +59,57 @@ namespace meltfront::particles
       link.point = number_of[link.point];
     first.resize(points.size());
     last.resize(points.size());
+    std::map<const cases::Boundary *, std::size_t> mean_of_boundary;
+    for(const WallPoint &point : points)
+    {
+      const auto [found, inserted]
+          = mean_of_boundary.try_emplace(point.boundary, means.size());
+      if(inserted)
+        means.emplace_back(point.boundary->value);
+      mean_of_point.push_back(found->second);
+    }
   }
 
-  void WallValues::evaluate(double time, std::vector<double> &values) const
+  bool WallValues::holds_constants(double begin, double end)
   {
-    for(std::size_t p = 0; p < points.size(); ++p)
-      values[p] = points[p].boundary->value(points[p].position, time);
+    if(constant && std::isnan(last_time))
+    {
+      for(std::size_t p = 0; p < points.size(); ++p)
+        first[p] = points[p].boundary->value(points[p].position, begin);
+      last = first;
+    }
+    if(constant)
+      last_time = end;
+    return constant;
   }
 
   void WallValues::prepare_step(double begin, double end)
   {
-    if(constant)
-    {
-      if(std::isnan(last_time))
-      {
-        evaluate(begin, first);
-        last = first;
-      }
-      last_time = end;
+    if(holds_constants(begin, end))
       return;
+    const bool goes_on = last_time == begin;
+    for(std::size_t p = 0; p < points.size(); ++p)
+    {
+      const cases::Field &value = points[p].boundary->value;
+      const cases::Position &position = points[p].position;
+      first[p] = goes_on && !cases::breaks_at(value, begin)
+                     ? last[p]
+                     : cases::value_at_begin(value, position, begin, end);
+      last[p] = cases::value_at_end(value, position, begin, end);
     }
-    if(last_time == begin)
-      std::swap(first, last);
-    else
-      evaluate(begin, first);
-    evaluate(end, last);
     last_time = end;
+  }
+
+  void WallValues::average_step(double begin, double end)
+  {
+    if(holds_constants(begin, end))
+      return;
+    for(std::size_t p = 0; p < points.size(); ++p)
+      first[p] = last[p] = means[mean_of_point[p]](points[p].position, begin, end);
   }
 
   std::size_t WallValues::bytes() const
   {
-    return points.size() * (sizeof(WallPoint) + 2 * sizeof(double));
+    return points.size() * (sizeof(WallPoint) + sizeof(std::size_t) + 2 * sizeof(double));
   }
 } // namespace meltfront::particles

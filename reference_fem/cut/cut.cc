@@ -1,8 +1,11 @@
 #include <reference_fem/cut/cut.h>
 
+#include <cases/demand.h>
 #include <cases/scene.h>
 #include <reference_fem/cut/options.h>
 #include <reference_fem/cut/run.h>
+
+#include <cmath>
 
 namespace meltfront::reference_fem
 {
@@ -41,6 +44,22 @@ namespace meltfront::reference_fem
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
         return cut::cut_options();
+      }
+
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        // Of three states on a mesh, geometry and factors, as measured.
+        constexpr double per_cell = 3000;
+        const cut::RunOptions options(resolution.options);
+        const double n = resolution.n;
+        double cells = cases::lattice_points(scene.domain, cut::dim, n);
+        if(options.refinement > 0)
+          // A front as long as the domain, a few times, in its band; coarse cells else.
+          cells = cells / std::pow(4, options.refinement)
+                  + std::min(cells, 3 * n * (2 * options.widths.finest));
+        return {cases::program_bytes + cells * per_cell * options.degree * options.degree,
+                double(options.fewest_steps)};
       }
 
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,

@@ -46,6 +46,13 @@ namespace meltfront::reference_fem::cut
     , stabilization(stabilization)
     , smoothing(smoothing)
   {
+    for(const cases::Side side : scene.sides())
+      if(scene.boundary(side).kind == cases::BoundaryKind::flux)
+      {
+        const auto &flux
+            = fluxes[static_cast<std::size_t>(side)].emplace(scene.boundary(side).value);
+        fluxes_vary = fluxes_vary || !flux.steady();
+      }
   }
 
   const cases::PhaseProperties &HeatProblem::properties(Phase phase) const
@@ -55,30 +62,76 @@ namespace meltfront::reference_fem::cut
 
   void HeatProblem::set_front(State &state, Values level_set) const
   {
-    keep_off_nodes(*state.mesh, level_set);
-    state.geometry = std::make_shared<CutGeometry>(*state.mesh, level_set);
-    redistance(*state.mesh, *state.geometry, level_set);
-    state.level_set = std::move(level_set);
+    meters.front.measure(
+        [&]
+        {
+          keep_off_nodes(*state.mesh, level_set);
+          state.geometry = std::make_shared<CutGeometry>(*state.mesh, level_set);
+          redistance(*state.mesh, *state.geometry, level_set);
+          state.level_set = std::move(level_set);
+        });
   }
 
-  PhaseEquation HeatProblem::conditions(Phase phase, double time) const
+  /** What walls prescribe brings in its integral over time: the rate of it is the time
+   * scheme's own derivative of the integral, over whole steps. */
+  double HeatProblem::flux_in(cases::Side side, const cases::Position &position,
+                              const State &state, const State *before,
+                              const State *older) const
   {
+    const cases::TimeMean &mean = *fluxes[static_cast<std::size_t>(side)];
+    if(!before || mean.steady())
+      return mean(position, state.time, state.time);
+    const double step = state.time - before->time;
+    const double now = mean(position, before->time, state.time);
+    if(!older)
+      return now;
+    const double step_before = before->time - older->time;
+    const TimeDerivative derivative = time_derivative(step, step_before);
+    return derivative.now * step * now
+           - derivative.older * step_before * mean(position, older->time, before->time);
+  }
+
+  /** Of the walls' fluxes (W/m), as flux_in() has it. */
+  double HeatProblem::flux_power(const State &state, const State &before,
+                                 const State *older) const
+  {
+    double sum = 0;
+    for(const WallPoint &wall : state.geometry->walls)
+      if(fluxes[static_cast<std::size_t>(wall.side)])
+        sum += wall.point.weight
+               * flux_in(wall.side, position(wall.position), state, &before, older);
+    return sum;
+  }
+
+  PhaseEquation HeatProblem::conditions(Phase phase, const State &state,
+                                        const State *before, const State *older) const
+  {
+    const double time = state.time;
     const bool solid = phase == Phase::solid;
     const double melting = scene.material.melting_temperature;
     const double conductivity = properties(phase).conductivity;
     PhaseEquation result;
     result.front_value = [this, solid, melting, time](const Point &point)
-    { return solid ? melting - sinks.value(point, time) : melting; };
-    result.wall
-        = [this, solid, conductivity, time](const WallPoint &wall) -> WallCondition
+    { return solid ? melting - sink_value(point, time) : melting; };
+    result.wall = [this, solid, conductivity, time, &state, before,
+                   older](const WallPoint &wall) -> WallCondition
     {
       const cases::Boundary &boundary = scene.boundary(wall.side);
       const cases::Position place = position(wall.position);
+      cases::EffectMeter &meter = meters.walls[static_cast<std::size_t>(boundary.kind)];
       if(boundary.kind == cases::BoundaryKind::fixed_temperature)
-        return {true, boundary.value(place, time)
-                          - (solid ? sinks.value(wall.position, time) : 0)};
+        return {true, meter.measure(
+                          [&]
+                          {
+                            return before ? cases::value_at_end(boundary.value, place,
+                                                                before->time, time)
+                                          : boundary.value(place, time);
+                          })
+                          - (solid ? sink_value(wall.position, time) : 0)};
       const double flux
-          = boundary.kind == cases::BoundaryKind::flux ? boundary.value(place, time) : 0;
+          = boundary.kind == cases::BoundaryKind::flux ? meter.measure(
+                [&] { return flux_in(wall.side, place, state, before, older); })
+                                                       : 0;
       return {false, flux
                          - (solid ? conductivity
                                         * (sinks.gradient(wall.position, time)
@@ -86,6 +139,42 @@ namespace meltfront::reference_fem::cut
                                   : 0)};
     };
     return result;
+  }
+
+  double HeatProblem::sink_value(const Point &point, double time) const
+  {
+    return sinks.places.empty()
+               ? 0
+               : meters.sinks.measure([&] { return sinks.value(point, time); });
+  }
+
+  cases::EffectCost HeatProblem::cost(cases::Effect effect, const State &state) const
+  {
+    using cases::BoundaryKind, cases::Effect;
+    const auto of_wall = [&](BoundaryKind kind)
+    {
+      std::size_t points = 0;
+      for(const WallPoint &wall : state.geometry->walls)
+        points += scene.boundary(wall.side).kind == kind;
+      return meters.walls[static_cast<std::size_t>(kind)].cost(
+          effect, points * sizeof(WallPoint));
+    };
+    switch(effect)
+    {
+    case Effect::phase_change:
+      return meters.front.cost(
+          effect, (state.level_set.size() + state.speed.values.size()) * sizeof(double)
+                      + state.speed.band.size()
+                      + state.geometry->cut_cells.size() * sizeof(CutCell));
+    case Effect::heat_sources:
+      return meters.sinks.cost(effect, sinks.places.size() * sizeof(Point));
+    case Effect::wall_temperature:
+      return of_wall(BoundaryKind::fixed_temperature);
+    case Effect::wall_flux:
+      return of_wall(BoundaryKind::flux);
+    default:
+      return {effect, solves, 0, 0};
+    }
   }
 
   State HeatProblem::transferred(const State &state,
@@ -156,7 +245,7 @@ namespace meltfront::reference_fem::cut
                               &temperature](const Point &point) {
       return temperature(point) - (phase == Phase::solid ? sinks.value(point, time) : 0);
     };
-    PhaseEquation result = conditions(phase, state.time);
+    PhaseEquation result = conditions(phase, state, nullptr, nullptr);
     result.wall = {};
     result.conductivity = conductivity;
     result.mass = conductivity / (length * length);
@@ -205,8 +294,12 @@ namespace meltfront::reference_fem::cut
             heat += phase_flux[speed.size()];
         speed.push_back(heat / latent);
       }
-    state.speed
-        = extend_speed(*state.mesh, *state.geometry, state.level_set, speed, smoothing);
+    state.speed = meters.front.measure(
+        [&]
+        {
+          return extend_speed(*state.mesh, *state.geometry, state.level_set, speed,
+                              smoothing);
+        });
   }
 
   PointFunction HeatProblem::change_of_sinks(const TimeDerivative &derivative,
@@ -218,9 +311,9 @@ namespace meltfront::reference_fem::cut
     return [this, capacity, derivative, now, then, first](const Point &point)
     {
       return -capacity
-             * (derivative.now * sinks.value(point, now)
-                + derivative.before * sinks.value(point, then)
-                + (derivative.older != 0 ? derivative.older * sinks.value(point, first)
+             * (derivative.now * sink_value(point, now)
+                + derivative.before * sink_value(point, then)
+                + (derivative.older != 0 ? derivative.older * sink_value(point, first)
                                          : 0));
     };
   }
@@ -231,7 +324,7 @@ namespace meltfront::reference_fem::cut
     const TimeDerivative derivative = time_derivative(
         state.time - before.time, older ? before.time - older->time : 0);
     const double capacity = properties(phase).volumetric_heat_capacity();
-    PhaseEquation result = conditions(phase, state.time);
+    PhaseEquation result = conditions(phase, state, &before, older);
     result.mass = capacity * derivative.now;
     result.conductivity = properties(phase).conductivity;
     result.load = before.unknown[index(phase)];
@@ -264,6 +357,11 @@ namespace meltfront::reference_fem::cut
       state.wall_power += problem.wall_heat(equation, unknown);
       unknowns += problem.unknowns;
       entries += problem.entries;
+    }
+    if(fluxes_vary)
+    {
+      state.wall_power -= flux_power(state, before, older);
+      state.flux_heat = (state.time - before.time) * flux_power(state, before, nullptr);
     }
     find_speed(state, flux);
     most_unknowns = std::max(most_unknowns, unknowns);

@@ -1,6 +1,8 @@
 #ifndef meltfront_reference_fem_cut_heat_problem_h
 #define meltfront_reference_fem_cut_heat_problem_h
 
+#include <cases/effect_meter.h>
+#include <cases/time_integral.h>
 #include <reference_fem/cut/front_speed.h>
 #include <reference_fem/cut/phase_problem.h>
 #include <reference_fem/cut/sink_field.h>
@@ -23,7 +25,9 @@ namespace meltfront::reference_fem::cut
     std::shared_ptr<const CutGeometry> geometry;
     std::array<Values, 2> unknown; ///< by Phase
     SpeedField speed;
-    double wall_power = 0; ///< heat in through the walls (W/m)
+    /** Heat in through the walls (W/m); where walls' fluxes vary, without these. */
+    double wall_power = 0;
+    double flux_heat = 0; ///< what walls' varying fluxes brought in the last step (J/m)
   };
 
   /** Factors of a time derivative: d/dt u = now u + before u_before + older u_older. */
@@ -34,6 +38,13 @@ namespace meltfront::reference_fem::cut
 
   /** BDF2 for steps of any ratio; backward Euler without a step before. */
   TimeDerivative time_derivative(double step, double step_before);
+
+  /** What the parts of a solve cost that effects call for. */
+  struct CutMeters
+  {
+    cases::EffectMeter front, sinks;
+    std::array<cases::EffectMeter, cases::n_boundary_kinds> walls;
+  };
 
   /** Heat conduction on both sides of a given front, and the speed that follows. */
   class HeatProblem
@@ -70,6 +81,11 @@ namespace meltfront::reference_fem::cut
     /** Latent heat of the liquid (J/m). */
     double latent_heat(const State &state) const;
 
+    /** What an effect has cost so far, a state given for its arrays. Two conductivities
+     * or capacities in place of one are other numbers in the same matrices, with no time
+     * of their own. */
+    cases::EffectCost cost(cases::Effect effect, const State &state) const;
+
     /** Whether a point lies in the solid and not at its front. */
     bool in_solid(const State &state, const Point &point) const;
 
@@ -77,8 +93,10 @@ namespace meltfront::reference_fem::cut
     long solves = 0, unknowns = 0; ///< unknowns of the last solve, both phases
     long most_unknowns = 0;        ///< of any solve
     long entries = 0;              ///< of matrices, over all solves
+    mutable CutMeters meters;
 
   private:
+    double sink_value(const Point &point, double time) const;
     const cases::PhaseProperties &properties(Phase phase) const;
     Values values_on_front(const BackgroundMesh &mesh,
                            const PhaseEquation &equation) const;
@@ -88,7 +106,12 @@ namespace meltfront::reference_fem::cut
                                    const State &state, const Cell &cell,
                                    const Point &unit) const;
     void find_speed(State &state, const std::array<std::vector<double>, 2> &flux) const;
-    PhaseEquation conditions(Phase phase, double time) const;
+    /** @param before, older null where the conditions are those of a time */
+    PhaseEquation conditions(Phase phase, const State &state, const State *before,
+                             const State *older) const;
+    double flux_in(cases::Side side, const cases::Position &position, const State &state,
+                   const State *before, const State *older) const;
+    double flux_power(const State &state, const State &before, const State *older) const;
     PhaseEquation equation(Phase phase, const State &state, const State &before,
                            const State *older) const;
     PointFunction change_of_sinks(const TimeDerivative &derivative, const State &state,
@@ -99,6 +122,8 @@ namespace meltfront::reference_fem::cut
     const double spacing;
     const Stabilization &stabilization;
     double smoothing;
+    std::array<std::optional<cases::TimeMean>, cases::n_sides> fluxes; ///< of walls
+    bool fluxes_vary = false;
   };
 } // namespace meltfront::reference_fem::cut
 

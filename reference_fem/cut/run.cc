@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -19,6 +20,18 @@ namespace meltfront::reference_fem::cut
     /** The first step, of the one that accuracy allows: backward Euler, whose error is of
      * first order, makes it. */
     constexpr double first_step_share = 1. / 32;
+
+    /** Steps of backward Euler after a jump of the data at a wall. */
+    constexpr int damping_steps = 4;
+
+    /** Of the span of the bounds: what counts as a jump. */
+    constexpr double least_jump = 1e-6;
+
+    /** Of the run: how long before a jump the last step ends that knows nothing of it. */
+    constexpr double just_after = 1e-9;
+
+    /** Of the run: a front that calls for shorter steps has lost its way. */
+    constexpr double shortest_step = 1e-8;
 
     /** BDF2 is stable for steps that grow by less than 1 + sqrt(2). */
     constexpr double largest_growth = 1.6;
@@ -54,6 +67,7 @@ namespace meltfront::reference_fem::cut
     , state{scene.start_time, make_mesh({}, finest_rim.get()), {}, {}, {}, {}, 0}
     , heat(scene, state.mesh->spacing, options.stabilization, options.smoothing)
     , bounds(cases::temperature_bounds(scene))
+    , breakpoints(cases::breakpoints_of(scene))
   {
   }
 
@@ -95,6 +109,7 @@ namespace meltfront::reference_fem::cut
     cost.solver_iterations = heat.solves;
     cost.most_iterations = options.solves;
     cost.capped_steps = capped_steps;
+    cost.evidence = evidence();
     cost.effects = effect_costs();
     return cost;
   }
@@ -113,6 +128,58 @@ namespace meltfront::reference_fem::cut
     heat.project(state, found.temperature);
     step_number = found.time > scene.start_time ? 1 : 0;
     check(state);
+    if(largest_jump(found.temperature, state.time) > 0)
+      damped_steps = damping_steps;
+  }
+
+  /** By how much held temperatures of walls differ from what is there before; 0 if by
+   * next to nothing. */
+  double CutRun::largest_jump(const PointFunction &before, double time) const
+  {
+    double largest = 0;
+    for(const WallPoint &wall : state.geometry->walls)
+    {
+      const cases::Boundary &boundary = scene.boundary(wall.side);
+      if(boundary.kind == cases::BoundaryKind::fixed_temperature)
+        largest = std::max(largest, std::abs(boundary.value(position(wall.position), time)
+                                             - before(wall.position)));
+    }
+    const double span = bounds.upper - bounds.lower;
+    return largest > (std::isfinite(span) ? least_jump * span : 0) ? largest : 0;
+  }
+
+  /** After a step that ended where walls' data may jump. */
+  void CutRun::damp_jump(double step_began)
+  {
+    const double after = state.time + just_after * (scene.end_time - scene.start_time);
+    for(const WallPoint &wall : state.geometry->walls)
+    {
+      const cases::Boundary &boundary = scene.boundary(wall.side);
+      if(boundary.kind != cases::BoundaryKind::fixed_temperature)
+        continue;
+      const cases::Position place = position(wall.position);
+      const double jump
+          = boundary.value(place, after)
+            - cases::value_at_end(boundary.value, place, step_began, state.time);
+      if(std::abs(jump) > least_jump * (bounds.upper - bounds.lower))
+        damped_steps = damping_steps;
+    }
+  }
+
+  /**
+   * The shortest step of backward Euler in which bilinear elements smooth a jump and do
+   * not overshoot: h^2/(3 alpha), from which on no two nodes of a Cartesian mesh are
+   * coupled by mass more than by conduction.
+   */
+  double CutRun::damping_step() const
+  {
+    double slowest = std::numeric_limits<double>::infinity();
+    for(const Phase phase : {Phase::solid, Phase::liquid})
+      if(state.geometry->has(phase))
+        slowest = std::min(slowest, (phase == Phase::solid ? scene.material.solid
+                                                           : scene.material.liquid)
+                                        .diffusivity());
+    return state.mesh->spacing * state.mesh->spacing / (3 * slowest);
   }
 
   void CutRun::require_resolved() const
@@ -134,16 +201,31 @@ namespace meltfront::reference_fem::cut
           -lowest, highest, mesh.spacing, least_depth));
   }
 
+  double CutRun::next_stop() const
+  {
+    return cases::end_of_piece(breakpoints, state.time, scene.end_time);
+  }
+
   double CutRun::next_step() const
   {
     const double longest
         = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
-    double step = longest;
-    if(state.speed.largest > 0)
-      step = std::min(step,
-                      options.step_factor * state.mesh->spacing / state.speed.largest);
+    const double by_front
+        = state.speed.largest > 0
+              ? options.step_factor * state.mesh->spacing / state.speed.largest
+              : std::numeric_limits<double>::infinity();
+    double step = std::min(longest, by_front);
     step = fresh ? first_step_share * step : std::min(step, largest_growth * last_step);
-    const double rest = scene.end_time - state.time;
+    if(damped_steps > 0)
+      step = std::max(step, std::min(damping_step(), by_front));
+    const double whole = scene.end_time - scene.start_time;
+    if(!(step > shortest_step * whole))
+      throw cases::NumericalError(
+          method_name, step_number + 1, state.time, "front",
+          fmt::format("moves at {:.3g} m/s, for which steps would be shorter than {:g} "
+                      "of the run",
+                      state.speed.largest, shortest_step));
+    const double rest = next_stop() - state.time;
     if(step >= rest * (1 - 1e-10))
       return rest;
     return step > rest / 2 ? rest / 2 : step;
@@ -196,8 +278,8 @@ namespace meltfront::reference_fem::cut
 
   bool CutRun::attempt(double step, bool last_chance, State &next)
   {
-    const double rest = scene.end_time - state.time;
-    next.time = step == rest ? scene.end_time : state.time + step;
+    const double stop = next_stop();
+    next.time = step == stop - state.time ? stop : state.time + step;
     bool limited = false;
     Values front = predicted_front(step, limited);
     for(int solve = 0; solve < options.solves; ++solve)
@@ -205,7 +287,7 @@ namespace meltfront::reference_fem::cut
       if(limited && !last_chance)
         return false;
       heat.set_front(next, std::move(front));
-      heat.solve(next, state, older ? &*older : nullptr);
+      heat.solve(next, state, older && damped_steps == 0 ? &*older : nullptr);
       if(solve + 1 < options.solves)
         front = moved_front(step, next.speed, limited);
     }
@@ -222,7 +304,10 @@ namespace meltfront::reference_fem::cut
     try
     {
       for(int halvings = 0; !attempt(step, halvings == most_halvings, next); ++halvings)
+      {
         step /= 2;
+        ++halved_steps;
+      }
     }
     catch(const std::runtime_error &error)
     {
@@ -241,9 +326,18 @@ namespace meltfront::reference_fem::cut
     if(fresh)
       state.wall_power = next.wall_power;
     boundary_heat += (next.time - state.time) * (state.wall_power + next.wall_power) / 2;
+    const double step_began = state.time;
     older = std::move(state);
     state = std::move(next);
-    fresh = false;
+    euler_steps += fresh || damped_steps > 0;
+    damped_steps = std::max(0, damped_steps - 1);
+    boundary_heat += state.flux_heat;
+    fresh = std::ranges::binary_search(breakpoints, state.time);
+    if(fresh)
+    {
+      older.reset();
+      damp_jump(step_began);
+    }
     ++step_number;
     check(state);
     follow_front();

@@ -8,6 +8,7 @@
 #include <reference_fem/cut/options.h>
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,7 +31,11 @@ namespace meltfront::reference_fem::cut
     void start();
     void require_resolved() const;
     void step();
+    double next_stop() const;
     double next_step() const;
+    double damping_step() const;
+    double largest_jump(const PointFunction &before, double time) const;
+    void damp_jump(double step_began);
     bool attempt(double step, bool last_chance, State &next);
     Values moved_front(double step, const SpeedField &end_speed, bool &limited) const;
     Values predicted_front(double step, bool &limited) const;
@@ -48,6 +53,7 @@ namespace meltfront::reference_fem::cut
     void add_site(const Point &point, double weight, double temperature, bool solid);
     void add_vertices();
     std::vector<cases::EffectCost> effect_costs() const;
+    std::map<std::string, double> evidence() const;
 
     const cases::Scene &scene;
     const cases::EffectSet &effects;
@@ -58,12 +64,14 @@ namespace meltfront::reference_fem::cut
     State state;
     HeatProblem heat;
     cases::TemperatureBounds bounds;
+    std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
     std::string start_in_words;
 
     std::optional<State> older;
     double last_step = 0;
-    bool fresh = true; ///< no step was made yet
-    long step_number = 0, capped_steps = 0, meshes = 1;
+    bool fresh = true;    ///< no step was made since the start or a breakpoint
+    int damped_steps = 0; ///< still to be made, after a jump of the data
+    long step_number = 0, halved_steps = 0, capped_steps = 0, euler_steps = 0, meshes = 1;
     double boundary_heat = 0, initial_heat = 0;
 
     std::array<std::vector<double>, dim> site_positions, front_positions;

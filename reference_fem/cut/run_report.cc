@@ -32,7 +32,10 @@ namespace meltfront::reference_fem::cut
                      options.level_set_degree),
          ""},
         {"start", start_in_words, ""},
-        {"time scheme", "BDF2 for the temperature, predictor and trapezoid for the front",
+        {"time scheme",
+         "BDF2 for the temperature, after a jump at a wall a few steps of backward "
+         "Euler; "
+         "predictor and trapezoid for the front",
          ""},
         {"cells crossed in a step, at most", fmt::format("{:g}", options.step_factor),
          "1"},
@@ -183,7 +186,15 @@ namespace meltfront::reference_fem::cut
     std::vector<cases::EffectCost> result;
     for(const cases::EffectDecision &decision : effects.decisions())
       if(decision.on)
-        result.push_back({decision.effect, heat.solves, 0, 0});
+        result.push_back(heat.cost(decision.effect, state));
     return result;
+  }
+
+  std::map<std::string, double> CutRun::evidence() const
+  {
+    return {{"steps halved", double(halved_steps)},
+            {"steps whose front's move was cut to 0.9 cells", double(capped_steps)},
+            {"steps of backward Euler", double(euler_steps)},
+            {"meshes", double(meshes)}};
   }
 } // namespace meltfront::reference_fem::cut

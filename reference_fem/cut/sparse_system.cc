@@ -1,6 +1,9 @@
 #include <reference_fem/cut/sparse_system.h>
 
+#include <cases/out_of_memory.h>
+
 #include <Eigen/SparseCholesky>
+#include <fmt/format.h>
 
 namespace meltfront::reference_fem::cut
 {
@@ -47,12 +50,21 @@ namespace meltfront::reference_fem::cut
 
   bool SparseSystem::solve(Values &values) const
   {
-    Eigen::SparseMatrix<double> matrix(load.size(), load.size());
-    matrix.setFromTriplets(triplets.begin(), triplets.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
-    if(factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 0))
-      return false;
-    const LocalVector solution = factors.solve(load);
+    LocalVector solution;
+    try
+    {
+      Eigen::SparseMatrix<double> matrix(load.size(), load.size());
+      matrix.setFromTriplets(triplets.begin(), triplets.end());
+      const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
+      if(factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 0))
+        return false;
+      solution = factors.solve(load);
+    }
+    catch(const std::bad_alloc &)
+    {
+      throw cases::OutOfMemory(fmt::format(
+          "sparse Cholesky found none for the factors of {} unknowns", load.size()));
+    }
     for(std::size_t dof = 0; dof < number.size(); ++dof)
       if(number[dof] >= 0)
         values[dof] = solution[number[dof]];

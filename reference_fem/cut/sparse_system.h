@@ -28,6 +28,7 @@ namespace meltfront::reference_fem::cut
     /**
      * Solve; degrees of freedom that take no part keep their value in `values`.
      * @return whether the matrix could be factorised as a positive definite one
+     * @throws cases::OutOfMemory
      */
     bool solve(Values &values) const;
 

@@ -1,8 +1,12 @@
 #include <reference_fem/enthalpy/enthalpy.h>
 
+#include <cases/demand.h>
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/options.h>
+#include <reference_fem/enthalpy/shaped_triangulation.h>
 #include <reference_fem/enthalpy/solver.h>
+
+#include <cmath>
 
 namespace meltfront::reference_fem
 {
@@ -53,12 +57,33 @@ namespace meltfront::reference_fem
         return enthalpy_options();
       }
 
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        // Of mesh, matrix, preconditioner and snapshots together, as measured.
+        constexpr double per_node[] = {0, 1000, 1600, 2500};
+        const RunOptions options(scene, resolution);
+        double nodes
+            = cases::lattice_points(scene.domain, options.dimension, resolution.n);
+        if(scene.domain.shape == cases::DomainShape::slab)
+          nodes *= std::pow(strip_width, options.dimension - 1);
+        return {cases::program_bytes + nodes * per_node[options.dimension],
+                double(options.steps)};
+      }
+
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
                       const cases::Resolution &resolution,
                       cases::Observer &observer) const override
       {
         StepStatistics statistics;
-        return run_enthalpy(scene, effects, resolution, observer, statistics);
+        cases::Cost cost = run_enthalpy(scene, effects, resolution, observer, statistics);
+        cost.most_iterations = statistics.iterations;
+        cost.evidence = {
+            {"largest distance from the enthalpy graph", statistics.graph_inconsistency},
+            {"largest defect of a step's heat balance", statistics.balance_defect},
+            {"steps halved", double(statistics.halvings)},
+            {"steps left to backward Euler", double(statistics.euler_steps)}};
+        return cost;
       }
     };
   } // namespace

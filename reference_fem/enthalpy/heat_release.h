@@ -2,7 +2,7 @@
 #define meltfront_reference_fem_enthalpy_heat_release_h
 
 #include <cases/method.h>
-#include <cases/scene.h>
+#include <cases/time_integral.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/time_scheme.h>
 
@@ -11,7 +11,7 @@
 namespace meltfront::reference_fem
 {
   /** The effect heat_release: heat released throughout the domain (W/m^3), taken at the
-   * nodes at the end of a step, each with its volume. */
+   * nodes, each with its volume, over the step as a flux is (WallFlux). */
   class HeatRelease
   {
   public:
@@ -27,7 +27,7 @@ namespace meltfront::reference_fem
     }
 
   private:
-    const cases::Field &density;
+    cases::StepIntegrals density;
     const Discretization &mesh;
     cases::EffectCost effect_cost{cases::Effect::heat_release};
   };

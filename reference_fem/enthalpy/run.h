@@ -86,6 +86,7 @@ namespace meltfront::reference_fem
     double initial_heat = 0;
     double defect = 0; ///< heat at hand less heat received (J)
     double time, time_before;
+    std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
     long step_number = 0, iterations = 0, capped_steps = 0;
     std::vector<double> site_temperature, site_solid_fraction;
   };

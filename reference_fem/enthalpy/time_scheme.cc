@@ -1,6 +1,8 @@
 #include <reference_fem/enthalpy/time_scheme.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace meltfront::reference_fem
 {
@@ -19,14 +21,20 @@ namespace meltfront::reference_fem
         weight_before};
   }
 
-  StepQueue::StepQueue(double start, double end, long steps, int start_halvings)
+  StepQueue::StepQueue(double start, double end, long steps, int start_halvings,
+                       const std::vector<double> &breakpoints)
+    : start(start)
+    , end(end)
+    , length((end - start) / steps)
+    , steps(steps)
+    , round_off(1e-12 * (end - start))
   {
-    const double step = (end - start) / steps;
-    times.push_back(end);
-    for(long i = steps - 1; i > 0; --i)
-      times.push_back(start + i * step);
-    const double first = times.back() - start;
+    const double first = end_of(1) - start;
     for(int i = 1; i <= start_halvings; ++i)
-      times.push_back(start + std::ldexp(first, -i));
+      sooner.push_back(start + std::ldexp(first, -i));
+    for(const double time : breakpoints)
+      if(time > start + round_off && time < end - round_off)
+        breaks.push_back(time);
+    std::ranges::reverse(breaks);
   }
 } // namespace meltfront::reference_fem

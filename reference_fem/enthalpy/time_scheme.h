@@ -44,34 +44,66 @@ namespace meltfront::reference_fem
   public:
     /**
      * Equal steps, the first of them replaced by start_halvings + 1 steps that double
-     * from 2^-start_halvings.
+     * from 2^-start_halvings; steps end at the breakpoints (ascending) too.
      */
-    StepQueue(double start, double end, long steps, int start_halvings);
+    StepQueue(double start, double end, long steps, int start_halvings,
+              const std::vector<double> &breakpoints = {});
 
     bool empty() const
     {
-      return times.empty();
+      return sooner.empty() && equal_step > steps;
     }
 
     /** Where the next step ends. */
     double next() const
     {
-      return times.back();
+      return break_is_next() ? breaks.back() : planned();
     }
 
     void pop()
     {
-      times.pop_back();
+      const double time = planned();
+      const bool at_break = break_is_next();
+      // A planned time that misses the breakpoint by round-off gives way.
+      if(!at_break || time - breaks.back() <= round_off)
+      {
+        if(sooner.empty())
+          ++equal_step;
+        else
+          sooner.pop_back();
+      }
+      if(at_break)
+        breaks.pop_back();
     }
 
     /** Halve the next step, which starts at `now`. */
     void halve(double now)
     {
-      times.push_back(now + (times.back() - now) / 2);
+      sooner.push_back(now + (next() - now) / 2);
     }
 
   private:
-    std::vector<double> times; ///< descending
+    double planned() const
+    {
+      return sooner.empty() ? end_of(equal_step) : sooner.back();
+    }
+
+    bool break_is_next() const
+    {
+      return !breaks.empty() && breaks.back() <= planned() + round_off;
+    }
+
+    double end_of(long step) const
+    {
+      return step == steps ? end : start + step * length;
+    }
+
+    double start, end, length;
+    long steps;
+    double round_off;           ///< times nearer to each other are the same (s)
+    long equal_step = 1;        ///< the next of the equal steps
+    std::vector<double> sooner; ///< ends of parts of it, descending
+    std::vector<double> breaks; ///< to come, descending
   };
 } // namespace meltfront::reference_fem
 

@@ -1,4 +1,5 @@
 #include <cases/stopwatch.h>
+#include <reference_fem/enthalpy/step_means.h>
 #include <reference_fem/enthalpy/wall_flux.h>
 
 namespace meltfront::reference_fem
@@ -11,10 +12,14 @@ namespace meltfront::reference_fem
       const cases::Boundary &boundary = scene.boundary(side);
       if(boundary.kind != cases::BoundaryKind::flux)
         continue;
-      walls.push_back(
-          {boundary.value, discretization.walls[static_cast<std::size_t>(side)]});
+      const std::vector<WallNode> &nodes
+          = discretization.walls[static_cast<std::size_t>(side)];
+      std::vector<cases::Position> positions;
+      for(const WallNode &node : nodes)
+        positions.push_back(node.position);
+      walls.push_back({cases::StepIntegrals(boundary.value, positions), nodes});
       effect_cost.bytes += static_cast<long>(
-          sizeof(Wall) + walls.back().nodes.size() * sizeof(WallNode));
+          sizeof(Wall) + nodes.size() * sizeof(WallNode) + walls.back().flux.bytes());
     }
   }
 
@@ -23,13 +28,17 @@ namespace meltfront::reference_fem
     const cases::ScopedTimer timer(effect_cost.seconds);
     ++effect_cost.calls;
     double sum = 0;
-    for(const Wall &wall : walls)
-      for(const WallNode &node : wall.nodes)
+    for(Wall &wall : walls)
+    {
+      const StepMeans means(step, wall.flux);
+      for(std::size_t i = 0; i < wall.nodes.size(); ++i)
       {
-        const double heat = step.c * node.area * wall.flux(node.position, step.next);
+        const WallNode &node = wall.nodes[i];
+        const double heat = step.c * node.area * means.at(i, node.position);
         load[node.node] += heat;
         sum += heat;
       }
+    }
     return sum;
   }
 } // namespace meltfront::reference_fem

@@ -2,7 +2,7 @@
 #define meltfront_reference_fem_enthalpy_wall_flux_h
 
 #include <cases/method.h>
-#include <cases/scene.h>
+#include <cases/time_integral.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/time_scheme.h>
 
@@ -10,8 +10,9 @@
 
 namespace meltfront::reference_fem
 {
-  /** The effect wall_flux: a heat flux into the domain (W/m^2), taken at the wall's nodes
-   * at the end of a step. */
+  /** The effect wall_flux: a heat flux into the domain (W/m^2), taken at the wall's
+   * nodes. The heat of a step is the time scheme's own difference quotient of the flux's
+   * integral over time, so that what has come in is this integral. */
   class WallFlux
   {
   public:
@@ -29,7 +30,7 @@ namespace meltfront::reference_fem
   private:
     struct Wall
     {
-      cases::Field flux;
+      cases::StepIntegrals flux;
       std::vector<WallNode> nodes;
     };
     std::vector<Wall> walls;

@@ -1,4 +1,5 @@
 #include <cases/stopwatch.h>
+#include <cases/time_integral.h>
 #include <reference_fem/enthalpy/wall_temperature.h>
 
 #include <algorithm>
@@ -34,14 +35,15 @@ namespace meltfront::reference_fem
       free[node.place.node] = 0;
   }
 
-  void WallTemperature::prescribe(double time, const NonlinearSolver &solver,
+  void WallTemperature::prescribe(const StepFormula &step, const NonlinearSolver &solver,
                                   CompensatedVector &u)
   {
     const cases::ScopedTimer timer(effect_cost.seconds);
     ++effect_cost.calls;
     for(Node &node : nodes)
     {
-      node.temperature = temperatures[node.wall](node.place.position, time);
+      node.temperature = cases::value_at_end(temperatures[node.wall], node.place.position,
+                                             step.now, step.next);
       u.set(node.place.node, solver.kirchhoff(node.temperature - melting_temperature));
     }
   }

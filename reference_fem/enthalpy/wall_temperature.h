@@ -28,8 +28,9 @@ namespace meltfront::reference_fem
     /** Clear the mark of the nodes that are prescribed. */
     void mark(std::vector<char> &free) const;
 
-    /** Prescribe Kirchhoff's variable at a time. */
-    void prescribe(double time, const NonlinearSolver &solver, CompensatedVector &u);
+    /** Prescribe Kirchhoff's variable at the end of a step. */
+    void prescribe(const StepFormula &step, const NonlinearSolver &solver,
+                   CompensatedVector &u);
 
     /** Enthalpy (J/m^3) of a node at a temperature, where it was `last`. */
     using EnthalpyAt

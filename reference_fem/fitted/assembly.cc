@@ -1,5 +1,7 @@
 #include <reference_fem/fitted/fitted_problem.h>
 
+#include <cases/stopwatch.h>
+
 #include <cmath>
 #include <utility>
 
@@ -11,6 +13,20 @@ namespace meltfront::reference_fem::fitted
   struct FittedProblem::Matrices
   {
     dealii::SparseMatrix<double> &mass, &flow, &rate;
+  };
+
+  /** Counts a call of an effect's code and adds its time. */
+  struct FittedProblem::Metered
+  {
+    Metered(const FittedProblem &problem, cases::Effect effect)
+      : meter(problem.meters[static_cast<std::size_t>(effect)])
+      , timer(meter.seconds)
+    {
+      ++meter.calls;
+    }
+
+    Meter &meter;
+    cases::ScopedTimer timer;
   };
 
   void FittedProblem::assemble(double clock, const Vector<double> &u,
@@ -46,6 +62,7 @@ namespace meltfront::reference_fem::fitted
       mass[outflow_account] -= u[outflow_account];
       if(matrices)
         matrices->mass.add(outflow_account, outflow_account, -1);
+      const Metered meter(*this, cases::Effect::liquid_motion);
       add_outflow(u, rate, flow, matrices);
     }
   }
@@ -59,7 +76,6 @@ namespace meltfront::reference_fem::fitted
     const unsigned int per_ray = rays.surface.degree + 1;
     const SourceField field = source(rays.layers[layer].phase, time);
     for(std::size_t i = 0; i < nodes.size(); ++i)
-    {
       for(std::size_t j = 0; j < nodes.size(); ++j)
       {
         double mass = local.mass_temperature(i, j), flow = local.flow_temperature(i, j);
@@ -74,45 +90,42 @@ namespace meltfront::reference_fem::fitted
         matrices.mass.add(nodes[i], nodes[j], mass);
         matrices.flow.add(nodes[i], nodes[j], flow);
       }
-      for(std::size_t a = 0; rays.has_front() && a < cell.size(); ++a)
+    if(!rays.has_front())
+      return;
+    const Metered meter(*this, cases::Effect::phase_change);
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      for(std::size_t a = 0; a < cell.size(); ++a)
       {
         const unsigned int column = rays.front_node(cell[a]);
         matrices.mass.add(nodes[i], column, local.mass_front(i, a));
         matrices.flow.add(nodes[i], column, local.flow_front(i, a));
         matrices.rate.add(nodes[i], column, local.flow_rate(i, a));
       }
-    }
   }
 
   void FittedProblem::add_walls(double clock, const Vector<double> &u,
                                 Vector<double> &mass, Vector<double> &flow,
                                 Matrices *matrices) const
   {
-    const double time = laws.clock.time(clock);
     for(const Wall &wall : walls)
     {
-      if(wall.boundary && wall.boundary->kind == BoundaryKind::flux)
-        add_flux(wall, clock, flow);
-      for(unsigned int ray = 0;
-          wall.first_account != RayMesh::none && ray < rays.surface.n_rays(); ++ray)
+      if(wall.boundary && by_flux(*wall.boundary))
       {
-        const unsigned int node = rays.node(ray, wall.level);
-        const unsigned int account = wall.first_account + ray;
-        mass[node] -= u[account];
-        flow[account] = wall.boundary->value(rays.position(ray, wall.r), time)
-                        - laws.melting_temperature - u[node];
-        if(matrices)
-        {
-          matrices->mass.add(node, account, -1);
-          matrices->flow.add(account, node, -1);
-        }
+        const Metered meter(*this, wall.boundary->kind == BoundaryKind::flux
+                                       ? cases::Effect::wall_flux
+                                       : cases::Effect::wall_transfer);
+        add_flux(wall, clock, u, flow, matrices);
+      }
+      if(wall.first_account != RayMesh::none)
+      {
+        const Metered meter(*this, cases::Effect::wall_temperature);
+        add_fixed_temperature(wall, laws.clock.time(clock), u, mass, flow, matrices);
       }
     }
     if(source_account != RayMesh::none)
     {
-      const double heat = laws.clock.rate(clock) * laws.power(time);
-      flow[rays.node(0, 0)] += heat;
-      flow[source_account] -= heat;
+      const Metered meter(*this, cases::Effect::heat_sources);
+      add_source(clock, flow);
     }
     for(const unsigned int account : {flux_account, source_account})
       if(account != RayMesh::none)
@@ -123,23 +136,69 @@ namespace meltfront::reference_fem::fitted
       }
   }
 
-  void FittedProblem::add_flux(const Wall &wall, double clock, Vector<double> &flow) const
+  void FittedProblem::add_fixed_temperature(const Wall &wall, double time,
+                                            const Vector<double> &u, Vector<double> &mass,
+                                            Vector<double> &flow,
+                                            Matrices *matrices) const
+  {
+    const double field = source(wall.phase, time).value(wall.r);
+    for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+    {
+      const unsigned int node = rays.node(ray, wall.level);
+      const unsigned int account = wall.first_account + ray;
+      mass[node] -= u[account];
+      flow[account] = wall.boundary->value(rays.position(ray, wall.r), time)
+                      - laws.melting_temperature - field - u[node];
+      if(matrices)
+      {
+        matrices->mass.add(node, account, -1);
+        matrices->flow.add(account, node, -1);
+      }
+    }
+  }
+
+  void FittedProblem::add_source(double clock, Vector<double> &flow) const
+  {
+    const double heat = laws.clock.rate(clock) * laws.power(laws.clock.time(clock));
+    flow[rays.node(0, 0)] += heat;
+    flow[source_account] -= heat;
+  }
+
+  void FittedProblem::add_flux(const Wall &wall, double clock, const Vector<double> &u,
+                               Vector<double> &flow, Matrices *matrices) const
   {
     const double time = laws.clock.time(clock);
     const double area = laws.clock.rate(clock) * std::pow(wall.r, rays.surface.exponent);
+    const double field
+        = laws.melting_temperature + source(wall.phase, time).value(wall.r);
     for(std::size_t s = 0; s < rays.surface.cells.size(); ++s)
     {
       const SurfaceRule::Cell &cell = surface_rule.cells[s];
+      std::vector<unsigned int> nodes;
+      for(const unsigned int ray : rays.surface.cells[s])
+        nodes.push_back(rays.node(ray, wall.level));
       for(std::size_t q = 0; q < cell.points.size(); ++q)
       {
         cases::Position position{};
         for(int d = 0; d < 3; ++d)
           position[d] = cell.points[q].base[d] + wall.r * cell.points[q].direction[d];
-        const double heat = cell.weight[q] * area * wall.boundary->value(position, time);
-        for(std::size_t a = 0; a < rays.surface.cells[s].size(); ++a)
-          flow[rays.node(rays.surface.cells[s][a], wall.level)]
-              += heat * surface_rule.value(q, a);
-        flow[flux_account] -= heat;
+        double temperature = field;
+        for(std::size_t a = 0; a < nodes.size(); ++a)
+          temperature += surface_rule.value(q, a) * u[nodes[a]];
+        const WallFlux flux = flux_through(*wall.boundary, position, time, temperature);
+        const double weight = cell.weight[q] * area;
+        for(std::size_t a = 0; a < nodes.size(); ++a)
+          flow[nodes[a]] += weight * flux.value * surface_rule.value(q, a);
+        flow[flux_account] -= weight * flux.value;
+        if(!matrices || flux.slope == 0)
+          continue;
+        for(std::size_t b = 0; b < nodes.size(); ++b)
+        {
+          const double by_b = weight * flux.slope * surface_rule.value(q, b);
+          for(std::size_t a = 0; a < nodes.size(); ++a)
+            matrices->flow.add(nodes[a], nodes[b], surface_rule.value(q, a) * by_b);
+          matrices->flow.add(flux_account, nodes[b], -by_b);
+        }
       }
     }
   }

@@ -1,19 +1,69 @@
 #include <reference_fem/fitted/fitted.h>
 
+#include <cases/error.h>
 #include <cases/scene.h>
 #include <reference_fem/fitted/options.h>
 #include <reference_fem/fitted/run.h>
+
+#include <fmt/format.h>
 
 namespace meltfront::reference_fem
 {
   namespace
   {
+    using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
+
+    const std::vector<BoundaryKind> walls{
+        BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+        BoundaryKind::heat_transfer};
+
+    /** Of elements whose degree obeys no maximum principle. */
+    constexpr cases::Overshoot overshoot{0.01, 0};
+
+    /** The form that follows fronts from their start to their end. */
+    cases::Capabilities along_line()
+    {
+      return {.form = "along a line",
+              .problems = {cases::ProblemKind::stefan},
+              .effects
+              = {Effect::phase_change, Effect::phase_conductivity,
+                 Effect::phase_heat_capacity, Effect::heat_sources,
+                 Effect::wall_temperature, Effect::wall_flux, Effect::wall_transfer,
+                 Effect::liquid_motion, Effect::metastable_phase},
+              .shapes = {{DomainShape::slab, {1}, walls},
+                         {DomainShape::ball, {2, 3}, walls},
+                         {DomainShape::shell, {2, 3}, walls}},
+              .front_origins
+              = {FrontOrigin::initial_front, FrontOrigin::wall, FrontOrigin::source},
+              .most_fronts = 1,
+              .overshoot = overshoot};
+    }
+
+    /** The form that carries a front along that is there from the start. */
+    cases::Capabilities in_more_dimensions()
+    {
+      std::vector<BoundaryKind> of_box = walls;
+      of_box.push_back(BoundaryKind::periodic);
+      return {.form = "in more dimensions",
+              .problems = {cases::ProblemKind::stefan},
+              .effects = {Effect::phase_change, Effect::phase_conductivity,
+                          Effect::phase_heat_capacity, Effect::heat_sources,
+                          Effect::wall_temperature, Effect::wall_flux,
+                          Effect::wall_transfer, Effect::metastable_phase},
+              .shapes = {{DomainShape::box, {2, 3}, of_box},
+                         {DomainShape::ball, {2, 3}, walls},
+                         {DomainShape::shell, {2, 3}, walls}},
+              .front_origins = {FrontOrigin::initial_front},
+              .most_fronts = 1,
+              .overshoot = overshoot};
+    }
+
     class FemFitted : public cases::Method
     {
     public:
       std::string name() const override
       {
-        return "fem-fitted";
+        return fitted::method_name;
       }
 
       std::string summary() const override
@@ -25,24 +75,7 @@ namespace meltfront::reference_fem
 
       std::vector<cases::Capabilities> capabilities() const override
       {
-        using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
-        const std::vector<BoundaryKind> walls{
-            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux};
-        std::vector<BoundaryKind> of_box = walls;
-        of_box.push_back(BoundaryKind::periodic);
-        return {{.form = {},
-                 .problems = {cases::ProblemKind::stefan},
-                 .effects = {Effect::phase_change, Effect::phase_conductivity,
-                             Effect::phase_heat_capacity, Effect::heat_sources,
-                             Effect::wall_temperature, Effect::wall_flux,
-                             Effect::liquid_motion, Effect::metastable_phase},
-                 .shapes = {{DomainShape::slab, {1}, walls},
-                            {DomainShape::box, {2, 3}, of_box},
-                            {DomainShape::ball, {2, 3}, walls},
-                            {DomainShape::shell, {2, 3}, walls}},
-                 .front_origins
-                 = {FrontOrigin::initial_front, FrontOrigin::wall, FrontOrigin::source},
-                 .most_fronts = 1}};
+        return {along_line(), in_more_dimensions()};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -50,10 +83,23 @@ namespace meltfront::reference_fem
         return fitted::fitted_options();
       }
 
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+                           const cases::Resolution &resolution) const override
+      {
+        return fitted::demand_of(scene, fitted::RunOptions(scene, resolution));
+      }
+
+    protected:
       cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
                       const cases::Resolution &resolution,
                       cases::Observer &observer) const override
       {
+        const bool line = fitted::RunOptions(scene, resolution).dimension == 1;
+        const cases::Capabilities form = line ? along_line() : in_more_dimensions();
+        if(const std::string reason
+           = cases::objection(form, scene, effects, resolution.threads);
+           !reason.empty())
+          throw cases::Refusal(fmt::format("{}: {} it {}", name(), form.form, reason));
         return fitted::FittedRun(scene, effects, resolution).run(observer);
       }
     };

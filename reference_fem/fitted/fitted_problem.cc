@@ -1,4 +1,5 @@
 #include <reference_fem/fitted/fitted_problem.h>
+#include <reference_fem/fitted/time/coefficients.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace meltfront::reference_fem::fitted
@@ -43,8 +45,9 @@ namespace meltfront::reference_fem::fitted
     }
     for(const SurfaceRule::Cell &cell : surface_rule.cells)
       total_measure += cell.weight.sum();
-    walls[0] = {rays.has_centre() ? nullptr : &laws.inner_wall, rays.inner, 0};
-    walls[1] = {&laws.outer_wall, rays.outer, rays.n_levels() - 1};
+    walls[0] = {0, rays.has_centre() ? nullptr : &laws.inner_wall, rays.inner, 0};
+    walls[1]
+        = {rays.has_front() ? 1 : 0, &laws.outer_wall, rays.outer, rays.n_levels() - 1};
     number_accounts();
     make_sparsity();
   }
@@ -57,7 +60,7 @@ namespace meltfront::reference_fem::fitted
     {
       if(!wall.boundary)
         continue;
-      flux = flux || wall.boundary->kind == BoundaryKind::flux;
+      flux = flux || by_flux(*wall.boundary);
       if(wall.boundary->kind == BoundaryKind::fixed_temperature)
       {
         wall.first_account = n_unknowns;
@@ -94,6 +97,10 @@ namespace meltfront::reference_fem::fitted
         dynamic.add(rays.node(ray, wall.level), wall.first_account + ray);
         dynamic.add(wall.first_account + ray, rays.node(ray, wall.level));
       }
+    for(const Wall &wall : walls)
+      if(wall.boundary && wall.boundary->kind == BoundaryKind::heat_transfer)
+        for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+          dynamic.add(flux_account, rays.node(ray, wall.level));
     if(outflow_account != RayMesh::none)
       for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
       {
@@ -189,6 +196,55 @@ namespace meltfront::reference_fem::fitted
     return state;
   }
 
+  double FittedProblem::wall_excess(bool inner, unsigned int ray, double time,
+                                    const Vector<double> &u) const
+  {
+    const Wall &wall = walls[inner ? 0 : 1];
+    return u[rays.node(ray, wall.level)] + source(wall.phase, time).value(wall.r);
+  }
+
+  cases::EffectCost FittedProblem::effect_cost(cases::Effect effect) const
+  {
+    const Meter &meter = meters[static_cast<std::size_t>(effect)];
+    std::vector<unsigned int> rows;
+    std::size_t bytes = 0;
+    switch(effect)
+    {
+    case cases::Effect::wall_temperature:
+      for(const Wall &wall : walls)
+        for(unsigned int ray = 0;
+            wall.first_account != RayMesh::none && ray < rays.surface.n_rays(); ++ray)
+          rows.push_back(wall.first_account + ray);
+      break;
+    case cases::Effect::wall_flux:
+    case cases::Effect::wall_transfer:
+      rows.push_back(flux_account);
+      break;
+    case cases::Effect::heat_sources:
+      rows.push_back(source_account);
+      if(at_centre)
+        bytes += sizeof(double)
+                 * (at_centre->value.size() + at_centre->across.size()
+                    + at_centre->rays.size());
+      break;
+    case cases::Effect::liquid_motion:
+      rows.push_back(outflow_account);
+      break;
+    case cases::Effect::phase_change:
+      for(unsigned int ray = 0; rays.has_front() && ray < rays.surface.n_rays(); ++ray)
+        rows.push_back(rays.front_node(ray));
+      break;
+    default:
+      break;
+    }
+    // Of an unknown of its own: its value and its row in the pattern and three Jacobians.
+    for(const unsigned int row : rows)
+      if(row != RayMesh::none)
+        bytes += sizeof(double)
+                 + pattern.row_length(row) * (sizeof(unsigned int) + 3 * sizeof(double));
+    return {effect, meter.calls, static_cast<long>(bytes), meter.seconds};
+  }
+
   Vector<double> FittedProblem::scale(const Vector<double> &) const
   {
     Vector<double> result(n_unknowns);
@@ -233,21 +289,26 @@ namespace meltfront::reference_fem::fitted
     return {};
   }
 
-  /** By the polynomial in r through values next to the source. */
+  /**
+   * By the polynomial in r through values next to the source, at Chebyshev points, from
+   * which rounding of the values grows by a factor of 2 on the way to r = 0.
+   */
   double FittedProblem::theta_at_centre(
       double time, double nearest,
       const std::function<double(const cases::Position &)> &temperature) const
   {
-    const std::array<double, 6> weights{6, -15, 20, -15, 6, -1};
+    constexpr int points = 6;
     const SourceField field = source(0, time);
+    std::vector<double> places;
+    for(int k = 0; k < points; ++k)
+      places.push_back(
+          nearest * std::pow(std::sin((2 * k + 1) * std::numbers::pi / (4 * points)), 2));
+    const std::vector<double> weights = lagrange_weights(places, 0);
     double sum = 0;
-    for(std::size_t k = 0; k < weights.size(); ++k)
-    {
-      const double r = nearest * static_cast<double>(k + 1) / 50;
+    for(int k = 0; k < points; ++k)
       sum += weights[k]
-             * (temperature(rays.position(0, r)) - laws.melting_temperature
-                - field.value(r));
-    }
+             * (temperature(rays.position(0, places[k])) - laws.melting_temperature
+                - field.value(places[k]));
     return sum;
   }
 

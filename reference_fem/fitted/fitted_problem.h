@@ -4,6 +4,8 @@
 #include <reference_fem/fitted/cell_integrals.h>
 #include <reference_fem/fitted/conservation_problem.h>
 
+#include <cases/method.h>
+
 #include <functional>
 #include <optional>
 #include <vector>
@@ -64,6 +66,14 @@ namespace meltfront::reference_fem::fitted
     /** The field split off the temperature of a phase at a time. */
     SourceField source(int phase, double time) const;
 
+    /** T - T_m at a wall's node; of a ball the inner end of the rays is no wall. */
+    double wall_excess(bool inner, unsigned int ray, double time,
+                       const dealii::Vector<double> &u) const;
+
+    /** What the code of an effect has cost in this problem: calls, bytes of its own
+     * unknowns and tables, seconds. */
+    cases::EffectCost effect_cost(cases::Effect effect) const;
+
     /** T - T_m - S at a node, that of the front's side in a phase. */
     double theta(int phase, unsigned int ray, unsigned int level, double time,
                  const dealii::Vector<double> &u) const;
@@ -98,10 +108,12 @@ namespace meltfront::reference_fem::fitted
 
   private:
     struct Matrices;
+    struct Metered;
 
     /** One of the two walls. */
     struct Wall
     {
+      int phase = 0;                             ///< that lies at it
       const cases::Boundary *boundary = nullptr; ///< null where the rays meet
       double r = 0;
       unsigned int level = 0;
@@ -124,7 +136,13 @@ namespace meltfront::reference_fem::fitted
     void add_walls(double clock, const dealii::Vector<double> &u,
                    dealii::Vector<double> &mass, dealii::Vector<double> &flow,
                    Matrices *matrices) const;
-    void add_flux(const Wall &wall, double clock, dealii::Vector<double> &flow) const;
+    void add_fixed_temperature(const Wall &wall, double time,
+                               const dealii::Vector<double> &u,
+                               dealii::Vector<double> &mass, dealii::Vector<double> &flow,
+                               Matrices *matrices) const;
+    void add_flux(const Wall &wall, double clock, const dealii::Vector<double> &u,
+                  dealii::Vector<double> &flow, Matrices *matrices) const;
+    void add_source(double clock, dealii::Vector<double> &flow) const;
     void add_outflow(const dealii::Vector<double> &u, const dealii::Vector<double> &rate,
                      dealii::Vector<double> &flow, Matrices *matrices) const;
 
@@ -139,6 +157,13 @@ namespace meltfront::reference_fem::fitted
     unsigned int n_unknowns = 0;
     std::vector<double> level_fixed, level_carried; ///< r = fixed + carried h by level
     double total_measure = 0;                       ///< of the surface at r = 1
+    /** By effect: seconds and calls of the code that only this effect enters. */
+    struct Meter
+    {
+      long calls = 0;
+      double seconds = 0;
+    };
+    mutable std::array<Meter, cases::n_effects> meters;
     dealii::SparsityPattern pattern;
   };
 } // namespace meltfront::reference_fem::fitted

@@ -84,6 +84,38 @@ namespace meltfront::reference_fem::fitted
     cells_around = choose_cells_around(scene, resolution.options, cells);
   }
 
+  cases::Demand demand_of(const cases::Scene &scene, const RunOptions &options)
+  {
+    const cases::Domain &domain = scene.domain;
+    const double degree = options.degree;
+    const auto nodes_across = [&](double width)
+    { return std::max(2., options.cells * width / domain.side()) * degree + 1; };
+    const double outer = domain.round() ? domain.radius : domain.upper[0];
+    const double inner = domain.round() ? domain.inner_radius : domain.lower[0];
+    double rays = 1;
+    if(options.dimension > 1 && domain.round())
+      rays = options.dimension == 2
+                 ? options.cells_around * degree
+                 : 6 * std::pow(std::max(1, options.cells_around / 4) * degree, 2);
+    else
+      for(int d = 1; d < options.dimension; ++d)
+        rays *= nodes_across(domain.upper[d] - domain.lower[d]);
+    const double unknowns = rays * nodes_across(outer - inner);
+    // A row holds what the cells at a node hold and the fronts of their rays.
+    const double row = std::pow(degree + 2, options.dimension)
+                       + (options.dimension > 1 ? std::pow(degree + 1, 2) : 1);
+    // Of factors, real and complex: bands of three stages, or nested dissection.
+    const double filled = options.dimension == 1   ? 9 * 3 * row
+                          : options.dimension == 2 ? 3 * row * std::log2(unknowns + 2)
+                                                   : 3 * row * std::cbrt(unknowns);
+    constexpr double number = sizeof(double), index = sizeof(int);
+    const double by_row = row * (6 * number + 3 * index) // Jacobians and stage matrices
+                          + filled * (number + index) + 40 * number; // states, sites
+    constexpr double program = 5e7;
+    return {.bytes = program + unknowns * by_row,
+            .steps = static_cast<double>(options.steps)};
+  }
+
   std::vector<cases::OptionDeclaration> fitted_options()
   {
     return {

@@ -10,6 +10,8 @@
 
 namespace meltfront::reference_fem::fitted
 {
+  inline constexpr const char *method_name = "fem-fitted";
+
   /** The options of `fem-fitted`. */
   std::vector<cases::OptionDeclaration> fitted_options();
 
@@ -30,6 +32,12 @@ namespace meltfront::reference_fem::fitted
     Scheme scheme;
     std::string clock; ///< auto, t or sqrt(t)
   };
+
+  /**
+   * Memory and steps of a run, from numbers alone: unknowns, entries of a row, and what
+   * the factors of bands (1D) and of nested dissection (2D, 3D) fill.
+   */
+  cases::Demand demand_of(const cases::Scene &scene, const RunOptions &options);
 } // namespace meltfront::reference_fem::fitted
 
 #endif

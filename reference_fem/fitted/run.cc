@@ -14,8 +14,6 @@ namespace meltfront::reference_fem::fitted
 {
   namespace
   {
-    constexpr const char *method_name = "fem-fitted";
-
     /** Elements of higher degree obey no maximum principle: what they may exceed the
      * bounds by, of the bounds' span. */
     constexpr double slack_of_bounds = 0.01;
@@ -29,6 +27,9 @@ namespace meltfront::reference_fem::fitted
     , options(scene, resolution)
     , bounds(cases::temperature_bounds(scene))
   {
+    for(const cases::EffectDecision &decision : effects.decisions())
+      if(decision.on)
+        effect_costs.push_back({.effect = decision.effect});
     // With threads, deal.II rounds sums over vectors differently.
     dealii::MultithreadInfo::set_thread_limit(1);
     const RayScene rays = rays_of(scene, options);
@@ -114,8 +115,13 @@ namespace meltfront::reference_fem::fitted
 
   void FittedRun::enter(const Stretch &stretch, cases::Observer &observer)
   {
+    if(problem != stretch.problem)
+      add_effect_costs();
     if(!stretch.event.text.empty())
+    {
+      ++events;
       observer.note(stretch.event.time, stretch.event.text);
+    }
     problem = stretch.problem;
     before = stretch.before;
     sites = std::make_unique<Sites>(*problem);
@@ -163,7 +169,9 @@ namespace meltfront::reference_fem::fitted
     cost.work = integration.work;
     cost.solver_iterations = integration.iterations;
     cost.most_iterations = integration.most_iterations;
-    cost.effects = effect_costs(integration);
+    add_effect_costs();
+    cost.effects = effect_costs;
+    cost.evidence = evidence(integration);
     return cost;
   }
 } // namespace meltfront::reference_fem::fitted

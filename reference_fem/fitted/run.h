@@ -7,7 +7,9 @@
 #include <reference_fem/fitted/setup.h>
 #include <reference_fem/fitted/sites.h>
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace meltfront::reference_fem::fitted
@@ -33,7 +35,10 @@ namespace meltfront::reference_fem::fitted
                 const dealii::Vector<double> &u, bool always);
     void observe(cases::Observer &observer, long step, double time,
                  const dealii::Vector<double> &u);
-    std::vector<cases::EffectCost> effect_costs(const IntegrationCost &cost) const;
+
+    /** Add what the present problem counted of each effect. */
+    void add_effect_costs();
+    std::map<std::string, double> evidence(const IntegrationCost &cost) const;
 
     const cases::Scene &scene;
     const cases::EffectSet &effects;
@@ -45,7 +50,9 @@ namespace meltfront::reference_fem::fitted
     std::unique_ptr<Sites> sites;
     dealii::Vector<double> initial_state;
     double initial_heat = 0;
-    HeatContent before; ///< of meshes before the present one
+    HeatContent before;                          ///< of meshes before the present one
+    std::vector<cases::EffectCost> effect_costs; ///< of the effects that are on
+    long events = 0;
     long most_unknowns = 0;
   };
 } // namespace meltfront::reference_fem::fitted

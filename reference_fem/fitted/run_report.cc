@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace meltfront::reference_fem::fitted
 {
   cases::RunDescription FittedRun::description() const
@@ -62,15 +64,32 @@ namespace meltfront::reference_fem::fitted
         });
   }
 
-  std::vector<cases::EffectCost>
-  FittedRun::effect_costs(const IntegrationCost &cost) const
+  void FittedRun::add_effect_costs()
   {
-    // All effects are terms of the same integrals, entered once an iteration: none has
-    // memory or time of its own to tell.
-    std::vector<cases::EffectCost> result;
-    for(const cases::EffectDecision &decision : effects.decisions())
-      if(decision.on)
-        result.push_back({decision.effect, cost.iterations, 0, 0});
+    // The phases' coefficients and a metastable phase are values in the same integrals:
+    // they have no code and no memory of their own.
+    for(cases::EffectCost &sum : effect_costs)
+    {
+      const cases::EffectCost cost = problem->effect_cost(sum.effect);
+      sum.calls += cost.calls;
+      sum.bytes = std::max(sum.bytes, cost.bytes);
+      sum.seconds += cost.seconds;
+    }
+  }
+
+  std::map<std::string, double> FittedRun::evidence(const IntegrationCost &cost) const
+  {
+    std::map<std::string, double> result{
+        {"events that changed the mesh", static_cast<double>(events)},
+        {"steps divided in two", static_cast<double>(cost.halved)},
+        {"factorizations", static_cast<double>(cost.factorizations)}};
+    if(options.tolerance > 0)
+      result["steps repeated by the step control"] = static_cast<double>(cost.repeated);
+    if(resolution.options.get_string("scheme").starts_with("bdf"))
+    {
+      result["steps that fell back to Radau"] = static_cast<double>(cost.fallbacks);
+      result["steps of Radau that start BDF"] = static_cast<double>(cost.starts);
+    }
     return result;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -20,8 +20,16 @@ namespace meltfront::reference_fem::fitted
     using cases::Side;
     using cases::Symmetry;
 
-    /** Points of a ray at which a front is looked for. */
-    constexpr int samples_on_ray = 256;
+    /** Points of a ray at which a front is looked for: of the one of a line, and of each
+     * of many. */
+    constexpr int samples_on_line = 4096, samples_on_ray = 256;
+
+    /** Nearer to the melting temperature, of the largest |T - T_m|, is at it. */
+    constexpr double round_off = 1e-12;
+
+    /** Smallest cell of a phase, of the phase's length: places on the ray are known to
+     * 1e-16 of it, and a cell's width is to be known to six digits. */
+    constexpr double smallest_cell = 1e-10;
 
     /** The first and the last of them, off the walls by this share of the ray: a wall may
      * be at the melting temperature. */
@@ -77,6 +85,13 @@ namespace meltfront::reference_fem::fitted
     }
   } // namespace
 
+  cases::Side side_at(const cases::Scene &scene, bool inner)
+  {
+    if(scene.domain.round())
+      return inner ? Side::inner : Side::outer;
+    return inner ? Side::x_min : Side::x_max;
+  }
+
   RayScene rays_of(const cases::Scene &scene, const RunOptions &options)
   {
     const cases::Domain &domain = scene.domain;
@@ -93,6 +108,15 @@ namespace meltfront::reference_fem::fitted
   RayMesh two_phase_mesh(const RayScene &rays, double grading)
   {
     const int inside = rays.cells / 2;
+    const int most = rays.cells - inside;
+    // Of cells r^0 ... r^(m-1) the smallest is (r - 1)/(r^m - 1) of all.
+    const double smallest = std::log(grading - 1) - most * std::log(grading);
+    if(grading > 1 && smallest < std::log(smallest_cell))
+      throw Refusal(fmt::format(
+          "fem-fitted.grading = {:g} with {} cells in a phase makes the smallest of them "
+          "1e{:.0f} of the phase, and they may not be smaller than {:g}: take a smaller "
+          "grading or fewer cells",
+          grading, most, smallest / std::log(10.), smallest_cell));
     return RayMesh(rays.surface, rays.inner, rays.outer,
                    graded_shares(inside, grading, false),
                    graded_shares(rays.cells - inside, grading, true));
@@ -103,10 +127,8 @@ namespace meltfront::reference_fem::fitted
     void set_walls(const cases::Scene &scene, Physics &physics)
     {
       if(scene.domain.shape != DomainShape::ball)
-        physics.inner_wall
-            = scene.boundary(scene.domain.round() ? Side::inner : Side::x_min);
-      physics.outer_wall
-          = scene.boundary(scene.domain.round() ? Side::outer : Side::x_max);
+        physics.inner_wall = scene.boundary(side_at(scene, true));
+      physics.outer_wall = scene.boundary(side_at(scene, false));
       for(const cases::Boundary *wall : {&physics.inner_wall, &physics.outer_wall})
         if(wall->kind == BoundaryKind::periodic)
           throw Refusal("fem-fitted follows rays along x from wall to wall, which cannot "
@@ -147,9 +169,6 @@ namespace meltfront::reference_fem::fitted
                      const RunOptions &options, bool solid_inside)
   {
     const cases::Material &material = scene.material;
-    if(!(material.latent_heat > 0))
-      throw Refusal("fem-fitted follows a front that takes latent heat to move; the "
-                    "latent heat of this scene is zero");
     Physics physics;
     const Phase solid{true, material.solid.conductivity,
                       material.solid.volumetric_heat_capacity(), 0};
@@ -165,9 +184,9 @@ namespace meltfront::reference_fem::fitted
       set_source(scene, physics);
     if(effects.contains(Effect::liquid_motion))
     {
-      if(options.dimension > 1 || !solid_inside)
-        throw Refusal("fem-fitted moves liquid only in one dimension and away from solid "
-                      "at the origin or at x_min");
+      if(!solid_inside)
+        throw Refusal("fem-fitted moves liquid only away from solid at the origin or at "
+                      "x_min");
       physics.displacement = 1 - material.solid.density / material.liquid.density;
     }
     return physics;
@@ -177,16 +196,27 @@ namespace meltfront::reference_fem::fitted
   {
     const double time = scene.start_time;
     const cases::InitialState &initial = scene.initial;
-    // Negative in solid.
+    const double melting = scene.material.melting_temperature;
+    const double at_melting
+        = round_off * std::max(temperature_scale(scene), std::abs(melting));
+    // Negative in solid. What is at the melting temperature is what the scene says.
+    const auto by_temperature = [&](const cases::Position &p)
+    {
+      const double excess = initial.temperature(p, time) - melting;
+      return std::abs(excess) > at_melting              ? excess
+             : initial.solid_fraction_at_melting >= 0.5 ? -at_melting
+                                                        : at_melting;
+    };
     const auto level = [&](const cases::Position &p)
     {
-      if(initial.front)
-        return (*initial.front)(p, time);
+      if(const double front = initial.front ? (*initial.front)(p, time) : 0; front != 0)
+        return front;
       if(initial.exact)
         return (initial.exact->solid_at_origin() ? 1 : -1)
                * initial.exact->signed_distance(p, time);
-      return initial.temperature(p, time) - scene.material.melting_temperature;
+      return by_temperature(p);
     };
+    const int samples = rays.surface.n_rays() == 1 ? samples_on_line : samples_on_ray;
     InitialFront result;
     const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
     for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
@@ -194,14 +224,16 @@ namespace meltfront::reference_fem::fitted
       const auto on_ray = [&](double r) { return level(geometry.position(ray, r)); };
       const auto sample = [&](int i)
       {
-        const double share = std::clamp(static_cast<double>(i) / samples_on_ray,
-                                        next_to_wall, 1 - next_to_wall);
+        const double share = std::clamp(static_cast<double>(i) / samples, next_to_wall,
+                                        1 - next_to_wall);
         return rays.inner + (rays.outer - rays.inner) * share;
       };
       double found = -1;
       int crossings = 0;
       double at_lower = on_ray(sample(0));
-      for(int i = 1; i <= samples_on_ray; ++i)
+      if(ray == 0)
+        result.solid_inside = at_lower < 0;
+      for(int i = 1; i <= samples; ++i)
       {
         const double at_upper = on_ray(sample(i));
         if((at_lower < 0) != (at_upper < 0))

@@ -30,10 +30,13 @@ namespace meltfront::reference_fem::fitted
   Physics physics_of(const cases::Scene &scene, const cases::EffectSet &effects,
                      const RunOptions &options, bool solid_inside);
 
+  /** The side at an end of the rays. */
+  cases::Side side_at(const cases::Scene &scene, bool inner);
+
   /** Where the front starts. */
   struct InitialFront
   {
-    bool solid_inside = true;
+    bool solid_inside = true;       ///< or everywhere
     std::vector<double> coordinate; ///< by ray (m); empty: the scene starts in one phase
   };
 

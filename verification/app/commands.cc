@@ -6,11 +6,13 @@
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
 #include <verification/app/methods.h>
+#include <verification/matrix/child_process.h>
 #include <verification/matrix/criteria.h>
 #include <verification/matrix/json_values.h>
 #include <verification/matrix/label.h>
 #include <verification/matrix/matrix_file.h>
 #include <verification/matrix/matrix_files.h>
+#include <verification/matrix/memory_limit.h>
 #include <verification/matrix/run_one.h>
 #include <verification/matrix/runner.h>
 #include <verification/report/report.h>
@@ -20,8 +22,13 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <thread>
 
 namespace meltfront::verification
 {
@@ -100,11 +107,20 @@ namespace meltfront::verification
       return c;
     }
 
-    int run_and_conclude(const Matrix &matrix, const std::string &directory, int jobs)
+    /** Bytes that a run may take. @param gigabytes that were asked for; 0: all there is
+     */
+    double memory_limit(double gigabytes)
+    {
+      return gigabytes > 0 ? 1e9 * gigabytes : available_memory();
+    }
+
+    int run_and_conclude(const Matrix &matrix, const std::string &directory, int jobs,
+                         double memory)
     {
       RunnerOptions options;
       options.directory = directory;
       options.jobs = jobs;
+      options.memory_limit = memory_limit(memory);
       options.program_version = program_version;
       options.command_line = command_line;
       options.progress = stderr;
@@ -115,6 +131,78 @@ namespace meltfront::verification
           = [&](MatrixResult &result) { status = conclude(result, directory); };
       run_matrix(matrix, options, load_checked_case, method_named);
       return status;
+    }
+
+    /** The text of a file, without white space at its end. */
+    std::string text_of(const std::string &file)
+    {
+      std::ifstream in(file);
+      std::string text{std::istreambuf_iterator<char>(in), {}};
+      text.erase(text.find_last_not_of(" \n\t") + 1);
+      return text;
+    }
+
+    /** Wait until a process ends, or end it after so many seconds (0: never).
+     * @return what went wrong, a clause; else empty */
+    std::string wait_for(ChildProcess &process, double time_limit)
+    {
+      using Clock = std::chrono::steady_clock;
+      constexpr std::chrono::milliseconds polling_pause{5};
+      const Clock::time_point start = Clock::now();
+      while(!process.ended())
+      {
+        const std::chrono::duration<double> spent = Clock::now() - start;
+        if(time_limit > 0 && spent.count() > time_limit)
+        {
+          process.kill();
+          return fmt::format("took longer than its time limit of {} s", time_limit);
+        }
+        std::this_thread::sleep_for(polling_pause);
+      }
+      return process.end().problem();
+    }
+
+    /** A run in a process of its own, which writes all files of the run to a directory.
+     * @throws cases::OutputError if it cannot. */
+    RunRecord run_alone(const cases::Case &c, const cases::Method &method,
+                        const cases::Resolution &resolution, const std::string &label,
+                        const std::string &directory, const RunArguments &arguments)
+    {
+      const std::string file = directory + "/run.json", log = directory + "/run.log";
+      const std::map<std::string, std::string> provenance{
+          {"program_version", program_version}, {"command_line", command_line}};
+      std::filesystem::remove(file);
+      ChildProcess process(
+          [&]
+          {
+            limit_memory(resolution.memory_limit, resolution.threads);
+            FieldWriter fields(directory, c.scene.start_time, c.scene.end_time,
+                               arguments.frames,
+                               c.scene.problem == cases::ProblemKind::particle_solid
+                                   ? c.scene.particle_solid->law.cutoff
+                                   : 0);
+            RepeatPolicy once;
+            once.most = 1;
+            const RunRecord record
+                = run_one(c, method, resolution, label, provenance, &fields, once);
+            if(record.status == RunStatus::finished)
+              write_run_page(record, make_case_record(c), directory);
+            write_json(file, record);
+          },
+          log);
+      const std::string problem = wait_for(process, arguments.time_limit);
+      if(process.end().exit_status == 1)
+        throw cases::OutputError(text_of(log)); // all else is in the record
+      if(!std::filesystem::exists(file))
+      {
+        RunRecord failed = empty_record(c, method, resolution, label, provenance);
+        failed.message = fmt::format(
+            "{} {}", method.name(), problem.empty() ? "ended without a record" : problem);
+        failed.peak_memory_mb = process.end().peak_memory_mb;
+        failed.provenance["ended"] = "killed";
+        write_json(file, failed);
+      }
+      return read_json(file).get<RunRecord>();
     }
 
     /** Read METHOD.KEY=VALUE settings into options of a method. */
@@ -153,16 +241,16 @@ namespace meltfront::verification
     return run_and_conclude(matrix,
                             arguments.output.empty() ? default_directory(arguments.matrix)
                                                      : arguments.output,
-                            arguments.jobs);
+                            arguments.jobs, arguments.memory);
   }
 
   int run(const RunArguments &arguments)
   {
     const cases::Case c = cases::load_case(arguments.case_name);
     const cases::Method &method = method_named(arguments.method);
-    cases::Resolution resolution{arguments.n,
-                                 cases::Options(method.option_declarations()),
-                                 arguments.seed, arguments.threads};
+    cases::Resolution resolution{
+        arguments.n, cases::Options(method.option_declarations()), arguments.seed,
+        arguments.threads, memory_limit(arguments.memory)};
     const auto set = apply_settings(arguments.settings, method, resolution.options);
     const std::string directory
         = !arguments.output.empty()
@@ -171,20 +259,10 @@ namespace meltfront::verification
                   fmt::format("run-{}-{}-{}", c.scene.name, method.name(), arguments.n));
     make_directory(directory);
 
-    FieldWriter fields(directory, c.scene.start_time, c.scene.end_time, arguments.frames,
-                       c.scene.problem == cases::ProblemKind::particle_solid
-                           ? c.scene.particle_solid->law.cutoff
-                           : 0);
-    RepeatPolicy once;
-    once.most = 1;
-    const RunRecord record
-        = run_one(c, method, resolution, run_label(method.name(), set, arguments.threads),
-                  {{"program_version", program_version}, {"command_line", command_line}},
-                  &fields, once);
-    write_json(directory + "/run.json", record);
+    const RunRecord record = run_alone(c, method, resolution,
+                                       run_label(method.name(), set, arguments.threads),
+                                       directory, arguments);
     std::fputs(run_text(record, c).c_str(), stdout);
-    if(record.status == RunStatus::finished)
-      write_run_page(record, make_case_record(c), directory);
     fmt::print("Written to {}: run.json{}\n", directory,
                record.status == RunStatus::finished
                    ? ", front.csv, picture.svg, fields.pvd"
@@ -215,7 +293,7 @@ namespace meltfront::verification
     return run_and_conclude(matrix,
                             arguments.output.empty() ? default_directory(matrix.name)
                                                      : arguments.output,
-                            arguments.jobs);
+                            arguments.jobs, arguments.memory);
   }
 
   int report(const std::string &directory)

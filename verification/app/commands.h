@@ -21,6 +21,7 @@ namespace meltfront::verification
     std::string matrix = "default"; ///< name in the library or path of a matrix file
     std::string output;             ///< directory; empty: results/MATRIX
     int jobs = 0;                   ///< runs at once; 0: one per core
+    double memory = 0;              ///< GB that a run may take; 0: what the machine has
   };
 
   struct RunArguments
@@ -32,7 +33,9 @@ namespace meltfront::verification
     std::vector<std::string> settings; ///< METHOD.KEY=VALUE
     unsigned long seed = 1;
     int threads = 1;
-    int frames = 20; ///< for ParaView
+    int frames = 20;          ///< for ParaView
+    double memory = 0;        ///< GB that the run may take; 0: what the machine has
+    double time_limit = 3600; ///< s; 0: none
   };
 
   struct CompareArguments
@@ -41,6 +44,7 @@ namespace meltfront::verification
     std::vector<int> resolutions{20, 40, 80, 160};
     std::string output; ///< directory; empty: results/compare-CASE
     int jobs = 0;
+    double memory = 0; ///< GB that a run may take; 0: what the machine has
   };
 
   /** The command line as it was typed, for provenance. */
@@ -49,7 +53,8 @@ namespace meltfront::verification
   /** Run a matrix, write the report, print every criterion with its figure. */
   int verify(const VerifyArguments &arguments);
 
-  /** One run: run.json, front.csv, picture.svg and fields for ParaView. */
+  /** One run, in a process of its own: run.json, front.csv, picture.svg and fields for
+   * ParaView. One that crashes or takes longer than it may is recorded as failed. */
   int run(const RunArguments &arguments);
 
   /** Every method on one case, as a matrix of its own. */

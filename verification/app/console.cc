@@ -173,6 +173,16 @@ namespace meltfront::verification
                          count["refused"], count["failed"])
              + text;
     }
+    /** What a method counted of its own doings; empty if nothing. */
+    std::string evidence_line(const cases::Cost &cost)
+    {
+      std::string text;
+      for(const auto &[name, value] : cost.evidence)
+        text += fmt::format("{}{}: {:.3g}", text.empty() ? "Evidence: " : "; ", name,
+                            value);
+      return text.empty() ? "" : text + "\n";
+    }
+
     /** What was left out; criteria without a run, of which small matrices have many, are
      * counted. */
     std::string omissions_text(const MatrixResult &result)
@@ -249,6 +259,7 @@ namespace meltfront::verification
       text += fmt::format("At t = {:.6g}: {}\n", event.time, event.what);
     if(record.status != RunStatus::finished)
       return text;
+    text += evidence_line(record.cost);
     text += "Results:\n";
     for(const auto &[name, value] : record.quantities)
       if(std::isfinite(value))

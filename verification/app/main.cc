@@ -59,6 +59,15 @@ namespace
     declare_others();
   }
 
+  void add_memory_option(CLI::App *command, double &memory)
+  {
+    command
+        ->add_option("--memory", memory,
+                     "GB that a run may take; what is estimated to take more is refused "
+                     "(what the machine has)")
+        ->check(CLI::PositiveNumber);
+  }
+
   void CommandLine::declare_verify()
   {
     const auto add_options = [this](CLI::App *command)
@@ -66,6 +75,7 @@ namespace
       command->add_option("--out", verify_arguments.output, "directory (results/MATRIX)");
       command->add_option("--jobs", verify_arguments.jobs, "runs at once (one per core)")
           ->check(CLI::Range(0, 1024));
+      add_memory_option(command, verify_arguments.memory);
     };
     auto *verify_command
         = app.add_subcommand("verify", "run a verification matrix and write its report");
@@ -102,6 +112,11 @@ namespace
         ->check(CLI::Range(1, 1024));
     command->add_option("--frames", a.frames, "fields for ParaView over the run (20)")
         ->check(CLI::Range(1, 10000));
+    add_memory_option(command, a.memory);
+    command
+        ->add_option("--time-limit", a.time_limit,
+                     "seconds after which the run is ended; 0: none (3600)")
+        ->check(CLI::NonNegativeNumber);
     command->callback([this] { action = [this] { return run(run_arguments); }; });
   }
 
@@ -117,6 +132,7 @@ namespace
     command->add_option("--out", a.output, "directory (results/compare-CASE)");
     command->add_option("--jobs", a.jobs, "runs at once (one per core)")
         ->check(CLI::Range(0, 1024));
+    add_memory_option(command, a.memory);
     command->callback([this] { action = [this] { return compare(compare_arguments); }; });
   }
 

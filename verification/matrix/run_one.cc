@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/out_of_memory.h>
 #include <verification/matrix/hash.h>
 #include <verification/matrix/provenance.h>
 #include <verification/matrix/run_measures.h>
@@ -70,6 +71,18 @@ namespace meltfront::verification
       }
     }
 
+    /** What the machine lacks memory for is to be tried again, on another or with another
+     * limit. */
+    void require_affordable(const cases::Method &method, const cases::Scene &scene,
+                            const cases::EffectSet &effects,
+                            const cases::Resolution &resolution, RunRecord &record)
+    {
+      const cases::Demand demand = method.demand(scene, effects, resolution);
+      if(demand.bytes > resolution.memory_limit)
+        record.provenance["ended"] = "killed";
+      cases::require_affordable(method, demand, resolution.memory_limit);
+    }
+
     void solve(const cases::Case &c, const cases::Method &method,
                const cases::Resolution &resolution, cases::Observer *second,
                const RepeatPolicy &policy, RunRecord &record)
@@ -78,6 +91,7 @@ namespace meltfront::verification
       record.effects = effects.decisions();
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
       cases::require_capable(method, scene, effects, resolution.threads);
+      require_affordable(method, scene, effects, resolution, record);
       const auto measures
           = measures_of(c, scene, method.name(), second, resolution.seed == 1);
       const auto keep_course = [&]
@@ -153,10 +167,12 @@ namespace meltfront::verification
       record.status = RunStatus::refused;
       record.message = refusal.what();
     }
-    catch(const std::bad_alloc &)
+    catch(const std::bad_alloc &error)
     {
       record.status = RunStatus::failed;
       record.message = fmt::format("{} needs more memory than there is", method.name());
+      if(const auto *known = dynamic_cast<const cases::OutOfMemory *>(&error))
+        record.message += fmt::format(": {}", known->what());
       // The machine's fault, not the run's: it is to be tried again.
       record.provenance["ended"] = "killed";
     }

@@ -4,6 +4,7 @@
 #include <verification/matrix/hash.h>
 #include <verification/matrix/json_values.h>
 #include <verification/matrix/matrix_files.h>
+#include <verification/matrix/memory_limit.h>
 #include <verification/matrix/progress.h>
 #include <verification/matrix/runner.h>
 
@@ -143,8 +144,10 @@ namespace meltfront::verification
       {
         const auto folder = std::filesystem::path(job.path).parent_path();
         std::filesystem::create_directories(folder);
+        job.run.resolution.memory_limit = options.memory_limit;
         const auto make = [&]
         {
+          limit_memory(options.memory_limit, job.run.resolution.threads);
           write_json(job.path, run_one(*job.the_case, *job.method, job.run.resolution,
                                        job.run.label, provenance_of(options), nullptr,
                                        options.repeats));

@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace meltfront::verification
@@ -16,6 +17,8 @@ namespace meltfront::verification
   {
     std::string directory; ///< results are written to it
     int jobs = 0;          ///< threads in use at once; 0: one for each core
+    /** Most memory that a run may take (bytes); see cases::Resolution::memory_limit. */
+    double memory_limit = std::numeric_limits<double>::infinity();
     std::string program_version;
     std::string program_hash; ///< empty: the SHA-256 of the running program's file
     std::string command_line;
@@ -33,14 +36,15 @@ namespace meltfront::verification
    * Every run has a process of its own, the largest first, as many at once as `jobs`
    * allows (a run counts with its threads). It writes its record under a temporary name
    * and renames it. A run that crashes or exceeds the matrix's time limit is recorded as
-   * failed with the reason; the others go on.
+   * failed with the reason; the others go on. One that is estimated to need more memory
+   * than it may have is refused, one that comes to need more fails.
    *
    * Resumable: a record of the same case text, method, option values, n, seed, threads
    * and program is kept and not made again if the run finished, was refused, or failed by
-   * itself (it would again). Runs that crashed or were killed, for which the machine may
-   * be to blame, are made again; so is everything once the program or the case has
-   * changed. Killed at any moment and called again, it loses and repeats nothing that was
-   * finished.
+   * itself (it would again). Runs that crashed, were killed or lacked memory, for which
+   * the machine may be to blame, are made again; so is everything once the program or the
+   * case has changed. Killed at any moment and called again, it loses and repeats nothing
+   * that was finished.
    *
    * Written: matrix.json, cases/CASE.json, runs/CASE/LABEL/n=N/run.json (and run.log, if
    * the run printed something), summary.json.

@@ -41,6 +41,7 @@ namespace meltfront::particles::front_tracking
         place.assign(snapshot.positions[0].begin(), snapshot.positions[0].end());
         temperature.assign(snapshot.temperature.begin(), snapshot.temperature.end());
         defect = std::max(defect, snapshot.heat.defect());
+        heat = snapshot.heat;
       }
 
       void note(double, const std::string &event) override
@@ -52,6 +53,7 @@ namespace meltfront::particles::front_tracking
       std::vector<long> steps;
       std::vector<std::string> notes;
       double solid = 0, volume = 0, defect = 0;
+      cases::HeatBudget heat;
     };
 
     Recorder run(const cases::Scene &scene, int n, const OptionTexts &options = {})
@@ -281,6 +283,49 @@ namespace meltfront::particles::front_tracking
                                           return p[0] > 0.4 && p[0] < 0.6 ? 440. : 400.;
                                         }};
       EXPECT_THROW(run(two_fronts, 20), cases::Refusal);
+    }
+
+    // Within a planned step of 0.1 s, and over the end of one.
+    TEST(RkpmTracked, APulseOfFluxBringsItsEnergy)
+    {
+      for(const double begin : {0.523, 0.496})
+      {
+        cases::Scene scene = slab(bar_material(), 0, 1);
+        scene.initial.temperature = cases::Field::uniform(440);
+        set(scene, Side::x_min,
+            {BoundaryKind::flux,
+             {"",
+              [begin](const cases::Position &, double t)
+              { return t >= begin && t < begin + 0.01 ? 100. : 0.; },
+              false,
+              {begin, begin + 0.01}}});
+        set(scene, Side::x_max, {});
+        const Recorder recorder = run(scene, 80, {{"steps", "10"}});
+        EXPECT_NEAR(recorder.heat.boundary, 1, 1e-9);
+        EXPECT_NEAR(recorder.heat.stored + recorder.heat.latent - recorder.heat.initial,
+                    1, 0.03);
+      }
+    }
+
+    TEST(RkpmTracked, AWallThatIsSwitchedInMidRunFreezesFromThenOn)
+    {
+      const auto solid_at_end = [](double time)
+      {
+        cases::Scene scene = slab(bar_material(), 0, 1);
+        scene.initial.temperature = cases::Field::uniform(440);
+        set(scene, Side::x_min,
+            {BoundaryKind::fixed_temperature,
+             {"",
+              [time](const cases::Position &, double t)
+              { return t < time ? 440. : cold; },
+              false,
+              {time}}});
+        set(scene, Side::x_max, {});
+        return run(scene, 40, {{"steps", "10"}}).solid;
+      };
+      const double one = solid_at_end(0.501), other = solid_at_end(0.499);
+      EXPECT_GT(one, 0.1);
+      EXPECT_NEAR(one / other, std::sqrt(0.499 / 0.501), 2e-3);
     }
   } // namespace
 } // namespace meltfront::particles::front_tracking

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace meltfront::particles
 {
@@ -253,6 +255,26 @@ namespace meltfront::particles
           cases::NumericalError);
       EXPECT_THROW(IntegralWeights(KernelShape::hat, 1, WeightPolicy::separate, 3),
                    cases::InputError);
+    }
+
+    TEST(IntegralRows, LoadsThatCancelEndTheRun)
+    {
+      Particles line = arrange(1, 30, -pi, pi, 0, 1, 0);
+      const IntegralParameters parameters
+          = published(WeightPolicy::uniform, KernelShape::cubic_spline);
+      EXPECT_NO_THROW(integral_rows(line.nodes, line.walls, parameters));
+      std::ranges::fill(line.nodes.weights, 0.);
+      try
+      {
+        integral_rows(line.nodes, line.walls, parameters);
+        FAIL() << "was divided by zero";
+      }
+      catch(const cases::NumericalError &error)
+      {
+        EXPECT_NE(std::string(error.what()).find("loads of its row cancel"),
+                  std::string::npos)
+            << error.what();
+      }
     }
 
     TEST(IntegralRows, HaveTheSameBitsForAnyNumberOfThreads)

@@ -72,14 +72,15 @@ namespace
         weights.push_back(spacing);
       }
       problem.symmetric = true;
-      problem.source = [this](double time, std::span<double> source)
+      problem.source = [this](const LinearStep &step, std::span<double> source)
       {
         std::ranges::fill(source, release * spacing);
-        source.front() += 2 / spacing * wall(time);
-        source.back() += 2 / spacing * wall(time);
+        source.front() += 2 / spacing * wall(step.at);
+        source.back() += 2 / spacing * wall(step.at);
       };
-      problem.inflow = [this](double time, std::span<const double> u) {
-        return HeatInflow{2 / spacing * (2 * wall(time) - u.front() - u.back()), release};
+      problem.inflow = [this](const LinearStep &step, std::span<const double> u) {
+        return HeatInflow{2 / spacing * (2 * wall(step.at) - u.front() - u.back()),
+                          release};
       };
       description.method = "test";
     }

@@ -118,13 +118,15 @@ TEST(NodeSet, WallsThatMeet)
   EXPECT_FALSE(corner.fixed);
   EXPECT_EQ(corner.direction, (std::array<double, 3>{-1, -1, 0}));
   EXPECT_EQ(corner.transfer, 2);
-  EXPECT_EQ(corner.value({}, 0), 13);
+  const GivenValues given(scene);
+  const LinearStep now = steady_step(0);
+  EXPECT_EQ(corner.value({}, now, given), 13);
   const WallCondition held = wall_condition(scene, nodes, nodes.size() - 1);
   EXPECT_TRUE(held.fixed);
-  EXPECT_EQ(held.value({}, 0), 7);
+  EXPECT_EQ(held.value({}, now, given), 7);
   const WallCondition side = wall_condition(scene, nodes, 2);
   EXPECT_EQ(side.direction, (std::array<double, 3>{0, -1, 0}));
-  EXPECT_EQ(side.value({}, 0), 10);
+  EXPECT_EQ(side.value({}, now, given), 10);
 }
 
 TEST(NodeSet, OtherDomainsAreRefused)

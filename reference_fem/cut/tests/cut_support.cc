@@ -23,6 +23,7 @@ namespace meltfront::reference_fem::tests
     area.push_back(solid);
     last_moment = moment;
     defect = snapshot.heat.defect();
+    heat = snapshot.heat;
   }
 
   bool Course::monotone() const

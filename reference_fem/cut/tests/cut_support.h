@@ -28,6 +28,7 @@ namespace meltfront::reference_fem::tests
     std::vector<double> time, area;
     double last_moment = 0; ///< of the solid, with x + 2 y (m^3)
     double defect = 0;      ///< of the heat balance, at the end
+    cases::HeatBudget heat; ///< at the end
     cases::Cost cost;
   };
 

@@ -44,6 +44,46 @@ namespace meltfront::reference_fem::tests
       EXPECT_NEAR(course.last_moment, 0, 1e-6);
     }
 
+    /** The unit square, half of it solid, with a wall that is warmer at once. */
+    Scene switched_on(double wall)
+    {
+      Scene scene;
+      scene.domain.shape = DomainShape::box;
+      scene.domain.dimension = 2;
+      scene.domain.upper = {1, 1, 0};
+      scene.material.latent_heat = 1;
+      scene.material.solid = scene.material.liquid = {1, 1, 1};
+      scene.initial.temperature
+          = {"x - 0.5", [](const Position &p, double) { return p[0] - 0.5; }};
+      for(const Side side : scene.sides())
+        scene.boundaries[static_cast<std::size_t>(side)] = Boundary();
+      const auto hold = [&scene](Side side, double temperature)
+      {
+        Boundary &boundary = *scene.boundaries[static_cast<std::size_t>(side)];
+        boundary.kind = BoundaryKind::fixed_temperature;
+        boundary.value = Field::uniform(temperature);
+      };
+      hold(Side::x_min, -0.5);
+      hold(Side::x_max, wall);
+      scene.end_time = 0.2;
+      return scene;
+    }
+
+    TEST(FemCut, AWallThatIsSwitchedOnIsDamped)
+    {
+      const double fine = run_cut(switched_on(2), 48).area.back();
+      EXPECT_LT(fine, 0.45);
+      for(const int n : {16, 24, 32})
+      {
+        const Course course = run_cut(switched_on(2), n);
+        EXPECT_NEAR(course.area.back(), fine, 2e-3) << n;
+        EXPECT_GE(course.cost.evidence.at("steps of backward Euler"), 4) << n;
+      }
+      // Where nothing jumps one step of backward Euler is enough.
+      EXPECT_EQ(run_cut(switched_on(0.5), 16).cost.evidence.at("steps of backward Euler"),
+                1);
+    }
+
     TEST(FemCut, MirrorAndQuarterTurn)
     {
       const Position lower{-0.5, -0.5, 0}, upper{0.5, 0.5, 0};
@@ -99,6 +139,26 @@ namespace meltfront::reference_fem::tests
       set_boundary(periodic, Side::x_min, {BoundaryKind::periodic, {}, false});
       set_boundary(periodic, Side::x_max, {BoundaryKind::periodic, {}, false});
       EXPECT_THROW(run_cut(periodic, 40), Refusal);
+    }
+
+    // Within a step of about 5 s, 1 s after the start; q times 0.1 s.
+    TEST(FemCut, APulseOfFluxBringsItsEnergy)
+    {
+      const auto end_of_run = [](double flux)
+      {
+        Scene scene = disks({{0, 0, 0}}, 100);
+        set_boundary(scene, Side::x_max,
+                     {BoundaryKind::flux,
+                      {"",
+                       [flux](const Position &, double t)
+                       { return t >= 71 && t < 71.1 ? flux : 0.; },
+                       false,
+                       {71, 71.1}}});
+        return run_cut(scene, 40, {{"fewest_steps", "20"}}).heat;
+      };
+      const HeatBudget without = end_of_run(0), with = end_of_run(1e7);
+      EXPECT_NEAR(with.boundary - without.boundary, 1e6, 1e-3);
+      EXPECT_NEAR(with.stored + with.latent - without.stored - without.latent, 1e6, 1e4);
     }
   } // namespace
 } // namespace meltfront::reference_fem::tests

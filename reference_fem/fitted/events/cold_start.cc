@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace meltfront::reference_fem::fitted
@@ -39,41 +40,18 @@ namespace meltfront::reference_fem::fitted
      * as a share of the ray. */
     constexpr double beside_wall = 1e-9;
 
-    double initial_temperature(const EventScene &setting, const double r)
-    {
-      const RayMesh geometry(setting.rays.surface, setting.rays.inner, setting.rays.outer,
-                             {0, 1});
-      return setting.scene.initial.temperature(geometry.position(0, r),
-                                               setting.scene.start_time);
-    }
+    /** A wall this close to the melting temperature is at it. */
+    constexpr double rounding = 1e-13;
 
-    double initial_temperature_at_end(const EventScene &setting, const bool inner)
+    /** Fewest steps of a stretch that begins during the run. */
+    constexpr int fewest_steps = 20;
+
+    double temperature_at_end(const EventScene &setting, const OnePhase &state,
+                              const bool inner)
     {
       const RayScene &rays = setting.rays;
       const double distance = beside_wall * (rays.outer - rays.inner);
-      return initial_temperature(setting,
-                                 inner ? rays.inner + distance : rays.outer - distance);
-    }
-
-    std::shared_ptr<const cases::ExactSolution>
-    wall_start(const EventScene &setting, const cases::Boundary &wall, const bool inner)
-    {
-      if(wall.kind != BoundaryKind::fixed_temperature)
-        return nullptr;
-      const cases::Scene &scene = setting.scene;
-      const double melting = scene.material.melting_temperature;
-      const RayMesh geometry(setting.rays.surface, setting.rays.inner, setting.rays.outer,
-                             {0, 1});
-      const double at_wall = wall.value(
-          geometry.position(0, inner ? setting.rays.inner : setting.rays.outer),
-          scene.start_time);
-      const double beside = initial_temperature_at_end(setting, inner);
-      const bool liquid
-          = beside > melting
-            || (beside == melting && scene.initial.solid_fraction_at_melting < 0.5);
-      if(at_wall == melting || (at_wall > melting) == liquid)
-        return nullptr;
-      return std::make_shared<cases::PlanarNeumann>(scene.material, at_wall, beside);
+      return state.temperature(inner ? rays.inner + distance : rays.outer - distance);
     }
 
     /** The front constant for which a sink of the given kind removes @p heat. */
@@ -98,8 +76,12 @@ namespace meltfront::reference_fem::fitted
 
     /** Heat that a sink draws around the time of seeds; its law in time must be the one
      * that the similarity solution asks for. */
-    std::shared_ptr<const cases::ExactSolution> sink_start(const EventScene &setting)
+    std::shared_ptr<const cases::ExactSolution> sink_start(const EventScene &setting,
+                                                           const OnePhase &initial)
     {
+      if(initial.solid)
+        throw cases::Refusal("fem-fitted starts in one phase from sinks that freeze "
+                             "liquid; this one lies in solid");
       const cases::Scene &scene = setting.scene;
       const double early = latest_seed * (scene.end_time - scene.start_time);
       const auto drawn = [&](const double since)
@@ -114,7 +96,7 @@ namespace meltfront::reference_fem::fitted
             "fem-fitted starts in one phase from {}; this one has another law in time",
             line ? "a line sink of constant strength"
                  : "a point sink whose strength grows with the root of time"));
-      const double far = initial_temperature_at_end(setting, true);
+      const double far = temperature_at_end(setting, initial, true);
       if(line)
         return sink_that_removes<cases::LineSink>(drawn(early), scene.material, far,
                                                   [](const cases::LineSink &sink)
@@ -125,7 +107,8 @@ namespace meltfront::reference_fem::fitted
     }
 
     /** Since the start (s). */
-    double seed_time(const EventScene &setting, const SuddenStart &start)
+    double seed_time(const EventScene &setting, const SuddenStart &start,
+                     const double time)
     {
       const cases::Scene &scene = setting.scene;
       const double length = setting.rays.outer - setting.rays.inner;
@@ -133,43 +116,90 @@ namespace meltfront::reference_fem::fitted
           = start.local->solid_at_origin() ? scene.material.liquid : scene.material.solid;
       const double by_front = std::pow(seed_share * length / start.local->front(1), 2);
       const double by_layer = std::pow(length / layers_in_ray, 2) / old.diffusivity();
-      return std::min(
-          {by_front, by_layer, latest_seed * (scene.end_time - scene.start_time)});
+      return std::min({by_front, by_layer, latest_seed * (scene.end_time - time),
+                       0.5 * time_to_breakpoint(scene, time)});
     }
   } // namespace
 
-  std::optional<SuddenStart> sudden_start(const EventScene &setting)
+  int steps_for(const EventScene &setting, const double from)
   {
     const cases::Scene &scene = setting.scene;
+    if(from == scene.start_time)
+      return setting.options.steps;
+    const double share = (scene.end_time - from) / (scene.end_time - scene.start_time);
+    return std::max(fewest_steps,
+                    static_cast<int>(std::ceil(share * setting.options.steps)));
+  }
+
+  double time_to_breakpoint(const cases::Scene &scene, const double time)
+  {
+    double result = std::numeric_limits<double>::infinity();
+    for(const cases::Side side : scene.sides())
+      for(const double point : scene.boundary(side).value.breakpoints)
+        if(point > time)
+          result = std::min(result, point - time);
+    return result;
+  }
+
+  OnePhase initial_phase(const EventScene &setting, const double heat)
+  {
+    const RayMesh geometry(setting.rays.surface, setting.rays.inner, setting.rays.outer,
+                           {0, 1});
+    const cases::Scene &scene = setting.scene;
+    OnePhase result;
+    result.time = scene.start_time;
+    result.temperature = [&scene, geometry](const double r)
+    { return scene.initial.temperature(geometry.position(0, r), scene.start_time); };
+    result.solid = initial_front(scene, setting.rays).solid_inside;
+    result.heat = heat;
+    return result;
+  }
+
+  std::optional<SuddenStart> start_at_wall(const EventScene &setting,
+                                           const OnePhase &state, const bool inner)
+  {
+    const RayScene &rays = setting.rays;
+    const cases::Side side = side_at(setting.scene, inner);
+    const cases::Boundary &wall = setting.scene.boundary(side);
+    if(wall.kind != BoundaryKind::fixed_temperature)
+      return std::nullopt;
+    const cases::Material &material = setting.scene.material;
+    const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
+    const double at_wall
+        = wall.value(geometry.position(0, inner ? rays.inner : rays.outer), state.time);
+    const double beside = temperature_at_end(setting, state, inner);
+    const double sign = state.solid ? 1 : -1;
+    // A metastable phase stays as it is.
+    const double round_off
+        = rounding * (std::abs(material.melting_temperature) + std::abs(beside));
+    if(!(sign * (at_wall - material.melting_temperature) > round_off)
+       || sign * (beside - material.melting_temperature) > 0)
+      return std::nullopt;
+    return SuddenStart{inner,
+                       std::make_shared<cases::PlanarNeumann>(material, at_wall, beside),
+                       fmt::format("the wall {}", to_string(side))};
+  }
+
+  std::optional<SuddenStart> sudden_start(const EventScene &setting,
+                                          const OnePhase &initial)
+  {
     const bool centre = setting.rays.surface.exponent > 0 && setting.rays.inner == 0;
-    const bool round = scene.domain.round();
-    std::vector<SuddenStart> starts;
     if(setting.effects.contains(cases::Effect::heat_sources))
-      starts.push_back({true, sink_start(setting), "the sink at the centre"});
+      return SuddenStart{true, sink_start(setting, initial), "the sink at the centre"};
     for(const bool inner : {true, false})
-    {
-      if(inner && centre)
-        continue;
-      const cases::Side side = inner ? (round ? cases::Side::inner : cases::Side::x_min)
-                                     : (round ? cases::Side::outer : cases::Side::x_max);
-      if(auto local = wall_start(setting, scene.boundary(side), inner))
-        starts.push_back(
-            {inner, std::move(local), fmt::format("the wall {}", to_string(side))});
-    }
-    if(starts.size() > 1)
-      throw cases::Refusal(fmt::format(
-          "fem-fitted follows one front; in this scene {} and {} start one each",
-          starts[0].cause, starts[1].cause));
-    return starts.empty() ? std::nullopt : std::optional(starts[0]);
+      if(!inner || !centre)
+        if(auto start = start_at_wall(setting, initial, inner))
+          return start;
+    return std::nullopt;
   }
 
   Stretch seeded_stretch(const EventScene &setting, const SuddenStart &start,
-                         const double initial_heat)
+                         const OnePhase &state)
   {
     const cases::Scene &scene = setting.scene;
     const RayScene &rays = setting.rays;
     const bool inner = start.at_inner_end;
-    const double since = seed_time(setting, start);
+    const double since = seed_time(setting, start, state.time);
     const double width = start.local->front(since);
     const double length = rays.outer - rays.inner;
     const bool new_is_solid = start.local->solid_at_origin();
@@ -187,15 +217,15 @@ namespace meltfront::reference_fem::fitted
     Physics physics
         = physics_of(scene, setting.effects, setting.options, inner == new_is_solid);
     if(setting.options.clock != "t")
-      physics.clock = {true, scene.start_time};
+      physics.clock = {true, state.time};
 
     Stretch result;
     result.problem = std::make_shared<FittedProblem>(
         RayMesh(rays.surface, rays.inner, rays.outer, inner ? equal : widening,
                 inner ? widening : equal),
         physics);
-    result.time = scene.start_time + since;
-    const double far = initial_temperature_at_end(setting, inner);
+    result.time = state.time + since;
+    const double far = temperature_at_end(setting, state, inner);
     result.state = result.problem->state(
         result.time, {inner ? rays.inner + width : rays.outer - width},
         [&](const cases::Position &p)
@@ -205,22 +235,23 @@ namespace meltfront::reference_fem::fitted
           const double distance = inner ? r - rays.inner : rays.outer - r;
           if(distance < width)
             return start.local->temperature(distance, since);
-          // The initial state need not be uniform farther away.
-          const double there = initial_temperature(setting, r);
+          // The state need not be uniform farther away.
+          const double there = state.temperature(r);
           return distance > width + far_in_layers * thermal_layer
                      ? there
                      : start.local->temperature(distance, since) + there - far;
         });
+    result.before = state.before;
     for(const cases::PointSource &source : scene.sources)
-      result.before.sources += source.energy(result.time);
+      result.before.sources += source.energy(result.time) - source.energy(state.time);
     const HeatContent seed = result.problem->heat(result.time, result.state);
-    result.before.walls
-        = seed.sensible + seed.latent - initial_heat - result.before.sources;
+    result.before.walls += seed.sensible + seed.latent - state.heat
+                           - (result.before.sources - state.before.sources);
     const Clock &clock = physics.clock;
-    result.steps = lengthening_steps(clock.clock(result.time),
-                                     clock.clock(scene.end_time), setting.options.steps,
-                                     clock.root ? lengthening : 2 * lengthening);
-    result.event = {scene.start_time,
+    result.steps = lengthening_steps(
+        clock.clock(result.time), clock.clock(scene.end_time),
+        steps_for(setting, state.time), clock.root ? lengthening : 2 * lengthening);
+    result.event = {state.time,
                     fmt::format("a front starts at {}, {:.3g} m away at first, from the "
                                 "similarity solution",
                                 start.cause, width)};

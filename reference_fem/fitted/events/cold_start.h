@@ -6,6 +6,7 @@
 
 #include <cases/exact_solution.h>
 
+#include <functional>
 #include <optional>
 
 namespace meltfront::reference_fem::fitted
@@ -19,6 +20,25 @@ namespace meltfront::reference_fem::fitted
     RayScene rays;
   };
 
+  /** One phase along the ray, at a time. */
+  struct OnePhase
+  {
+    double time = 0;                               ///< s
+    std::function<double(double r)> temperature{}; ///< by coordinate on the ray (m)
+    bool solid = true;
+    double heat = 0;    ///< that it holds, sensible and latent
+    HeatContent before; ///< walls and sources: what came in until then
+  };
+
+  /** The scene's initial state, which holds so much heat. */
+  OnePhase initial_phase(const EventScene &setting, double heat);
+
+  /** Steps for the rest of the run (s). */
+  int steps_for(const EventScene &setting, double from);
+
+  /** Time until a wall's value may jump or bend next (s); infinite where none does. */
+  double time_to_breakpoint(const cases::Scene &scene, double time);
+
   /** A front that appears at once, when a wall is held beyond the melting temperature or
    * a source at the centre is switched on. */
   struct SuddenStart
@@ -30,11 +50,15 @@ namespace meltfront::reference_fem::fitted
     std::string cause;
   };
 
-  /**
-   * Whether a front appears at the start of the scene, which starts in one phase.
-   * @throws Refusal where fronts would appear at both ends.
-   */
-  std::optional<SuddenStart> sudden_start(const EventScene &setting);
+  /** Whether a front appears at the start of the scene, which starts in one phase.
+   * @throws Refusal for sources that start none or grow by another law. */
+  std::optional<SuddenStart> sudden_start(const EventScene &setting,
+                                          const OnePhase &initial);
+
+  /** The front that a wall starts whose temperature is, or jumps to, beyond the melting
+   * temperature of what lies at it; none where it is not. */
+  std::optional<SuddenStart> start_at_wall(const EventScene &setting,
+                                           const OnePhase &state, bool inner);
 
   /**
    * The run from a front that is so close to its end of the ray that the local solution
@@ -43,10 +67,10 @@ namespace meltfront::reference_fem::fitted
    * the root of the time since the start, and its steps lengthen.
    *
    * Heat that came in through the wall before is by definition what the seed holds more
-   * than the initial state did, less what sources gave.
+   * than the state did, less what sources gave.
    */
   Stretch seeded_stretch(const EventScene &setting, const SuddenStart &start,
-                         double initial_heat);
+                         const OnePhase &state);
 } // namespace meltfront::reference_fem::fitted
 
 #endif

@@ -1,11 +1,15 @@
+#include <reference_fem/fitted/events/data_steps.h>
+#include <reference_fem/fitted/events/profile.h>
 #include <reference_fem/fitted/events/timeline.h>
 
 #include <cases/error.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace meltfront::reference_fem::fitted
@@ -27,8 +31,19 @@ namespace meltfront::reference_fem::fitted
     /** More steps of an approach mean that the front never arrives. */
     constexpr int longest_approach = 1000;
 
-    /** The wall's temperature may differ from the melting temperature by rounding. */
-    constexpr double rounding = 1e-12;
+    /** A wall that passes the melting temperature within so many steps of a stretch does
+     * so while steps and cells do not resolve how it gets there. */
+    constexpr int early_steps = 4;
+
+    /** Refinements after which a wall is at the melting temperature from the start. */
+    constexpr int most_refinements = 12;
+
+    /** A wall that is so shortly after it has passed the melting temperature, of the time
+     * to the seed, as far off it as this share of what it is at the seed, has jumped. */
+    constexpr double shortly = 1e-3, already = 0.1;
+
+    /** Shortest step of an approach, of the run. */
+    constexpr double shortest = 1e-13;
 
     /** How far a front is from the end that it moves to, and for how long. */
     struct Approach
@@ -51,7 +66,10 @@ namespace meltfront::reference_fem::fitted
 
     void add(const IntegrationCost &cost, IntegrationCost &total)
     {
-      total.rejected += cost.rejected;
+      total.halved += cost.halved;
+      total.repeated += cost.repeated;
+      total.fallbacks += cost.fallbacks;
+      total.starts += cost.starts;
       total.iterations += cost.iterations;
       total.most_iterations = std::max(total.most_iterations, cost.most_iterations);
       total.factorizations += cost.factorizations;
@@ -59,26 +77,33 @@ namespace meltfront::reference_fem::fitted
     }
   } // namespace
 
-  Timeline::Timeline(EventScene setting, IntegrationOptions options, Listener listener)
-    : setting(std::move(setting))
+  Timeline::Timeline(EventScene given, IntegrationOptions options, Listener listener)
+    : setting(std::move(given))
     , options(std::move(options))
     , listener(std::move(listener))
+    , phases(setting, this->options.method)
   {
   }
 
   void Timeline::run(Stretch first)
   {
     const HeatContent heat = first.problem->heat(first.time, first.state);
-    initial_heat = heat.sensible + heat.latent;
     std::optional<Stretch> stretch = std::move(first);
     begin(*stretch);
+    phases.start(*stretch->problem, stretch->time, stretch->state);
+    const bool one_phase = !stretch->problem->mesh().has_front();
+    if(!one_phase)
+      phases.check(*stretch->problem, 0, stretch->time, stretch->state);
     listener.step(0, stretch->time, stretch->state, false);
-    if(!stretch->problem->mesh().has_front())
-      if(const auto start = sudden_start(setting))
+    if(one_phase)
+    {
+      const OnePhase initial = initial_phase(setting, heat.sensible + heat.latent);
+      if(const auto start = sudden_start(setting, initial))
       {
-        stretch = seeded_stretch(setting, *start, initial_heat);
+        stretch = seeded_stretch(setting, *start, initial);
         begin(*stretch);
       }
+    }
     while((stretch = integrate(*stretch)))
       begin(*stretch);
     total.steps = steps;
@@ -99,132 +124,266 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  bool Timeline::crossed(const Stretch &stretch, const Vector<double> &u,
-                         const bool inner) const
-  {
-    const FittedProblem &problem = *stretch.problem;
-    if(inner && problem.mesh().has_centre())
-      return false;
-    const double excess = wall_excess(problem, u, inner);
-    const double slack = rounding * problem.physics().temperature_scale;
-    return problem.physics().phases[0].solid ? excess > slack : excess < -slack;
-  }
-
   void Timeline::accept(const Stretch &stretch, const AcceptedStep &step)
   {
     const Clock &clock = stretch.problem->physics().clock;
     const double end = setting.scene.end_time;
     const bool last = step.clock == clock.clock(end);
-    listener.step(++steps, last ? end : clock.time(step.clock), step.u, last);
+    const double time = last ? end : clock.time(step.clock);
+    phases.check(*stretch.problem, ++steps, time, step.u);
+    listener.step(steps, time, step.u, last);
   }
 
   std::optional<Stretch> Timeline::integrate(const Stretch &stretch)
   {
     const FittedProblem &problem = *stretch.problem;
     const Clock &clock = problem.physics().clock;
+    const double from = clock.clock(stretch.time);
+    const std::vector<StepRange> ranges = fit_to_data(
+        stretch.steps, from, clock, data_of(problem), options.tolerance > 0);
     const bool has_front = problem.mesh().has_front();
+    if(!has_front)
+      if(auto next = refined(stretch, ranges))
+        return next;
     Integrator integrator(problem, options_for(stretch));
-    integrator.start(clock.clock(stretch.time), stretch.state);
-    double before = integrator.clock();
-    Vector<double> u = stretch.state;
-    std::optional<bool> crossing;
-    bool arrives = false;
-    const auto after_step = [&](const AcceptedStep &step)
-    {
-      if(!has_front)
-        for(const bool inner : {true, false})
-          if(crossed(stretch, step.u, inner))
-          {
-            crossing = inner;
-            return false;
-          }
-      accept(stretch, step);
-      before = step.clock;
-      u = step.u;
-      // In more dimensions no event is followed: a front that reaches an end has turned
-      // an element over.
-      if(has_front && setting.options.dimension == 1)
-        arrives
-            = approach_of(problem, u, step.rate[problem.mesh().front_node(0)]).remaining
-              < steps_ahead * step.size;
-      return !arrives;
-    };
-    std::optional<Stretch> next;
-    for(const StepRange &range : stretch.steps)
-      if(!integrator.advance_to(range.end, range.step * (1 + 1e-9), after_step))
-        break;
-    if(crossing)
-      next = cross_wall(stretch, integrator, before, u, integrator.clock(), *crossing);
-    else if(arrives && integrator.clock() < clock.clock(setting.scene.end_time))
-      next = approach_end(stretch, integrator);
+    integrator.start(from, stretch.state);
+    std::optional<Stretch> next = has_front
+                                      ? integrate_front(stretch, ranges, integrator)
+                                      : integrate_phase(stretch, ranges, integrator);
     add(integrator.cost(), total);
     return next;
   }
 
-  std::optional<Stretch> Timeline::cross_wall(const Stretch &stretch,
-                                              Integrator &integrator, const double before,
-                                              const Vector<double> &u, const double after,
-                                              const bool inner)
+  std::optional<Stretch> Timeline::integrate_phase(const Stretch &stretch,
+                                                   const std::vector<StepRange> &ranges,
+                                                   Integrator &integrator)
+  {
+    Point before{integrator.clock(), stretch.state, 0};
+    std::optional<WallCrossing> crossing;
+    const auto after_step = [&](const AcceptedStep &step)
+    {
+      crossing = phases.wall_crossing(*stretch.problem, before.clock, step.clock, step.u);
+      if(crossing)
+        return false;
+      accept(stretch, step);
+      before = {step.clock, step.u, 0};
+      return true;
+    };
+    for(const StepRange &range : ranges)
+      if(!integrator.advance_to(range.end, range.step * (1 + 1e-9), after_step))
+        break;
+    return crossing ? cross_wall(stretch, integrator, before, *crossing) : std::nullopt;
+  }
+
+  std::optional<Stretch> Timeline::integrate_front(const Stretch &stretch,
+                                                   const std::vector<StepRange> &ranges,
+                                                   Integrator &integrator)
   {
     const FittedProblem &problem = *stretch.problem;
-    if(!(before > problem.physics().clock.clock(stretch.time)))
-      throw cases::Refusal("fem-fitted cannot start a front at a wall that is at the "
-                           "melting temperature already and loses heat, or that passes "
-                           "it within one step; shorter steps would help in the latter "
-                           "case");
+    const unsigned int front = problem.mesh().front_node(0);
+    // In more dimensions no event is followed: a front that reaches an end has turned
+    // an element over.
+    const bool followed = setting.options.dimension == 1;
+    Point last{integrator.clock(), stretch.state, 0};
+    bool arrives = false;
+    const auto after_step = [&](const AcceptedStep &step)
+    {
+      const auto crossing = phases.wall_crossing(problem, last.clock, step.clock, step.u);
+      // A phase may vanish at a wall at the time at which that passes the melting
+      // temperature: the step was too long.
+      if(crossing && followed && last.front_rate != 0
+         && approach_of(problem, last.u, last.front_rate).to_inner == crossing->inner)
+      {
+        arrives = true;
+        return false;
+      }
+      if(crossing)
+        phases.refuse(problem, crossing->inner,
+                      problem.physics().clock.time(crossing->clock));
+      accept(stretch, step);
+      last = {step.clock, step.u, step.rate[front]};
+      arrives = followed
+                && approach_of(problem, last.u, last.front_rate).remaining
+                       < steps_ahead * step.size;
+      return !arrives;
+    };
+    for(const StepRange &range : ranges)
+      if(!integrator.advance_to(range.end, range.step * (1 + 1e-9), after_step))
+        break;
+    if(!arrives || !(last.clock < problem.physics().clock.clock(setting.scene.end_time)))
+      return std::nullopt;
+    return approach_end(stretch, ranges, integrator, last);
+  }
+
+  std::optional<Stretch> Timeline::refined(const Stretch &stretch,
+                                           const std::vector<StepRange> &given)
+  {
+    std::optional<Stretch> finer;
+    std::vector<StepRange> ranges = given;
+    for(int k = 0; k < most_refinements; ++k)
+    {
+      const Stretch &present = finer ? *finer : stretch;
+      const FittedProblem &problem = *present.problem;
+      const Clock &clock = problem.physics().clock;
+      Integrator trial(problem, options_for(present));
+      trial.start(clock.clock(present.time), present.state);
+      double before = trial.clock();
+      std::optional<WallCrossing> crossing;
+      int tried = 0;
+      const auto after_step = [&](const AcceptedStep &step)
+      {
+        crossing = phases.wall_crossing(problem, before, step.clock, step.u);
+        before = step.clock;
+        return !crossing && ++tried < early_steps;
+      };
+      for(const StepRange &range : ranges)
+        if(!trial.advance_to(range.end, range.step * (1 + 1e-9), after_step))
+          break;
+      add(trial.cost(), total);
+      if(!crossing)
+        return finer;
+      finer = refined_stretch(setting, present, crossing->inner,
+                              clock.time(crossing->clock) - present.time);
+      ranges = fit_to_data(finer->steps, 0, finer->problem->physics().clock,
+                           data_of(*finer->problem), options.tolerance > 0);
+    }
+    throw cases::Refusal(fmt::format(
+        "fem-fitted cannot start a front at a wall that is at the melting temperature "
+        "already and is led beyond it (t = {:.6g})",
+        stretch.time));
+  }
+
+  std::optional<Stretch> Timeline::cross_wall(const Stretch &stretch,
+                                              Integrator &integrator, const Point &before,
+                                              const WallCrossing &crossing)
+  {
+    const FittedProblem &problem = *stretch.problem;
+    const Clock &clock = problem.physics().clock;
+    const bool inner = crossing.inner;
     const auto excess_at = [&](const double end)
     {
-      integrator.start(before, u);
-      integrator.advance_to(end, after - before);
-      return wall_excess(problem, integrator.state(), inner);
+      integrator.start(before.clock, before.u);
+      integrator.advance_to(end, crossing.clock - before.clock);
+      return problem.wall_excess(inner, 0, clock.time(end), integrator.state());
     };
-    const double at_start = wall_excess(problem, u, inner), at_end = excess_at(after);
-    double crossing = before;
+    const double at_start
+        = problem.wall_excess(inner, 0, clock.time(before.clock), before.u),
+        at_end = excess_at(crossing.clock);
+    double lower = before.clock, upper = before.clock;
     // A step may end on the melting temperature, up to rounding.
     if(at_start * at_end < 0)
     {
-      std::uintmax_t iterations = 60;
-      const auto bracket = boost::math::tools::toms748_solve(
-          [&](const double end) { return end == before ? at_start : excess_at(end); },
-          before, after, at_start, at_end, boost::math::tools::eps_tolerance<double>(50),
-          iterations);
-      crossing = 0.5 * (bracket.first + bracket.second);
-      excess_at(crossing);
+      std::uintmax_t iterations = 100;
+      std::tie(lower, upper) = boost::math::tools::toms748_solve(
+          [&](const double end)
+          { return end == before.clock ? at_start : excess_at(end); },
+          before.clock, crossing.clock, at_start, at_end,
+          boost::math::tools::eps_tolerance<double>(50), iterations);
     }
-    else
-      integrator.start(before, u);
-    return late_stretch(setting, stretch, problem.physics().clock.time(crossing),
-                        integrator.state(), inner, options_for(stretch));
+    const double time = clock.time(0.5 * (lower + upper));
+    if(has_jumped(stretch, time, inner))
+    {
+      excess_at(lower);
+      return after_jump(stretch, clock.time(upper), integrator.state(), inner);
+    }
+    excess_at(0.5 * (lower + upper));
+    return late_stretch(setting, stretch, time, integrator.state(), inner,
+                        options_for(stretch));
+  }
+
+  bool Timeline::has_jumped(const Stretch &stretch, const double time,
+                            const bool inner) const
+  {
+    const FittedProblem &problem = *stretch.problem;
+    const Physics &physics = problem.physics();
+    const cases::Boundary &wall = inner ? physics.inner_wall : physics.outer_wall;
+    if(wall.kind != cases::BoundaryKind::fixed_temperature)
+      return false;
+    const RayMesh &mesh = problem.mesh();
+    const double since = time_of_seed(setting, stretch, time);
+    const auto excess_after = [&](const double share)
+    {
+      return std::abs(wall.value(mesh.position(0, inner ? mesh.inner : mesh.outer),
+                                 time + share * since)
+                      - physics.melting_temperature);
+    };
+    return excess_after(shortly) > already * excess_after(1);
+  }
+
+  std::optional<Stretch> Timeline::after_jump(const Stretch &stretch, const double time,
+                                              const Vector<double> &u, const bool inner)
+  {
+    const FittedProblem &problem = *stretch.problem;
+    const Profile profile(problem, u);
+    const HeatContent heat = problem.heat(time, u);
+    OnePhase state;
+    state.time = time;
+    state.temperature = [&](const double r)
+    { return problem.physics().melting_temperature + profile.value(r); };
+    state.solid = problem.physics().phases[0].solid;
+    state.heat = heat.sensible + heat.latent;
+    state.before = stretch.before;
+    state.before.walls += heat.walls;
+    state.before.sources += heat.sources;
+    const auto start = start_at_wall(setting, state, inner);
+    if(!start || problem.physics().power)
+      throw cases::Refusal(fmt::format("fem-fitted cannot start a front at the wall {}, "
+                                       "which jumps across the melting "
+                                       "temperature at t = {:.6g}",
+                                       to_string(side_at(setting.scene, inner)), time));
+    return seeded_stretch(setting, *start, state);
   }
 
   std::optional<Stretch> Timeline::approach_end(const Stretch &stretch,
-                                                Integrator &integrator)
+                                                const std::vector<StepRange> &ranges,
+                                                Integrator &integrator, Point last)
   {
     const FittedProblem &problem = *stretch.problem;
     const RayMesh &mesh = problem.mesh();
     const Clock &clock = problem.physics().clock;
     const double end = clock.clock(setting.scene.end_time);
-    Approach state;
-    double step = 0;
+    Approach state = approach_of(problem, last.u, last.front_rate);
+    bool too_long = false;
+    double step = std::min(1e-3 * (end - last.clock), approach * state.remaining);
     const auto after_step = [&](const AcceptedStep &accepted)
     {
+      // The wall may pass the melting temperature when the phase at it vanishes, not
+      // before.
+      too_long = false;
+      if(const auto crossing
+         = phases.wall_crossing(problem, last.clock, accepted.clock, accepted.u))
+      {
+        too_long = crossing->inner == state.to_inner
+                   && accepted.size > shortest * (end - clock.clock(stretch.time));
+        if(too_long)
+          return false;
+        phases.refuse(problem, crossing->inner, clock.time(crossing->clock));
+      }
       accept(stretch, accepted);
-      state = approach_of(problem, accepted.u, accepted.rate[mesh.front_node(0)]);
-      step = accepted.size;
+      last = {accepted.clock, accepted.u, accepted.rate[mesh.front_node(0)]};
+      state = approach_of(problem, last.u, last.front_rate);
       return false;
     };
-    // The rate is known after a step only: the first is as short as it can be.
-    step = 1e-3 * (end - integrator.clock());
-    for(int k = 0; k < longest_approach && integrator.clock() < end; ++k)
+    integrator.start(last.clock, last.u);
+    auto range = ranges.begin();
+    for(int k = 0; k < longest_approach && last.clock < end; ++k)
     {
-      integrator.advance_to(std::min(end, integrator.clock() + step), step, after_step);
+      while(range->end <= last.clock)
+        ++range;
+      integrator.advance_to(std::min(range->end, last.clock + step), step, after_step);
+      if(too_long)
+      {
+        integrator.start(last.clock, last.u);
+        step /= 4;
+        continue;
+      }
       if(state.distance < thinnest * (mesh.outer - mesh.inner))
-        return remaining_stretch(setting, stretch, clock.time(integrator.clock()),
-                                 integrator.state(), state.to_inner);
-      step = std::min({approach * state.remaining, 2 * step, stretch.steps.back().step});
+        return remaining_stretch(setting, stretch, clock.time(last.clock), last.u,
+                                 state.to_inner);
+      step = std::min({approach * state.remaining, 2 * step, range->step});
     }
-    if(integrator.clock() < end)
-      throw cases::NumericalError(options.method, steps, clock.time(integrator.clock()),
+    if(last.clock < end)
+      throw cases::NumericalError(options.method, steps, clock.time(last.clock),
                                   "the front",
                                   "comes close to an end of the domain and "
                                   "stays there");

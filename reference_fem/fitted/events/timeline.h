@@ -1,6 +1,7 @@
 #ifndef meltfront_reference_fem_fitted_events_timeline_h
 #define meltfront_reference_fem_fitted_events_timeline_h
 
+#include <reference_fem/fitted/events/phase_check.h>
 #include <reference_fem/fitted/events/transitions.h>
 
 #include <functional>
@@ -15,7 +16,10 @@ namespace meltfront::reference_fem::fitted
    *
    * A wall that passes the melting temperature is found to round-off, by a root of its
    * temperature over the length of the step. A front that is about to reach an end is
-   * approached in shorter and shorter steps until 1e-9 of the ray is left.
+   * approached in shorter and shorter steps until 1e-9 of the ray is left. Steps end
+   * where the data of walls and sources have breakpoints, and divide where these vary
+   * fast. Each state is checked: a phase beyond its melting point away from the front
+   * ends the run.
    */
   class Timeline
   {
@@ -45,28 +49,53 @@ namespace meltfront::reference_fem::fitted
     }
 
   private:
+    /** The end of a step that was accepted: where to go on from. */
+    struct Point
+    {
+      double clock = 0;
+      dealii::Vector<double> u;
+      double front_rate = 0; ///< of the front on the first ray
+    };
+
     /** Integrate a stretch; the one that follows it, if an event ends it. */
     std::optional<Stretch> integrate(const Stretch &stretch);
-    std::optional<Stretch> cross_wall(const Stretch &stretch, Integrator &integrator,
-                                      double before, const dealii::Vector<double> &u,
-                                      double after, bool inner);
-    std::optional<Stretch> approach_end(const Stretch &stretch, Integrator &integrator);
-    IntegrationOptions options_for(const Stretch &stretch) const;
 
-    /** Whether the melting temperature has been passed at an end of a one-phase stretch.
-     */
-    bool crossed(const Stretch &stretch, const dealii::Vector<double> &u,
-                 bool inner) const;
+    /** One phase until a wall passes the melting temperature. */
+    std::optional<Stretch> integrate_phase(const Stretch &stretch,
+                                           const std::vector<StepRange> &steps,
+                                           Integrator &integrator);
+
+    /** A front until it reaches an end. */
+    std::optional<Stretch> integrate_front(const Stretch &stretch,
+                                           const std::vector<StepRange> &steps,
+                                           Integrator &integrator);
+
+    /** The stretch anew with finer cells and steps if a wall passes the melting
+     * temperature within the first of its steps. */
+    std::optional<Stretch> refined(const Stretch &stretch,
+                                   const std::vector<StepRange> &steps);
+    std::optional<Stretch> cross_wall(const Stretch &stretch, Integrator &integrator,
+                                      const Point &before, const WallCrossing &crossing);
+
+    /** Whether a wall of fixed temperature jumped when it passed the melting
+     * temperature, and the front that it starts then. */
+    bool has_jumped(const Stretch &stretch, double time, bool inner) const;
+    std::optional<Stretch> after_jump(const Stretch &stretch, double time,
+                                      const dealii::Vector<double> &u, bool inner);
+    std::optional<Stretch> approach_end(const Stretch &stretch,
+                                        const std::vector<StepRange> &steps,
+                                        Integrator &integrator, Point last);
+    IntegrationOptions options_for(const Stretch &stretch) const;
     void begin(const Stretch &stretch);
     void accept(const Stretch &stretch, const AcceptedStep &step);
 
     EventScene setting;
     IntegrationOptions options;
     Listener listener;
+    PhaseCheck phases;
     IntegrationCost total;
     std::vector<Event> happened;
     long steps = 0;
-    double initial_heat = 0;
   };
 } // namespace meltfront::reference_fem::fitted
 

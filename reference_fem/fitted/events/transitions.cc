@@ -1,3 +1,4 @@
+#include <reference_fem/fitted/events/profile.h>
 #include <reference_fem/fitted/events/transitions.h>
 
 #include <cases/error.h>
@@ -19,76 +20,25 @@ namespace meltfront::reference_fem::fitted
     /** How long after the crossing a front is seeded, of the time that is left. */
     constexpr double late_share = 1e-5;
 
-    /** Fewest steps of a stretch. */
-    constexpr int fewest_steps = 20;
+    /** The same, of the time that the wall took to get there: for so long its
+     * temperature is a ramp. */
+    constexpr double ramp_share = 1e-2;
 
     constexpr double lengthening = 2;
 
+    /** Cells next to a wall in the thermal layer that forms before a front starts, and
+     * steps of that time's double. */
+    constexpr double cells_in_layer = 2;
+    constexpr int steps_to_passing = 28;
+
     /** Secant steps for the front's place: its heat is all but linear in it. */
     constexpr int balance_steps = 6;
-
-    int steps_for(const EventScene &setting, const double from)
-    {
-      const cases::Scene &scene = setting.scene;
-      const double share = (scene.end_time - from) / (scene.end_time - scene.start_time);
-      return std::max(fewest_steps,
-                      static_cast<int>(std::ceil(share * setting.options.steps)));
-    }
 
     HeatContent sum_of(const HeatContent &a, const HeatContent &b)
     {
       return {a.sensible + b.sensible, a.latent + b.latent, a.walls + b.walls,
               a.sources + b.sources};
     }
-
-    const char *side_name(const EventScene &setting, const bool inner)
-    {
-      if(setting.scene.domain.round())
-        return inner ? "inner" : "outer";
-      return inner ? "x_min" : "x_max";
-    }
-
-    /** T - T_m along the ray of a stretch with one phase, and its derivative. */
-    class Profile
-    {
-    public:
-      Profile(const FittedProblem &problem, const Vector<double> &u)
-        : problem(problem)
-        , u(u)
-      {
-      }
-
-      double value(const double r) const
-      {
-        return evaluate(r, false);
-      }
-
-      double slope(const double r) const
-      {
-        return evaluate(r, true);
-      }
-
-    private:
-      double evaluate(const double r, const bool derivative) const
-      {
-        const RayMesh &mesh = problem.mesh();
-        const unsigned int degree = mesh.surface.degree;
-        std::size_t layer = 0;
-        while(layer + 1 < mesh.layers.size() && r > mesh.layers[layer].fixed[1])
-          ++layer;
-        const double lower = mesh.layers[layer].fixed[0];
-        const double width = mesh.layers[layer].fixed[1] - lower;
-        const LineBasis basis(degree, {(r - lower) / width});
-        double sum = 0;
-        for(unsigned int b = 0; b <= degree; ++b)
-          sum += u[mesh.node(0, static_cast<unsigned int>(layer) * degree + b)]
-                 * (derivative ? basis.derivative(0, b) / width : basis.value(0, b));
-        return sum;
-      }
-
-      const FittedProblem &problem;
-      const Vector<double> &u;
-    };
 
     /** i^2erfc, the second integral of the complementary error function. */
     double second_integral(const double x)
@@ -115,13 +65,7 @@ namespace meltfront::reference_fem::fitted
     const RayScene &rays = setting.rays;
     const RayMesh mesh(rays.surface, rays.inner, rays.outer,
                        graded_shares(rays.cells, 1, true));
-    const double middle = scene.initial.temperature(
-        mesh.position(0, 0.5 * (rays.inner + rays.outer)), scene.start_time);
-    const double melting = scene.material.melting_temperature;
-    Physics physics = one_phase_physics(
-        setting,
-        middle < melting
-            || (middle == melting && scene.initial.solid_fraction_at_melting >= 0.5));
+    Physics physics = one_phase_physics(setting, initial_front(scene, rays).solid_inside);
     physics.clock = {};
     // A sink makes a front at once: this is the state before it is switched on.
     physics.power = {};
@@ -138,11 +82,66 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  double wall_excess(const FittedProblem &problem, const Vector<double> &u,
-                     const bool inner)
+  Stretch refined_stretch(const EventScene &setting, const Stretch &stretch,
+                          const bool inner, const double soon)
   {
-    const RayMesh &mesh = problem.mesh();
-    return u[mesh.node(0, inner ? 0 : mesh.n_levels() - 1)];
+    const FittedProblem &old = *stretch.problem;
+    const RayMesh &mesh = old.mesh();
+    const Phase &phase = old.physics().phases[0];
+    const double length = mesh.outer - mesh.inner;
+    const double layer = std::sqrt(phase.conductivity / phase.capacity * soon)
+                         / (cells_in_layer * length);
+    std::vector<double> shares;
+    for(const Layer &cells : mesh.layers)
+      shares.push_back((cells.fixed[0] - mesh.inner) / length);
+    shares.push_back(1);
+    // From the wall on, as distances.
+    if(!inner)
+      std::ranges::reverse(shares);
+    while(std::abs(shares[1] - shares[0]) > layer)
+      shares.insert(shares.begin() + 1, 0.5 * (shares[0] + shares[1]));
+    if(!inner)
+      std::ranges::reverse(shares);
+
+    Physics physics = old.physics();
+    physics.clock = {true, stretch.time};
+    Stretch result;
+    result.problem = std::make_shared<FittedProblem>(
+        RayMesh(mesh.surface, mesh.inner, mesh.outer, shares), physics);
+    result.time = stretch.time;
+    const Profile profile(old, stretch.state);
+    result.state
+        = result.problem->state(stretch.time, {},
+                                [&](const cases::Position &p)
+                                {
+                                  const double r = setting.scene.domain.round()
+                                                       ? std::hypot(p[0], p[1], p[2])
+                                                       : p[0];
+                                  return physics.melting_temperature + profile.value(r);
+                                });
+    const HeatContent before = old.heat(stretch.time, stretch.state);
+    result.before = sum_of(stretch.before, {0, 0, before.walls, before.sources});
+    const double early = std::min(physics.clock.clock(stretch.time + 2 * soon),
+                                  physics.clock.clock(setting.scene.end_time));
+    const double end = physics.clock.clock(setting.scene.end_time);
+    const int steps = steps_for(setting, stretch.time);
+    result.steps = {{early, early / std::max(steps_to_passing, steps / 2)}};
+    if(early < end)
+      for(const StepRange &range : lengthening_steps(early, end, steps, lengthening))
+        result.steps.push_back(range);
+    result.event
+        = {stretch.time, fmt::format("cells and steps are drawn to the wall {}, which is "
+                                     "about to pass the melting temperature",
+                                     to_string(side_at(setting.scene, inner)))};
+    return result;
+  }
+
+  double time_of_seed(const EventScene &setting, const Stretch &past,
+                      const double crossing)
+  {
+    return std::min({late_share * (setting.scene.end_time - crossing),
+                     ramp_share * (crossing - past.time),
+                     0.5 * time_to_breakpoint(setting.scene, crossing)});
   }
 
   Stretch late_stretch(const EventScene &setting, const Stretch &past,
@@ -152,15 +151,20 @@ namespace meltfront::reference_fem::fitted
     const cases::Scene &scene = setting.scene;
     const RayScene &rays = setting.rays;
     const Physics &old = past.problem->physics();
-    const double since = late_share * (scene.end_time - crossing);
+    const double since = time_of_seed(setting, past, crossing);
     const double time = crossing + since;
 
+    if(old.power)
+      throw cases::Refusal(fmt::format(
+          "fem-fitted follows one front beside a source; at t = {:.6g} a wall passes the "
+          "melting temperature",
+          crossing));
     Integrator beyond(*past.problem, integration);
     beyond.start(old.clock.clock(crossing), u);
     beyond.advance_to(old.clock.clock(time), scene.end_time);
     const Profile profile(*past.problem, beyond.state());
     const double wall = inner ? rays.inner : rays.outer;
-    const double excess = wall_excess(*past.problem, beyond.state(), inner);
+    const double excess = past.problem->wall_excess(inner, 0, time, beyond.state());
     const Phase &phase = old.phases[0];
     const bool new_is_solid = !phase.solid;
     if((excess < 0) != new_is_solid || excess == 0)
@@ -194,18 +198,20 @@ namespace meltfront::reference_fem::fitted
     const double outflow = phase.conductivity * profile.slope(wall) * (inner ? 1 : -1);
     const double rate = std::abs(excess) / since;
     const double direction = new_is_solid ? 1 : -1;
-    const bool by_flux = wall_law.kind != BoundaryKind::fixed_temperature;
+    const bool held = wall_law.kind == BoundaryKind::fixed_temperature;
     double width = 4. / 3 * phase.conductivity * std::abs(excess) * std::sqrt(since)
                    / (latent * std::sqrt(std::numbers::pi * diffusivity));
-    if(!by_flux)
+    if(held)
       width = since
               * (std::sqrt(std::pow(outflow, 2) + 4 * latent * fresh.conductivity * rate)
                  - direction * outflow)
               / (2 * latent);
     const RayMesh &mesh = result.problem->mesh();
-    const double gradient
-        = by_flux ? -wall_law.value(mesh.position(0, wall), time) / fresh.conductivity
-                  : -excess / width;
+    const double gradient = held ? -excess / width
+                                 : -flux_through(wall_law, mesh.position(0, wall), time,
+                                                 scene.material.melting_temperature)
+                                           .value
+                                       / fresh.conductivity;
     const auto state_with = [&](const double front)
     {
       return result.problem->state(
@@ -232,7 +238,7 @@ namespace meltfront::reference_fem::fitted
                         * (rays.surface.exponent == 0   ? 1
                            : rays.surface.exponent == 1 ? 2 * std::numbers::pi
                                                         : 4 * std::numbers::pi);
-    for(int step = 0; by_flux && step < balance_steps; ++step)
+    for(int step = 0; !held && step < balance_steps; ++step)
     {
       width += direction * surplus(result.state) / (latent * area);
       if(!(width > 0))
@@ -248,7 +254,7 @@ namespace meltfront::reference_fem::fitted
                                      steps_for(setting, crossing), lengthening);
     result.event = {crossing, fmt::format("the wall {} passes the melting temperature "
                                           "and a front starts there",
-                                          side_name(setting, inner))};
+                                          to_string(side_at(scene, inner)))};
     return result;
   }
 
@@ -294,8 +300,9 @@ namespace meltfront::reference_fem::fitted
         = {time, fmt::format("the front reaches {}",
                              inner_vanishes && old.mesh().has_centre()
                                  ? "the centre"
-                                 : fmt::format("the wall {}",
-                                               side_name(setting, inner_vanishes)))};
+                                 : fmt::format(
+                                     "the wall {}",
+                                     to_string(side_at(setting.scene, inner_vanishes))))};
     return result;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -9,9 +9,17 @@ namespace meltfront::reference_fem::fitted
   /** The scene's initial state on a mesh without a front; its steps are equal in time. */
   Stretch one_phase_stretch(const EventScene &setting);
 
-  /** T - T_m at an end of the ray, of a stretch with one phase. */
-  double wall_excess(const FittedProblem &problem, const dealii::Vector<double> &u,
-                     bool inner);
+  /**
+   * A one-phase stretch anew from a state, for a wall that passes the melting temperature
+   * @p soon (s) afterwards: cells halved towards that wall down to the thermal layer's
+   * width, so that they hold the same state, and steps equal in the root of time of
+   * which twenty or more lead to the passing.
+   */
+  Stretch refined_stretch(const EventScene &setting, const Stretch &stretch, bool inner,
+                          double soon);
+
+  /** How long after a wall has passed the melting temperature a front is seeded (s). */
+  double time_of_seed(const EventScene &setting, const Stretch &past, double crossing);
 
   /**
    * The run from the moment at which a wall of a one-phase stretch has passed the melting

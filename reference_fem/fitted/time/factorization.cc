@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <new>
 #include <type_traits>
 
 namespace meltfront::reference_fem::fitted
@@ -40,6 +41,15 @@ namespace meltfront::reference_fem::fitted
                                    data(matrix.values), nullptr, symbolic, nullptr,
                                    nullptr);
     }
+
+    /** A matrix whose factors do not fit into memory is not singular: another step would
+     * not help. */
+    bool succeeded(const int status)
+    {
+      if(status == UMFPACK_ERROR_out_of_memory)
+        throw std::bad_alloc();
+      return status == UMFPACK_OK;
+    }
   } // namespace
 
   template <typename Number>
@@ -52,7 +62,7 @@ namespace meltfront::reference_fem::fitted
                       [](const Number &value) { return std::isfinite(std::abs(value)); });
     if(!finite)
       return false;
-    if(symbolic == nullptr && analyze(*matrix, &symbolic) != UMFPACK_OK)
+    if(symbolic == nullptr && !succeeded(analyze(*matrix, &symbolic)))
       return false;
 
     std::array<double, UMFPACK_INFO> info{};
@@ -66,7 +76,7 @@ namespace meltfront::reference_fem::fitted
                                   data(matrix->values), nullptr, symbolic, &numeric,
                                   nullptr, info.data());
     entries = static_cast<long>(info[UMFPACK_LNZ] + info[UMFPACK_UNZ]);
-    return status == UMFPACK_OK;
+    return succeeded(status);
   }
 
   template <typename Number>

@@ -34,7 +34,8 @@ namespace meltfront::reference_fem::fitted
     ~Factorization();
 
     /** Factorise. False where the matrix is singular or holds a value that is not
-     * finite. The matrix must stay as it is while it is solved with. */
+     * finite. The matrix must stay as it is while it is solved with.
+     * @throws std::bad_alloc where the factors do not fit into memory. */
     bool factorize(const CompressedRows<Number> &matrix);
 
     /** x = matrix^-1 b. */

@@ -16,6 +16,9 @@ namespace meltfront::reference_fem::fitted
   {
     using Vector = dealii::Vector<double>;
 
+    /** The past is not extrapolated farther than so many times its length. */
+    constexpr double farthest_prediction = 20;
+
     unsigned int bdf_order(const Scheme scheme)
     {
       switch(scheme)
@@ -212,7 +215,7 @@ namespace meltfront::reference_fem::fitted
         = std::clamp(0.9 * std::pow(std::max(error, 1e-12), -exponent), 0.2, 4.);
     if(!(error <= 1))
     {
-      ++cost.rejected;
+      ++cost.repeated;
       proposal = outcome.size * std::min(factor, 0.9);
       return;
     }
@@ -229,13 +232,15 @@ namespace meltfront::reference_fem::fitted
     {
       if(auto outcome = try_bdf(end))
         return *std::move(outcome);
-      ++cost.rejected;
+      ++cost.fallbacks;
     }
+    else if(order > 0)
+      ++cost.starts;
     for(unsigned int halving = 0; halving <= options.halving_limit; ++halving)
     {
       if(auto outcome = try_radau(end))
         return *std::move(outcome);
-      ++cost.rejected;
+      ++cost.halved;
       end = clock + (end - clock) / 2;
     }
     fail(failure + " (after " + std::to_string(options.halving_limit)
@@ -317,6 +322,9 @@ namespace meltfront::reference_fem::fitted
                                              const std::vector<const Vector *> &states,
                                              const double at) const
   {
+    const auto [first, last] = std::minmax_element(clocks.begin(), clocks.end());
+    if(at - *last > farthest_prediction * (*last - *first))
+      return u;
     const std::vector<double> weights = lagrange_weights(clocks, at);
     Vector prediction(u.size());
     for(std::size_t k = 0; k < states.size(); ++k)

@@ -58,7 +58,10 @@ namespace meltfront::reference_fem::fitted
   struct IntegrationCost
   {
     long steps = 0;           ///< accepted
-    long rejected = 0;        ///< halved, or repeated for the step control
+    long halved = 0;          ///< steps that Radau did not converge on and divided in two
+    long repeated = 0;        ///< for the step control
+    long fallbacks = 0;       ///< steps that BDF did not converge on and Radau took
+    long starts = 0;          ///< steps that Radau took because BDF had no past
     long iterations = 0;      ///< of Newton's method, those of rejected steps too
     long most_iterations = 0; ///< of an accepted step
     long factorizations = 0;

@@ -109,6 +109,36 @@ TEST(App, ARunThatIsRefusedSaysWhyAndExitsWithTwo)
   expect_text(outcome, "refused");
 }
 
+TEST(App, WhatCannotBeProducedIsRefusedWithItsEstimate)
+{
+  const TemporaryDirectory directory;
+  const std::string out = " --out " + directory.path().string();
+  const Outcome memory
+      = run_program("run line-sink --method sph --n 1000000 --memory 64" + out);
+  EXPECT_EQ(memory.status, 2);
+  expect_text(memory, "GB of memory, and 64 GB are allowed");
+  EXPECT_EQ(read_json(directory.path() / "run.json").at("status"), "refused");
+  const Outcome steps = run_program("run plane-freezing --method fem-enthalpy --n 40 "
+                                    "--set fem-enthalpy.steps=100000000"
+                                    + out);
+  EXPECT_EQ(steps.status, 2);
+  expect_text(steps, "estimated to take 1e+08 time steps");
+  EXPECT_EQ(run_program("run line-sink --method sph --n 20 --memory -1" + out).status, 2);
+}
+
+TEST(App, ARunThatTakesLongerThanItMayLeavesItsRecord)
+{
+  const TemporaryDirectory directory;
+  const Outcome outcome
+      = run_program("run plane-freezing --method sph --n 2000 --time-limit 0.3 --out "
+                    + directory.path().string());
+  EXPECT_EQ(outcome.status, 3);
+  expect_text(outcome, "took longer than its time limit of 0.3 s");
+  const nlohmann::json record = read_json(directory.path() / "run.json");
+  EXPECT_EQ(record.at("status"), "failed");
+  EXPECT_EQ(record.at("n"), 2000);
+}
+
 TEST(App, AnUnwritableDirectoryExitsWithFour)
 {
   EXPECT_EQ(

@@ -1,12 +1,12 @@
-#ifndef meltfront_particles_sph_effect_meter_h
-#define meltfront_particles_sph_effect_meter_h
+#ifndef meltfront_cases_effect_meter_h
+#define meltfront_cases_effect_meter_h
 
 #include <cases/method.h>
 
 #include <algorithm>
 #include <chrono>
 
-namespace meltfront::particles
+namespace meltfront::cases
 {
   /**
    * Counts how often an effect's code is entered and estimates the time spent there.
@@ -36,7 +36,7 @@ namespace meltfront::particles
       return pass();
     }
 
-    cases::EffectCost cost(cases::Effect effect, std::size_t bytes) const
+    EffectCost cost(Effect effect, std::size_t bytes) const
     {
       const double share = timed_calls > 0 ? double(calls) / timed_calls : 0;
       const double seconds = std::max(0., timed_seconds - timed_calls * clock_seconds());
@@ -88,6 +88,6 @@ namespace meltfront::particles
     double timed_seconds = 0;
     double setup_seconds = 0;
   };
-} // namespace meltfront::particles
+} // namespace meltfront::cases
 
 #endif

@@ -1,0 +1,246 @@
+#include <cases/dense_sampling.h>
+#include <cases/expression_words.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    /** Along each direction, by the number of directions that matter. */
+    constexpr int samples_of_directions[] = {1, 4097, 257, 49};
+
+    /** Numbers of expressions that become points, fewer in more dimensions. */
+    constexpr std::size_t most_numbers[] = {0, 200, 20, 4};
+
+    constexpr int most_times = 4097, fewest_times = 65, times_of_exact = 17;
+    constexpr std::size_t evaluations_of_wall = 100'000;
+
+    /** Of a step between samples: where an extreme is searched for to this share, its
+     * error is of the order of the square. */
+    constexpr int halvings_of_extreme = 12;
+
+    bool is_exact(const Field &field)
+    {
+      return field.expression == "exact";
+    }
+
+    std::vector<double> coordinates(double lower, double upper, int samples,
+                                    std::vector<double> named)
+    {
+      std::ranges::sort(named);
+      std::vector<double> result;
+      for(int i = 0; i < samples; ++i)
+        result.push_back(lower + (upper - lower) * i / (samples - 1));
+      double before = lower;
+      for(const double number : named)
+        if(number > lower && number < upper)
+        {
+          result.push_back(0.5 * (before + number));
+          result.push_back(number);
+          before = number;
+        }
+      result.push_back(0.5 * (before + upper));
+      std::ranges::sort(result);
+      const auto repeated = std::ranges::unique(result);
+      result.erase(repeated.begin(), repeated.end());
+      return result;
+    }
+
+    /** The numbers that fields name, and their negatives. */
+    std::vector<double> numbers_of(const std::vector<const Field *> &fields,
+                                   std::size_t most)
+    {
+      std::vector<double> numbers;
+      for(const Field *field : fields)
+        for(const double number : numbers_in(field->expression))
+          for(const double sign : {-1., 1.})
+            numbers.push_back(sign * number);
+      std::ranges::sort(numbers);
+      const auto repeated = std::ranges::unique(numbers);
+      numbers.erase(repeated.begin(), repeated.end());
+      if(numbers.size() > 2 * most)
+        numbers.clear();
+      return numbers;
+    }
+
+    bool in_round(const Domain &domain, const Position &p)
+    {
+      const double squared = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+      return squared <= domain.radius * domain.radius * (1 + 1e-12)
+             && squared >= domain.inner_radius * domain.inner_radius * (1 - 1e-12);
+    }
+
+    void visit_radii(const Domain &domain, const std::vector<double> &named,
+                     const PointVisitor &visit)
+    {
+      for(const double radius : coordinates(domain.inner_radius, domain.radius,
+                                            samples_of_directions[1], named))
+        visit({radius, 0, 0});
+    }
+
+    /** Lowest or highest value (sign -1 or 1) between two times. */
+    double extreme(const Field &field, const Position &p, double from, double to,
+                   double sign)
+    {
+      constexpr double golden = 0.6180339887498949;
+      double best = -std::numeric_limits<double>::infinity();
+      const auto value = [&](double time)
+      {
+        const double found = sign * field(p, time);
+        best = std::fmax(best, found);
+        return found;
+      };
+      double left = to - golden * (to - from), right = from + golden * (to - from);
+      double at_left = value(left), at_right = value(right);
+      for(int i = 0; i < halvings_of_extreme; ++i)
+        if(at_left > at_right)
+        {
+          to = right;
+          right = left;
+          at_right = at_left;
+          at_left = value(left = to - golden * (to - from));
+        }
+        else
+        {
+          from = left;
+          left = right;
+          at_left = at_right;
+          at_right = value(right = from + golden * (to - from));
+        }
+      return sign * best;
+    }
+  } // namespace
+
+  void visit_densely(const Scene &scene, const std::vector<const Field *> &fields,
+                     const PointVisitor &visit)
+  {
+    const Domain &domain = scene.domain;
+    if(std::ranges::any_of(fields, [](const Field *f) { return is_exact(*f); }))
+    {
+      visit_points(domain, visit);
+      return;
+    }
+    std::array<bool, 3> matters{};
+    int directions = 0;
+    for(int d = 0; d < domain.dimension; ++d)
+    {
+      const std::string variable(1, "xyz"[d]);
+      matters[d] = std::ranges::any_of(
+          fields, [&](const Field *field)
+          { return !field->constant && may_depend_on(field->expression, variable); });
+      directions += matters[d];
+    }
+    const bool tells_inside = domain.round() || domain.outline;
+    if(tells_inside && directions > 0)
+    {
+      if(domain.round() && scene.symmetry != Symmetry::none)
+      {
+        visit_radii(domain, numbers_of(fields, most_numbers[1]), visit);
+        return;
+      }
+      matters = {true, domain.dimension > 1, domain.dimension > 2};
+      directions = domain.dimension;
+    }
+    const std::vector<double> named = numbers_of(fields, most_numbers[directions]);
+    std::array<std::vector<double>, 3> lines;
+    for(int d = 0; d < 3; ++d)
+      if(matters[d])
+        lines[d] = coordinates(domain.round() ? -domain.radius : domain.lower[d],
+                               domain.round() ? domain.radius : domain.upper[d],
+                               samples_of_directions[directions], named);
+      else
+        lines[d]
+            = {domain.round() ? 0.5 * (domain.inner_radius + domain.radius) * (d == 0)
+                              : 0.5 * (domain.lower[d] + domain.upper[d])};
+    Position p{};
+    for(const double z : lines[2])
+      for(const double y : lines[1])
+        for(const double x : lines[0])
+        {
+          p = {x, y, z};
+          if(directions == 0
+             || (domain.outline ? domain.outline->inside(p)
+                                : !domain.round() || in_round(domain, p)))
+            visit(p);
+        }
+    if(tells_inside && directions > 0)
+      for(const Side side : scene.sides())
+        visit_wall(domain, side, visit);
+  }
+
+  void visit_values_in_time(const Scene &scene, const Field &field,
+                            const std::vector<Position> &positions,
+                            const ValueVisitor &visit)
+  {
+    const double start = scene.start_time, end = scene.end_time;
+    const bool steady = field.constant || !may_depend_on(field.expression, "t");
+    const bool alike = field.constant || !may_depend_on(field.expression, "xyz");
+    const std::size_t count
+        = alike ? std::min<std::size_t>(1, positions.size()) : positions.size();
+    const int times = steady ? 1
+                      : is_exact(field)
+                          ? times_of_exact
+                          : static_cast<int>(std::clamp<std::size_t>(
+                              evaluations_of_wall / std::max<std::size_t>(count, 1),
+                              fewest_times, most_times));
+    const double step = (end - start) / std::max(times - 1, 1);
+    for(std::size_t number = 0; number < count; ++number)
+    {
+      const Position &p = positions[number];
+      int lowest_at = 0, highest_at = 0;
+      double lowest = field(p, start), highest = lowest;
+      for(int i = 0; i < times; ++i)
+      {
+        const double value = field(p, i + 1 == times && !steady ? end : start + step * i);
+        visit(value);
+        if(value < lowest)
+        {
+          lowest = value;
+          lowest_at = i;
+        }
+        if(value > highest)
+        {
+          highest = value;
+          highest_at = i;
+        }
+      }
+      if(steady)
+        continue;
+      const double beside = 1e-9 * step;
+      for(const double time : field.breakpoints)
+        for(const double side : {-beside, 0., beside})
+          visit(field(p, std::clamp(time + side, start, end)));
+      for(std::size_t i = 1; i < field.breakpoints.size(); ++i)
+        visit(field(p, 0.5 * (field.breakpoints[i - 1] + field.breakpoints[i])));
+      for(const auto &[at, sign] : {std::pair(lowest_at, -1.), std::pair(highest_at, 1.)})
+        if(at > 0 && at + 1 < times)
+          visit(
+              extreme(field, p, start + step * (at - 1), start + step * (at + 1), sign));
+    }
+  }
+
+  void visit_wall_values(const Scene &scene, Side side, const Field &field,
+                         const ValueVisitor &visit)
+  {
+    std::vector<Position> positions;
+    const auto collect = [&](const Position &p) { positions.push_back(p); };
+    const bool flat = !scene.domain.round() && !scene.domain.outline;
+    if(flat && !may_depend_on(field.expression, "t"))
+    {
+      // Along the wall only, and so more densely.
+      const auto normal = static_cast<std::size_t>(side) / 2;
+      const bool upper = static_cast<std::size_t>(side) % 2 == 1;
+      Scene wall;
+      wall.domain = scene.domain;
+      const double place = (upper ? scene.domain.upper : scene.domain.lower)[normal];
+      wall.domain.lower[normal] = wall.domain.upper[normal] = place;
+      visit_densely(wall, {&field}, collect);
+    }
+    else
+      visit_wall(scene.domain, side, collect);
+    visit_values_in_time(scene, field, positions, visit);
+  }
+} // namespace meltfront::cases

@@ -1,0 +1,41 @@
+#ifndef meltfront_cases_dense_sampling_h
+#define meltfront_cases_dense_sampling_h
+
+#include <cases/sampling.h>
+#include <cases/scene.h>
+
+#include <functional>
+#include <vector>
+
+namespace meltfront::cases
+{
+  /**
+   * Visit points of a scene's domain, those on its walls included, close enough to see
+   * narrow features of some fields: one where no field varies in space; else along each
+   * direction that any depends on, 4097 where that is one (or the distance from the
+   * origin), 257 where there are two, 49 where there are three, and all numbers that the
+   * expressions name, with the middles between them. Fields taken from an exact solution
+   * are smooth but costly: the points of visit_points().
+   */
+  void visit_densely(const Scene &scene, const std::vector<const Field *> &fields,
+                     const PointVisitor &visit);
+
+  /** Called with a value at a position and a time. */
+  using ValueVisitor = std::function<void(double)>;
+
+  /**
+   * Visit the values of a field on a wall over the run: at points of visit_wall() (one
+   * where it does not vary in space) and at times up to 4097, fewer where the points are
+   * many; on both sides of breakpoints; and at the extremes in time, which are searched
+   * for between the samples.
+   */
+  void visit_wall_values(const Scene &scene, Side side, const Field &field,
+                         const ValueVisitor &visit);
+
+  /** The same of a field at given positions. */
+  void visit_values_in_time(const Scene &scene, const Field &field,
+                            const std::vector<Position> &positions,
+                            const ValueVisitor &visit);
+} // namespace meltfront::cases
+
+#endif

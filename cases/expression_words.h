@@ -1,0 +1,27 @@
+#ifndef meltfront_cases_expression_words_h
+#define meltfront_cases_expression_words_h
+
+#include <string>
+#include <vector>
+
+namespace meltfront::cases
+{
+  /** The functions that expressions may call. */
+  const std::vector<std::string> &expression_functions();
+
+  /** The names in an expression, of variables, constants and functions, in their order.
+   */
+  std::vector<std::string> names_in(const std::string &expression);
+
+  /** The numbers written in an expression, without signs, in their order. */
+  std::vector<double> numbers_in(const std::string &expression);
+
+  /**
+   * Whether what an expression says may depend on one of some variables, each a letter.
+   * Words that are no expression (`exact`) say nothing: what they stand for may depend on
+   * any.
+   */
+  bool may_depend_on(const std::string &expression, const std::string &variables);
+} // namespace meltfront::cases
+
+#endif

@@ -1,0 +1,24 @@
+#ifndef meltfront_cases_temperature_slack_h
+#define meltfront_cases_temperature_slack_h
+
+#include <cases/scene.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::cases
+{
+  /** By how much temperatures may pass bounds because numbers are rounded: 1e-12 of the
+   * larger of those that are finite. Their span, to which other slacks are related, says
+   * nothing of it: a body at rest has none. */
+  inline double temperature_round_off(const TemperatureBounds &bounds)
+  {
+    double largest = 0;
+    for(const double bound : {bounds.lower, bounds.upper})
+      if(std::isfinite(bound))
+        largest = std::max(largest, std::abs(bound));
+    return 1e-12 * largest;
+  }
+} // namespace meltfront::cases
+
+#endif

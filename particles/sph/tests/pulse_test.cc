@@ -1,0 +1,142 @@
+#include <cases/time_integral.h>
+#include <particles/sph/sph.h>
+#include <particles/sph/tests/scenes.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace meltfront::particles::testing
+{
+  namespace
+  {
+    const auto method = make_sph();
+
+    /** 1e4 between two times (s), an energy of 1 if they are 1e-4 s apart. */
+    cases::Field pulse(double begin, double end)
+    {
+      return {"",
+              [begin, end](const cases::Position &, double t)
+              { return t >= begin && t < end ? 1e4 : 0.; },
+              false,
+              {begin, end}};
+    }
+
+    /** A slab that holds no latent heat, and takes 1 J/m^2 in all. */
+    Problem without_latent_heat()
+    {
+      Problem problem;
+      cases::Material material = unit_material();
+      material.latent_heat = 0;
+      problem.scene = slab(material, 1, 0, 0.2, insulated(), insulated());
+      return problem;
+    }
+
+    void expect_one(const Outcome &outcome, double booked)
+    {
+      EXPECT_NEAR(booked, 1, 1e-9);
+      EXPECT_NEAR(outcome.heat.stored + outcome.heat.latent - outcome.heat.initial, 1,
+                  1e-9);
+      EXPECT_LE(outcome.largest_defect, 1e-11);
+    }
+
+    const std::vector<OptionTexts> schemes{
+        {{"steps", "200"}, {"time_scheme", "rkl2"}},
+        {{"steps", "50"}, {"time_scheme", "backward-euler"}},
+        {{"steps", "50"}, {"time_scheme", "crank-nicolson"}},
+        {}};
+
+    // Within a step, and over the end of one: 0.1 s is that of a step of every scheme.
+    const std::vector<std::pair<double, double>> spans{{0.10021, 0.10031},
+                                                       {0.09996, 0.10006}};
+
+    TEST(Pulse, OfFluxBringsItsEnergy)
+    {
+      for(const OptionTexts &options : schemes)
+        for(const auto &[begin, end] : spans)
+        {
+          Problem problem = without_latent_heat();
+          problem.scene.boundaries[0]
+              = cases::Boundary{cases::BoundaryKind::flux, pulse(begin, end)};
+          const Outcome outcome = run(*method, problem, 10, options);
+          expect_one(outcome, outcome.heat.boundary);
+        }
+    }
+
+    TEST(Pulse, OfReleasedHeatBringsItsEnergy)
+    {
+      for(const OptionTexts &options : schemes)
+        for(const auto &[begin, end] : spans)
+        {
+          Problem problem = without_latent_heat();
+          problem.scene.heat_release = pulse(begin, end);
+          const Outcome outcome = run(*method, problem, 10, options);
+          expect_one(outcome, outcome.heat.sources);
+          for(const double temperature : outcome.temperature)
+            EXPECT_NEAR(temperature, 1, 1e-9);
+        }
+    }
+
+    // Ice at the melting point all over: what comes in melts as much as its energy says.
+    TEST(Pulse, OfFluxMeltsWhatItsEnergySays)
+    {
+      Problem problem;
+      problem.scene = slab(unit_material(), 1, 0, 0.2, insulated(), insulated());
+      problem.scene.initial.solid_fraction_at_melting = 1;
+      const auto melted = [&](const cases::Boundary &wall)
+      {
+        problem.scene.boundaries[0] = wall;
+        const Outcome outcome = run(*method, problem, 20);
+        double liquid = 0;
+        for(std::size_t i = 0; i < outcome.weights.size(); ++i)
+          liquid += outcome.weights[i] * (1 - outcome.solid_fraction[i]);
+        EXPECT_NEAR(outcome.heat.boundary, wall.value.constant ? 0 : 0.4, 1e-9);
+        EXPECT_NEAR(outcome.heat.latent, liquid, 1e-12);
+        return liquid;
+      };
+      EXPECT_EQ(melted(flux(0)), 0);
+      const double by_pulse
+          = melted(cases::Boundary{cases::BoundaryKind::flux, pulse(0.10021, 0.10025)});
+      // Stored heat in the layer at the wall is conducted to the front meanwhile.
+      EXPECT_GT(by_pulse, 0.2);
+      EXPECT_LT(by_pulse, 0.4);
+    }
+
+    TEST(Pulse, OfAWallsTemperatureActsForItsTimeOnly)
+    {
+      for(const OptionTexts &options : schemes)
+      {
+        Problem problem = without_latent_heat();
+        const auto heat = [&](double begin, double end)
+        {
+          cases::Field wall = pulse(begin, end);
+          wall.value = [begin, end](const cases::Position &, double t)
+          { return t >= begin && t < end ? 1. : 0.; };
+          problem.scene.boundaries[0]
+              = cases::Boundary{cases::BoundaryKind::fixed_temperature, wall};
+          const Outcome outcome = run(*method, problem, 10, options);
+          EXPECT_LE(outcome.largest_defect, 1e-11);
+          return outcome.heat.stored - outcome.heat.initial;
+        };
+        // Later or earlier by a tenth of a step: nearly the same.
+        const double one = heat(0.10041, 0.12041), other = heat(0.10001, 0.12001);
+        EXPECT_GT(one, 0.02);
+        EXPECT_NEAR(one / other, 1, 0.02);
+      }
+    }
+
+    TEST(Pulse, ABodyAtRestStaysAtRest)
+    {
+      for(const double temperature : {1.2, 300.})
+        for(const OptionTexts &options : schemes)
+        {
+          Problem problem;
+          problem.scene
+              = slab(unit_material(0.7), 1, temperature, 0.2, insulated(), insulated());
+          const Outcome outcome = run(*method, problem, 10, options);
+          EXPECT_NEAR(outcome.lowest, temperature, 1e-12 * temperature);
+          EXPECT_NEAR(outcome.highest, temperature, 1e-12 * temperature);
+        }
+    }
+  } // namespace
+} // namespace meltfront::particles::testing

@@ -1,0 +1,122 @@
+#include <cases/time_integral.h>
+#include <reference_fem/enthalpy/tests/support.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace meltfront::reference_fem::tests
+{
+  namespace
+  {
+    using namespace cases;
+
+    /** 1e4 between two times (s), an energy of 1 if they are 1e-4 s apart. */
+    Field pulse(double begin, double end)
+    {
+      return {"",
+              [begin, end](const Position &, double t)
+              { return t >= begin && t < end ? 1e4 : 0.; },
+              false,
+              {begin, end}};
+    }
+
+    Material without_latent_heat()
+    {
+      Material material = normalised_material();
+      material.latent_heat = 0;
+      return material;
+    }
+
+    // Within a step of 1e-3 s, and over the end of one.
+    const std::vector<std::pair<double, double>> spans{{0.10021, 0.10031},
+                                                       {0.09996, 0.10006}};
+    const std::vector<OptionTexts> schemes{
+        {{"steps", "200"}, {"time_scheme", "bdf2"}},
+        {{"steps", "200"}, {"time_scheme", "backward-euler"}}};
+
+    TEST(Pulse, OfFluxBringsItsEnergy)
+    {
+      for(const OptionTexts &options : schemes)
+        for(const auto &[begin, end] : spans)
+        {
+          Scene scene = slab(without_latent_heat(), 1, 0, 0, 0.2);
+          set_boundary(scene, Side::x_min, {BoundaryKind::flux, pulse(begin, end)});
+          const RunRecord record = run(scene, 20, options);
+          EXPECT_NEAR(record.heat.boundary, 1, 1e-9);
+          EXPECT_NEAR(record.heat.stored - record.heat.initial, 1, 1e-9);
+          EXPECT_LE(record.worst_budget_defect(), 1e-11);
+          // The profile 0.1 s later, by its cosine series.
+          for(std::size_t i = 0; i < record.temperature.size(); ++i)
+          {
+            double exact = 1;
+            for(int k = 1; k < 20; ++k)
+              exact += 2 * std::cos(k * M_PI * record.positions[0][i])
+                       * std::exp(-k * k * M_PI * M_PI * (0.2 - 0.5 * (begin + end)));
+            EXPECT_NEAR(record.temperature[i], exact, 0.02);
+          }
+        }
+    }
+
+    TEST(Pulse, OfReleasedHeatBringsItsEnergy)
+    {
+      for(const OptionTexts &options : schemes)
+        for(const auto &[begin, end] : spans)
+        {
+          Scene scene = slab(without_latent_heat(), 1, 0, 0, 0.2);
+          scene.heat_release = pulse(begin, end);
+          const RunRecord record = run(scene, 20, options);
+          EXPECT_NEAR(record.heat.sources, 1, 1e-9);
+          for(const double temperature : record.temperature)
+            EXPECT_NEAR(temperature, 1, 1e-8);
+        }
+    }
+
+    // What has no breakpoint that a step ends at, since it moves.
+    TEST(Pulse, TheFormulaOfTwoStepsAddsUpToTheIntegral)
+    {
+      Scene scene = slab(without_latent_heat(), 1, 0, 0, 1);
+      set_boundary(scene, Side::x_min,
+                   {BoundaryKind::flux, {"", [](const Position &, double t) {
+                                           return 3 + std::sin(40 * t)
+                                                  + (t > 0.31234 ? 2 : 0);
+                                         }}});
+      const RunRecord record = run(scene, 20, {{"steps", "50"}, {"time_scheme", "bdf2"}});
+      const double energy = 3 + (1 - std::cos(40)) / 40 + 2 * (1 - 0.31234);
+      EXPECT_NEAR(record.heat.boundary, energy, 1e-7);
+      EXPECT_NEAR(record.heat.stored - record.heat.initial, energy, 1e-7);
+    }
+
+    TEST(Pulse, OfAWallsTemperatureActsForItsTimeOnly)
+    {
+      for(const OptionTexts &options : schemes)
+      {
+        const auto heat = [&](double begin, double end)
+        {
+          Scene scene = slab(without_latent_heat(), 1, 0, 0, 0.2);
+          Field wall = pulse(begin, end);
+          wall.value = [begin, end](const Position &, double t)
+          { return t >= begin && t < end ? 1. : 0.; };
+          set_boundary(scene, Side::x_min, {BoundaryKind::fixed_temperature, wall});
+          const RunRecord record = run(scene, 40, options);
+          EXPECT_LE(record.worst_budget_defect(), 1e-11);
+          return record.heat.stored - record.heat.initial;
+        };
+        const double one = heat(0.10041, 0.12041), other = heat(0.10001, 0.12001);
+        EXPECT_GT(one, 0.02);
+        EXPECT_NEAR(one / other, 1, 0.02);
+      }
+    }
+
+    TEST(Pulse, ABodyAtRestStaysAtRest)
+    {
+      for(const double temperature : {1.2, 300.})
+      {
+        const Scene scene = slab(normalised_material(), 1, temperature, 0, 1);
+        const RunRecord record = run(scene, 20);
+        for(const double found : record.temperature)
+          EXPECT_NEAR(found, temperature, 1e-12 * temperature);
+      }
+    }
+  } // namespace
+} // namespace meltfront::reference_fem::tests

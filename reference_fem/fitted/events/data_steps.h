@@ -1,0 +1,41 @@
+#ifndef meltfront_reference_fem_fitted_events_data_steps_h
+#define meltfront_reference_fem_fitted_events_data_steps_h
+
+#include <reference_fem/fitted/events/stretch.h>
+
+#include <functional>
+#include <vector>
+
+namespace meltfront::reference_fem::fitted
+{
+  /** What a scene prescribes as a function of time: wall temperatures (less the melting
+   * one), fluxes and surroundings, the strength of a source. */
+  struct TimeData
+  {
+    std::vector<std::function<double(double time)>> values;
+    std::vector<double> breakpoints; ///< where they may jump or bend (s), ascending
+  };
+
+  /** Those of a problem that vary and are no exact solution's, on up to 8 of its rays.
+   * The problem must outlive the result. */
+  TimeData data_of(const FittedProblem &problem);
+
+  /**
+   * Steps divided so that they see the data.
+   *
+   * A step ends at each breakpoint, by rounding before it, so that its stages see the
+   * values on the near side. After a jump steps begin small and double. A step over which
+   * Radau's quadrature of the data differs from that of its eighths by more than 1e-6 of
+   * the data's integral over all steps is halved until it does not. Steps that see the
+   * data stay as planned, to the bit.
+   *
+   * @param begin      clock at which the first of them begins
+   * @param controlled the integrator makes longer steps than planned where it can: each
+   *                   is bound to its end where data vary
+   */
+  std::vector<StepRange> fit_to_data(const std::vector<StepRange> &planned, double begin,
+                                     const Clock &clock, const TimeData &data,
+                                     bool controlled);
+} // namespace meltfront::reference_fem::fitted
+
+#endif

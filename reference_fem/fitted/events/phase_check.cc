@@ -1,0 +1,227 @@
+#include <reference_fem/fitted/events/phase_check.h>
+
+#include <cases/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace meltfront::reference_fem::fitted
+{
+  namespace
+  {
+    using cases::BoundaryKind;
+    using dealii::Vector;
+
+    /** Times within a step at which a wall of fixed temperature is looked at. */
+    constexpr int looks = 16;
+
+    /** Of the temperature scale: what a wall's value is rounded by. */
+    constexpr double rounding = 1e-12;
+
+    /** What exact solutions that keep a wall at the melting point miss it by, of the
+     * melting temperature, and what Newton's method leaves, of the scale. */
+    constexpr double margin_of_melting = 1e-9, margin_of_scale = 1e-9;
+
+    /** Overshoot of elements that is borne, of the temperature scale. */
+    constexpr double overshoot = 0.01;
+
+    /** A source of less than this share of its largest strength is none. */
+    constexpr double no_source = 1e-9;
+
+    int phase_at(const RayMesh &mesh, unsigned int level)
+    {
+      return mesh.has_front() && level > mesh.front_level() ? 1 : 0;
+    }
+
+    unsigned int wall_level(const RayMesh &mesh, bool inner)
+    {
+      return inner ? 0 : mesh.n_levels() - 1;
+    }
+
+    const cases::Boundary &wall_of(const FittedProblem &problem, bool inner)
+    {
+      return inner ? problem.physics().inner_wall : problem.physics().outer_wall;
+    }
+  } // namespace
+
+  PhaseCheck::PhaseCheck(const EventScene &setting, std::string method)
+    : setting(setting)
+    , method(std::move(method))
+  {
+    constexpr int samples = 64;
+    const cases::Scene &scene = setting.scene;
+    for(const cases::PointSource &source : scene.sources)
+      for(int i = 0; i <= samples; ++i)
+        largest_power = std::max(
+            largest_power,
+            std::abs(source.power(scene.start_time
+                                  + (scene.end_time - scene.start_time) * i / samples)));
+  }
+
+  void PhaseCheck::start(const FittedProblem &problem, double time,
+                         const Vector<double> &u)
+  {
+    if(!setting.effects.contains(cases::Effect::metastable_phase))
+      return;
+    const RayMesh &mesh = problem.mesh();
+    const double slack = margin_of_scale * problem.physics().temperature_scale;
+    for(unsigned int ray = 0; ray < mesh.surface.n_rays(); ++ray)
+      for(unsigned int level = 0; level < mesh.n_levels(); ++level)
+      {
+        if(level == mesh.front_level())
+          continue;
+        const int phase = phase_at(mesh, level);
+        const bool solid = problem.physics().phases[phase].solid;
+        const double r = problem.coordinate(ray, level, u);
+        if(r == 0 && problem.physics().power)
+          continue;
+        const double excess
+            = u[mesh.node(ray, level)] + problem.source(phase, time).value(r);
+        if(beyond(solid, excess) > slack)
+          metastable[solid ? 0 : 1] = true;
+      }
+  }
+
+  bool PhaseCheck::has_passed(const FittedProblem &problem, bool inner, unsigned int ray,
+                              double time, const Vector<double> &u) const
+  {
+    const RayMesh &mesh = problem.mesh();
+    const Physics &physics = problem.physics();
+    const bool solid = physics.phases[phase_at(mesh, wall_level(mesh, inner))].solid;
+    if(metastable[solid ? 0 : 1])
+      return false;
+    const cases::Boundary &wall = wall_of(problem, inner);
+    const cases::Position place = mesh.position(ray, inner ? mesh.inner : mesh.outer);
+    if(wall.kind == BoundaryKind::fixed_temperature)
+    {
+      const double excess
+          = beyond(solid, wall.value(place, time) - physics.melting_temperature);
+      return excess > rounding * physics.temperature_scale
+             && (!wall.exact
+                 || excess > margin_of_melting * std::abs(physics.melting_temperature));
+    }
+    const double excess = problem.wall_excess(inner, ray, time, u);
+    const double flux
+        = flux_through(wall, place, time, physics.melting_temperature + excess).value;
+    // Elements overshoot also at a wall; it passes the melting temperature where heat
+    // leads it there.
+    return beyond(solid, excess) > (beyond(solid, flux) > 0 ? margin_of_scale : overshoot)
+                                       * physics.temperature_scale;
+  }
+
+  bool PhaseCheck::is_held_beyond(const FittedProblem &problem, bool inner,
+                                  double time) const
+  {
+    const cases::Boundary &wall = wall_of(problem, inner);
+    if(wall.kind != BoundaryKind::fixed_temperature)
+      return false;
+    for(unsigned int ray = 0; ray < problem.mesh().surface.n_rays(); ++ray)
+      if(has_passed(problem, inner, ray, time, {}))
+        return true;
+    return false;
+  }
+
+  std::optional<WallCrossing> PhaseCheck::wall_crossing(const FittedProblem &problem,
+                                                        double from, double to,
+                                                        const Vector<double> &u) const
+  {
+    const RayMesh &mesh = problem.mesh();
+    const Clock &clock = problem.physics().clock;
+    std::optional<WallCrossing> first;
+    for(const bool inner : {true, false})
+    {
+      const cases::Boundary &wall = wall_of(problem, inner);
+      if((inner && mesh.has_centre()) || wall.kind == BoundaryKind::insulated)
+        continue;
+      std::optional<double> at;
+      const bool varies
+          = wall.kind == BoundaryKind::fixed_temperature && !wall.value.constant;
+      for(int k = 1; k < looks && varies && !at; ++k)
+      {
+        const double there = from + (to - from) * k / looks;
+        if(is_held_beyond(problem, inner, clock.time(there)))
+          at = there;
+      }
+      for(unsigned int ray = 0; ray < mesh.surface.n_rays() && !at; ++ray)
+        if(has_passed(problem, inner, ray, clock.time(to), u))
+          at = to;
+      if(at && first)
+        throw cases::Refusal(fmt::format(
+            "fem-fitted follows one front; about t = {:.6g} both walls pass the melting "
+            "temperature, where a front starts at each",
+            clock.time(to)));
+      if(at)
+        first = WallCrossing{inner, *at};
+    }
+    return first;
+  }
+
+  void PhaseCheck::check(const FittedProblem &problem, long step, double time,
+                         const Vector<double> &u) const
+  {
+    check_source(problem, time);
+    for(const bool inner : {true, false})
+    {
+      const RayMesh &mesh = problem.mesh();
+      if((inner && mesh.has_centre())
+         || wall_of(problem, inner).kind == BoundaryKind::insulated)
+        continue;
+      for(unsigned int ray = 0; ray < mesh.surface.n_rays(); ++ray)
+        if(has_passed(problem, inner, ray, time, u))
+          refuse(problem, inner, time);
+    }
+    check_nodes(problem, step, time, u);
+  }
+
+  void PhaseCheck::refuse(const FittedProblem &problem, bool inner, double time) const
+  {
+    throw cases::Refusal(
+        fmt::format("fem-fitted follows one front; at t = {:.6g} the wall {} has passed "
+                    "the melting temperature, where {} starts",
+                    time, to_string(side_at(setting.scene, inner)),
+                    problem.mesh().has_front() ? "a second one" : "one"));
+  }
+
+  void PhaseCheck::check_source(const FittedProblem &problem, double time) const
+  {
+    const Physics &physics = problem.physics();
+    if(!physics.power || is_metastable(physics.phases[0].solid))
+      return;
+    const double power = physics.power(time);
+    if(beyond(physics.phases[0].solid, power) > no_source * largest_power)
+      throw cases::Refusal(fmt::format(
+          "fem-fitted follows one front; at t = {:.6g} the source at the centre {} "
+          "around "
+          "it, where a second one starts",
+          time, physics.phases[0].solid ? "melts the solid" : "freezes the liquid"));
+  }
+
+  void PhaseCheck::check_nodes(const FittedProblem &problem, long step, double time,
+                               const Vector<double> &u) const
+  {
+    const RayMesh &mesh = problem.mesh();
+    const Physics &physics = problem.physics();
+    for(unsigned int ray = 0; ray < mesh.surface.n_rays(); ++ray)
+      for(unsigned int level = 0; level < mesh.n_levels(); ++level)
+      {
+        const int phase = phase_at(mesh, level);
+        const bool solid = physics.phases[phase].solid;
+        const double r = problem.coordinate(ray, level, u);
+        if(level == mesh.front_level() || metastable[solid ? 0 : 1]
+           || (r == 0 && physics.power))
+          continue;
+        const double excess
+            = u[mesh.node(ray, level)] + problem.source(phase, time).value(r);
+        if(beyond(solid, excess) > overshoot * physics.temperature_scale)
+          throw cases::NumericalError(
+              method, step, time, fmt::format("the temperature at r = {:.6g}", r),
+              fmt::format("is {:.6g}, {} the melting point in {} away from the front; "
+                          "more cells or steps may help",
+                          physics.melting_temperature + excess, solid ? "above" : "below",
+                          solid ? "solid" : "liquid"));
+      }
+  }
+} // namespace meltfront::reference_fem::fitted

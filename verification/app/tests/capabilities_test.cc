@@ -1,0 +1,59 @@
+#include <cases/case_file/case_file.h>
+#include <cases/error.h>
+#include <verification/app/methods.h>
+#include <verification/matrix/matrix_file.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using Pair = std::pair<std::string, std::string>;
+
+    /** Cases and methods that the matrices of the library bring together. */
+    std::set<Pair> pairs_of_the_library()
+    {
+      std::set<Pair> pairs;
+      for(const std::string &name : matrix_names())
+        for(const MatrixBlock &block : load_matrix(name).blocks)
+          for(const std::string &case_name : block.cases)
+            for(const std::string &method : block.methods)
+              pairs.emplace(case_name, method);
+      return pairs;
+    }
+
+    std::string refusal(const cases::Case &c, const cases::Method &method)
+    {
+      const cases::EffectSet effects = cases::effects_called_for(c.scene);
+      try
+      {
+        cases::require_capable(method, cases::simulated_scene(c.scene, effects), effects,
+                               1);
+      }
+      catch(const cases::Refusal &error)
+      {
+        return error.what();
+      }
+      return {};
+    }
+  } // namespace
+
+  // What a matrix of the library runs is meant to be taken; a method that refuses in
+  // such a matrix is named here, with its case.
+  TEST(Capabilities, TakeWhatTheLibraryRuns)
+  {
+    const std::set<Pair> refused{};
+    std::map<std::string, cases::Case> library;
+    for(const auto &[case_name, method] : pairs_of_the_library())
+    {
+      if(!library.contains(case_name))
+        library.emplace(case_name, cases::load_case(case_name));
+      const std::string reason = refusal(library.at(case_name), method_named(method));
+      EXPECT_EQ(!reason.empty(), refused.contains({case_name, method}))
+          << case_name << ", " << method << ": " << reason;
+    }
+  }
+} // namespace meltfront::verification
