@@ -48,7 +48,7 @@ namespace meltfront::verification
    * (numbers of scenes), `suspects` [{scene, methods, quantity, values, bars, time,
    * suspected, file}], `failures` and `out_of_time` [{scene, method, n, reason}],
    * `refusals` (by method and reason: number of scenes) and `compared` (by method: number
-   * of scenes)
+   * of scenes) and `median_bars` (by method, over scenes: relative_bars())
    * @throws InputError for fewer than two methods, OutputError if the directory cannot be
    * written to or another process is at work in it
    */

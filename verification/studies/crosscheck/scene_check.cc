@@ -120,7 +120,13 @@ namespace meltfront::verification
         c, plan_of(methods, {resolutions.begin(), resolutions.begin() + base_levels}),
         limits);
     add_remarks(runs, methods, verdict);
-    verdict.contradiction = worst_contradiction(runs, c.scene.material);
+    const auto compare = [&]
+    {
+      const std::vector<Comparison> all_of_them = comparisons(runs, c.scene.material);
+      verdict.contradiction = worst_contradiction(all_of_them);
+      verdict.bars = relative_bars(all_of_them);
+    };
+    compare();
     for(std::size_t i = base_levels; i < resolutions.size() && verdict.contradiction; ++i)
     {
       std::vector<const cases::Method *> compared;
@@ -130,7 +136,7 @@ namespace meltfront::verification
       const std::vector<LevelRun> finer
           = make_level_runs(c, plan_of(compared, {resolutions[i]}), limits);
       runs.insert(runs.end(), finer.begin(), finer.end());
-      verdict.contradiction = worst_contradiction(runs, c.scene.material);
+      compare();
     }
     verdict.outcome = outcome_of(verdict);
     return verdict;

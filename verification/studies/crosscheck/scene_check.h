@@ -3,8 +3,6 @@
 
 #include <verification/studies/crosscheck/contradiction.h>
 
-#include <map>
-
 namespace meltfront::verification
 {
   /** What came of a scene. */
@@ -34,6 +32,7 @@ namespace meltfront::verification
     std::vector<Remark> failures;
     std::vector<Remark> out_of_time;
     std::optional<Contradiction> contradiction;
+    std::map<std::string, double> bars; ///< relative_bars()
   };
 
   /** The resolutions for a scene, coarser in more dimensions: the three at which every
