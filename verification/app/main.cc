@@ -149,7 +149,9 @@ namespace
     command->add_option("--out", a.output, "directory (results/crosscheck-SEED)");
     command->add_option("--jobs", a.jobs, "runs at once (one per core)")
         ->check(CLI::Range(0, 1024));
-    command->add_option("--within", a.within, "longest time of a run in seconds (20)")
+    command
+        ->add_option("--within", a.within,
+                     "longest processor time of a run in seconds (20)")
         ->check(CLI::PositiveNumber);
     command
         ->add_option("--methods", a.methods,

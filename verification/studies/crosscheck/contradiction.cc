@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 namespace meltfront::verification
@@ -120,8 +119,8 @@ namespace meltfront::verification
     return result;
   }
 
-  std::optional<Contradiction> worst_contradiction(const std::vector<LevelRun> &runs,
-                                                   const cases::Material &material)
+  std::vector<Comparison> comparisons(const std::vector<LevelRun> &runs,
+                                      const cases::Material &material)
   {
     const auto ladders = ladders_of(runs);
     std::set<std::string> quantities;
@@ -129,31 +128,55 @@ namespace meltfront::verification
       for(const auto &[name, values] : ladder.front()->course.quantities)
         quantities.insert(name);
     const double span = temperature_span(runs);
-    std::optional<Contradiction> worst;
+    std::vector<Comparison> result;
     for(const std::string &quantity : quantities)
       for(int quarter = 1; quarter <= 4; ++quarter)
       {
-        Contradiction found;
-        found.quantity = quantity;
-        found.time_share = quarter / 4.;
-        found.scale = scale_of(quantity, span, material);
+        Comparison comparison{quantity, quarter / 4., scale_of(quantity, span, material)};
         const std::size_t time = quarter * course_intervals / 4;
         for(const auto &[method, ladder] : ladders)
           if(const std::vector<Level> levels = levels_of(ladder, quantity);
              levels.size() > 1 && std::isfinite(levels.back().values[time]))
-            found.statements.push_back({method, estimate_at(levels, time, found.scale)});
-        if(found.statements.size() < 2)
-          continue;
-        for(const std::size_t i : contradicting(found.statements))
-        {
-          found.suspects.push_back(found.statements[i].method);
-          for(const Statement &other : found.statements)
-            found.excess = std::max(
-                found.excess, excess_over(found.statements[i].estimate, other.estimate));
-        }
-        if(!found.suspects.empty() && (!worst || found.excess > worst->excess))
-          worst = found;
+            comparison.statements.push_back(
+                {method, estimate_at(levels, time, comparison.scale)});
+        if(comparison.statements.size() > 1)
+          result.push_back(std::move(comparison));
       }
+    return result;
+  }
+
+  std::optional<Contradiction>
+  worst_contradiction(const std::vector<Comparison> &comparisons)
+  {
+    std::optional<Contradiction> worst;
+    for(const Comparison &comparison : comparisons)
+    {
+      Contradiction found{comparison, {}};
+      for(const std::size_t i : contradicting(found.statements))
+      {
+        found.suspects.push_back(found.statements[i].method);
+        for(const Statement &other : found.statements)
+          found.excess = std::max(
+              found.excess, excess_over(found.statements[i].estimate, other.estimate));
+      }
+      if(!found.suspects.empty() && (!worst || found.excess > worst->excess))
+        worst = found;
+    }
     return worst;
+  }
+
+  std::map<std::string, double> relative_bars(const std::vector<Comparison> &comparisons)
+  {
+    std::map<std::string, std::vector<double>> bars;
+    for(const Comparison &comparison : comparisons)
+      for(const Statement &statement : comparison.statements)
+        bars[statement.method].push_back(statement.estimate.bar / comparison.scale);
+    std::map<std::string, double> medians;
+    for(auto &[method, list] : bars)
+    {
+      std::ranges::sort(list);
+      medians[method] = list[list.size() / 2];
+    }
+    return medians;
   }
 } // namespace meltfront::verification

@@ -5,6 +5,7 @@
 #include <verification/studies/crosscheck/error_bar.h>
 #include <verification/studies/crosscheck/level_runs.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,26 +30,37 @@ namespace meltfront::verification
    */
   std::vector<std::size_t> contradicting(const std::vector<Statement> &statements);
 
-  /** A quantity of a scene of which methods say what cannot be true of both. */
-  struct Contradiction
+  /** What methods say of a quantity of a scene at a time. */
+  struct Comparison
   {
     std::string quantity;
-    double time_share = 0; ///< when: share of the duration
+    double time_share = 0; ///< share of the duration
     double scale = 1;      ///< of the quantity
-    std::vector<Statement> statements;
-    std::vector<std::string> suspects; ///< methods that contradict the others
+    std::vector<Statement> statements{};
+  };
+
+  /** A comparison in which not all can be right. */
+  struct Contradiction : Comparison
+  {
+    std::vector<std::string> suspects{}; ///< methods that contradict the others
     double excess = 0; ///< largest difference from another over both bars together
   };
 
   /**
-   * The contradiction of largest excess among the finished runs of a scene, of all
-   * quantities at quarters of the duration; nothing where none contradicts another.
-   *
-   * Temperatures are taken relative to the span of all temperatures found, heat to that
-   * of the warmest and the coldest state, solid fractions to one.
+   * All that two methods or more say of the same in their finished runs, at quarters of
+   * the duration. Temperatures have the scale of the span of all temperatures found, heat
+   * that between the coldest solid and the warmest liquid, solid fractions one.
    */
-  std::optional<Contradiction> worst_contradiction(const std::vector<LevelRun> &runs,
-                                                   const cases::Material &material);
+  std::vector<Comparison> comparisons(const std::vector<LevelRun> &runs,
+                                      const cases::Material &material);
+
+  /** The contradiction of largest excess; nothing where none contradicts another. */
+  std::optional<Contradiction>
+  worst_contradiction(const std::vector<Comparison> &comparisons);
+
+  /** By method, the median of its bars over their scales: what a contradiction must
+   * exceed to be seen. */
+  std::map<std::string, double> relative_bars(const std::vector<Comparison> &comparisons);
 } // namespace meltfront::verification
 
 #endif

@@ -19,7 +19,7 @@ namespace meltfront::verification
     int dimension = 0; ///< 0: any
     std::string directory;
     int jobs = 0;       ///< processes at once; 0: one for each core
-    double within = 20; ///< longest time of a run (wall s)
+    double within = 20; ///< longest time of a run (processor s)
     std::vector<const cases::Method *> methods;
     std::string program_version;
     std::string program_hash;      ///< empty: the SHA-256 of the running program's file
@@ -48,7 +48,7 @@ namespace meltfront::verification
    * (numbers of scenes), `suspects` [{scene, methods, quantity, values, bars, time,
    * suspected, file}], `failures` and `out_of_time` [{scene, method, n, reason}],
    * `refusals` (by method and reason: number of scenes) and `compared` (by method: number
-   * of scenes)
+   * of scenes) and `median_bars` (by method, over scenes: relative_bars())
    * @throws InputError for fewer than two methods, OutputError if the directory cannot be
    * written to or another process is at work in it
    */

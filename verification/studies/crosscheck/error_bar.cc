@@ -8,8 +8,6 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double round_off = 1e-12;
-
     /** Root mean square of the difference of two levels from one time to another. */
     double difference(const Level &one, const Level &other, std::size_t from,
                       std::size_t to)
@@ -23,6 +21,25 @@ namespace meltfront::verification
           ++count;
         }
       return count > 0 ? std::sqrt(sum / count) : 0;
+    }
+
+    /** That at a time, together with those around it: a front that stands in a cell makes
+     * single differences vanish by chance. */
+    double around(const Level &one, const Level &other, std::size_t time)
+    {
+      const std::size_t last = one.values.size() - 1, reach = last / 8;
+      const double here = difference(one, other, time, time);
+      const double near = difference(one, other, time - std::min(time, reach),
+                                     std::min(time + reach, last));
+      return std::sqrt((here * here + near * near) / 2);
+    }
+
+    /** The error of the finest level of which two levels tell, if it falls as h^p. */
+    double error_of_finest(const Level &finest, const Level &finer, const Level &coarser,
+                           std::size_t time, double p)
+    {
+      return around(finer, coarser, time) * std::pow(finest.spacing, p)
+             / (std::pow(coarser.spacing, p) - std::pow(finer.spacing, p));
     }
 
     /** p with ratio = r21^p (r32^p - 1)/(r21^p - 1), which rises with p. */
@@ -49,6 +66,7 @@ namespace meltfront::verification
   {
     const std::size_t levels = coarse_to_fine.size();
     const Level &finest = coarse_to_fine.back();
+    const double floor = reading_error * scale;
     Estimate estimate;
     estimate.value = finest.values[time];
     if(levels < 2)
@@ -57,37 +75,36 @@ namespace meltfront::verification
       return estimate;
     }
     const Level &second = coarse_to_fine[levels - 2];
-    const std::size_t last = finest.values.size() - 1, reach = last / 8;
-    const double d = difference(finest, second, time, time);
-    const double around = difference(finest, second, time - std::min(time, reach),
-                                     std::min(time + reach, last));
-    const double a = std::sqrt((d * d + around * around) / 2);
-    const double floor = reading_error * scale;
-    const double r21 = second.spacing / finest.spacing;
-    const double step_ratio = finest.steps / std::max(second.steps, 1.);
     estimate.order = 1;
     if(levels > 2)
     {
       const Level &third = coarse_to_fine[levels - 3];
+      const std::size_t last = finest.values.size() - 1;
       const double finer = difference(finest, second, 0, last);
       const double coarser = difference(second, third, 0, last);
-      const double observed = finer > 0 ? observed_order(coarser / finer, r21,
-                                                         third.spacing / second.spacing)
-                                        : highest_order;
-      estimate.converging = observed >= 0.2 || coarser <= round_off * scale
-                            || std::max(coarser, finer) < floor;
+      const double observed
+          = finer > 0 ? observed_order(coarser / finer, second.spacing / finest.spacing,
+                                       third.spacing / second.spacing)
+                      : highest_order;
+      estimate.converging = observed >= 0.2 || std::max(coarser, finer) < floor;
       if(!estimate.converging)
       {
         estimate.order = 0;
-        estimate.bar
-            = 3 * std::max({finer, coarser, d, difference(second, third, time, time)})
-              + floor;
+        estimate.bar = 3
+                           * std::max({finer, coarser, around(finest, second, time),
+                                       around(second, third, time)})
+                       + floor;
         return estimate;
       }
-      const double highest = step_ratio < 1.1 ? 1 : highest_order;
-      estimate.order = std::clamp(observed, lowest_order, highest);
+      const bool same_steps = finest.steps < 1.1 * second.steps;
+      estimate.order = std::clamp(observed, lowest_order, same_steps ? 1 : highest_order);
     }
-    estimate.bar = safety_factor * a / (std::pow(r21, estimate.order) - 1) + floor;
+    double error = 0;
+    for(std::size_t i = std::max<std::size_t>(levels, 3) - 3; i < levels; ++i)
+      for(std::size_t j = i + 1; j < levels; ++j)
+        error = std::max(error, error_of_finest(finest, coarse_to_fine[j],
+                                                coarse_to_fine[i], time, estimate.order));
+    estimate.bar = safety_factor * error + floor;
     return estimate;
   }
 } // namespace meltfront::verification

@@ -39,19 +39,21 @@ namespace meltfront::verification
   /**
    * The value of the finest level at one of the course's times, and its error bar.
    *
-   * With f_1 (finest), f_2, f_3 at h_1 < h_2 < h_3, d the difference f_1 - f_2 at this
-   * time, D its root mean square over a quarter of the course around it, and
-   * a = sqrt((d^2 + D^2)/2), because a front that stands in a cell makes single
-   * differences vanish by chance:
+   * With levels i < j of the finest three, d the difference f_i - f_j at this time, D its
+   * root mean square over a quarter of the course around it, and a = sqrt((d^2 + D^2)/2),
+   * because a front that stands in a cell makes single differences vanish by chance:
    *
-   *   bar = F a / ((h_2/h_1)^p - 1) + floor,
+   *   bar = F max_ij a_ij h_1^p / (h_j^p - h_i^p) + floor,
    *
-   * where the order p solves D_32/D_21 = r_21^p (r_32^p - 1)/(r_21^p - 1) for root mean
-   * squares over the whole course, bounded by lowest_order and highest_order, and by 1
-   * where the finest levels took about equally many steps: the error in time is not seen
-   * then. Levels whose differences do not shrink give three times their largest
-   * difference
-   * (`converging` is false). Two levels: p = 1.
+   * the largest error of the finest level (1) of which any two tell. The order p solves
+   * D_32/D_21 = r_21^p (r_32^p - 1)/(r_21^p - 1) for root mean squares over the whole
+   * course, bounded by lowest_order and highest_order, and by 1 where the finest levels
+   * took about equally many steps: the error in time is not seen then. Levels whose
+   * differences do not shrink give three times their largest difference (`converging` is
+   * false). Two levels: p = 1.
+   *
+   * Levels should not double: a front that rests at x stands in its cell at the fraction
+   * of n x, and doubling n leaves its distance from the cell's middle as it was.
    *
    * @param coarse_to_fine at least one, of the same times; only the finest three count
    * @param scale of the quantity

@@ -39,7 +39,8 @@ namespace meltfront::verification
   struct LevelLimits
   {
     int jobs = 1;       ///< processes at once
-    double within = 20; ///< longest time of a run (wall s)
+    double within = 20; ///< longest time of a run (processor s; and 10 times that by the
+                        ///< clock)
     std::function<void(const std::string &running)> show{}; ///< told now and then
   };
 

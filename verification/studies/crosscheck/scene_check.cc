@@ -7,7 +7,8 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr int refinements = 2;
+    /** Of the resolutions, those at which every scene is run. */
+    constexpr std::size_t base_levels = 3;
 
     std::vector<LevelPlan> plan_of(const std::vector<const cases::Method *> &methods,
                                    const std::vector<int> &resolutions)
@@ -97,11 +98,11 @@ namespace meltfront::verification
     switch(dimension)
     {
     case 1:
-      return {20, 40, 80};
+      return {20, 32, 52, 84, 136};
     case 2:
-      return {12, 24, 48};
+      return {12, 20, 32, 52, 84};
     default:
-      return {6, 12, 24};
+      return {6, 10, 16, 26};
     }
   }
 
@@ -115,22 +116,27 @@ namespace meltfront::verification
     if(methods.empty())
       return verdict;
     const std::vector<int> resolutions = crosscheck_resolutions(c.scene);
-    std::vector<LevelRun> runs
-        = make_level_runs(c, plan_of(methods, resolutions), limits);
+    std::vector<LevelRun> runs = make_level_runs(
+        c, plan_of(methods, {resolutions.begin(), resolutions.begin() + base_levels}),
+        limits);
     add_remarks(runs, methods, verdict);
-    verdict.contradiction = worst_contradiction(runs, c.scene.material);
-    int n = resolutions.back();
-    for(int i = 0; i < refinements && verdict.contradiction; ++i)
+    const auto compare = [&]
     {
-      n *= 2;
+      const std::vector<Comparison> all_of_them = comparisons(runs, c.scene.material);
+      verdict.contradiction = worst_contradiction(all_of_them);
+      verdict.bars = relative_bars(all_of_them);
+    };
+    compare();
+    for(std::size_t i = base_levels; i < resolutions.size() && verdict.contradiction; ++i)
+    {
       std::vector<const cases::Method *> compared;
       for(const cases::Method *method : methods)
         if(std::ranges::find(verdict.compared, method->name()) != verdict.compared.end())
           compared.push_back(method);
       const std::vector<LevelRun> finer
-          = make_level_runs(c, plan_of(compared, {n}), limits);
+          = make_level_runs(c, plan_of(compared, {resolutions[i]}), limits);
       runs.insert(runs.end(), finer.begin(), finer.end());
-      verdict.contradiction = worst_contradiction(runs, c.scene.material);
+      compare();
     }
     verdict.outcome = outcome_of(verdict);
     return verdict;

@@ -3,8 +3,6 @@
 
 #include <verification/studies/crosscheck/contradiction.h>
 
-#include <map>
-
 namespace meltfront::verification
 {
   /** What came of a scene. */
@@ -34,9 +32,12 @@ namespace meltfront::verification
     std::vector<Remark> failures;
     std::vector<Remark> out_of_time;
     std::optional<Contradiction> contradiction;
+    std::map<std::string, double> bars; ///< relative_bars()
   };
 
-  /** The three resolutions for a scene: coarser in more dimensions. */
+  /** The resolutions for a scene, coarser in more dimensions: the three at which every
+   * scene is run, and those of a second look. Each is 1.6 times the one before, and even.
+   */
   std::vector<int> crosscheck_resolutions(const cases::Scene &scene);
 
   /**

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 #include <sstream>
 
@@ -185,12 +184,6 @@ namespace meltfront::verification
             entry.subsection, entry.key, entry.simpler[i],
             {entry.simpler.begin(), entry.simpler.begin() + static_cast<long>(i)});
       }
-    }
-    if(const std::string end = value("Scene", "end time"); !end.empty())
-    {
-      drafts.push_back(*this);
-      drafts.back().set("Scene", "end time",
-                        fmt::format("{:.6g}", std::strtod(end.c_str(), nullptr) / 2));
     }
     return drafts;
   }

@@ -33,7 +33,7 @@ namespace meltfront::verification
 
     /**
      * The drafts that are one step simpler: an effect, a wall or a property of the liquid
-     * taken out, a simpler value, half the duration. Some may be no valid cases.
+     * taken out, a simpler value. Some may be no valid cases.
      */
     std::vector<SceneDraft> simpler() const;
 

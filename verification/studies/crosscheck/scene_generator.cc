@@ -159,7 +159,9 @@ namespace meltfront::verification
         }
         duration = rounded(duration);
         if(problem != Problem::steady)
-          draft.set("Scene", "end time", words(duration));
+          // Much shorter than that nothing is resolved.
+          draft.set("Scene", "end time", words(duration),
+                    {words(duration / 4), words(duration / 2)});
       }
 
       void choose_material()

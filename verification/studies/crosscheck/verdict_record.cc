@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace meltfront::verification
 {
   namespace
@@ -58,6 +60,7 @@ namespace meltfront::verification
             {"refusals", json_of_remarks(verdict.refusals)},
             {"failures", json_of_remarks(verdict.failures)},
             {"out_of_time", json_of_remarks(verdict.out_of_time)},
+            {"bars", json_of(verdict.bars)},
             {"contradiction", verdict.contradiction
                                   ? json_of_contradiction(*verdict.contradiction)
                                   : nlohmann::json()}};
@@ -117,6 +120,8 @@ namespace meltfront::verification
     ++outcomes[verdict.at("outcome")];
     for(const std::string method : verdict.at("compared"))
       ++compared[method];
+    for(const auto &[method, bar] : named_numbers_in(verdict.at("bars")))
+      bars[method].push_back(bar);
     for(const nlohmann::json &refusal : verdict.at("refusals"))
       ++refusals[refusal.at("method")][reason_without_numbers(refusal.at("reason"))];
     add_remarks(scene, verdict.at("failures"), failures);
@@ -134,6 +139,11 @@ namespace meltfront::verification
     nlohmann::json json{{"scenes", scenes},     {"suspects", suspects},
                         {"failures", failures}, {"out_of_time", out_of_time},
                         {"refusals", refusals}, {"compared", compared}};
+    for(auto [method, list] : bars)
+    {
+      std::ranges::sort(list);
+      json["median_bars"][method] = json_of(list[list.size() / 2]);
+    }
     for(const char *outcome : {"agreed", "refused", "failed", "suspect"})
       json[outcome] = outcomes.contains(outcome) ? outcomes.at(outcome) : 0;
     return json;

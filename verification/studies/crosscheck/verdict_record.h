@@ -10,7 +10,7 @@
 namespace meltfront::verification
 {
   /** A verdict as it is stored: `outcome`, `compared`, `refusals`, `failures`,
-   * `out_of_time` [{method, n, reason}], `contradiction` or null. */
+   * `out_of_time` [{method, n, reason}], `bars`, `contradiction` or null. */
   nlohmann::json json_of(const SceneVerdict &verdict);
 
   /** One line: `agreed: sph, fem-enthalpy`. */
@@ -34,6 +34,7 @@ namespace meltfront::verification
 
     std::map<std::string, int> outcomes;
     std::map<std::string, int> compared;
+    std::map<std::string, std::vector<double>> bars; ///< by method, one for each scene
     std::map<std::string, std::map<std::string, int>> refusals; ///< by method and reason
     nlohmann::json suspects = nlohmann::json::array();
     nlohmann::json failures = nlohmann::json::array();

@@ -75,7 +75,7 @@ namespace meltfront::verification
       add_ladder("first", 0.7, 1, 0, runs);
       add_ladder("second", -3, 2, 0, runs);
       add_ladder("exact", 0, 1, 0, runs);
-      EXPECT_FALSE(worst_contradiction(runs, cases::Material()));
+      EXPECT_FALSE(worst_contradiction(comparisons(runs, cases::Material())));
     }
 
     TEST(WorstContradiction, ALieThatConvergesIsFound)
@@ -84,13 +84,16 @@ namespace meltfront::verification
       add_ladder("first", 0.7, 1, 0, runs);
       add_ladder("liar", 0.1, 2, 0.003, runs);
       add_ladder("second", -3, 2, 0, runs);
-      const auto found = worst_contradiction(runs, cases::Material());
+      const auto found = worst_contradiction(comparisons(runs, cases::Material()));
       ASSERT_TRUE(found);
       EXPECT_EQ(found->quantity, "solid fraction");
       EXPECT_EQ(found->suspects, std::vector<std::string>{"liar"});
       EXPECT_EQ(found->time_share, 1);
       EXPECT_GT(found->excess, 1);
       EXPECT_EQ(found->statements.size(), 3u);
+      const auto bars = relative_bars(comparisons(runs, cases::Material()));
+      EXPECT_GE(bars.at("first"), reading_error);
+      EXPECT_LT(bars.at("first"), 0.05);
     }
 
     TEST(WorstContradiction, RunsThatDidNotFinishSayNothing)
@@ -101,7 +104,7 @@ namespace meltfront::verification
       for(LevelRun &run : runs)
         if(run.method == "liar")
           run.status = RunStatus::failed;
-      EXPECT_FALSE(worst_contradiction(runs, cases::Material()));
+      EXPECT_FALSE(worst_contradiction(comparisons(runs, cases::Material())));
     }
   } // namespace
 } // namespace meltfront::verification
