@@ -18,7 +18,8 @@ namespace meltfront::reference_fem
         BoundaryKind::heat_transfer};
 
     /** Of elements whose degree obeys no maximum principle. */
-    constexpr cases::Overshoot overshoot{0.01, 0};
+    constexpr cases::Overshoot overshoot{fitted::overshoot_at_twenty,
+                                         fitted::overshoot_order};
 
     /** The form that follows fronts from their start to their end. */
     cases::Capabilities along_line()

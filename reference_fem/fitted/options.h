@@ -12,6 +12,9 @@ namespace meltfront::reference_fem::fitted
 {
   inline constexpr const char *method_name = "fem-fitted";
 
+  /** Capabilities::overshoot. */
+  inline constexpr double overshoot_at_twenty = 0.05, overshoot_order = 0.5;
+
   /** The options of `fem-fitted`. */
   std::vector<cases::OptionDeclaration> fitted_options();
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -14,9 +15,14 @@ namespace meltfront::reference_fem::fitted
 {
   namespace
   {
-    /** Elements of higher degree obey no maximum principle: what they may exceed the
-     * bounds by, of the bounds' span. */
-    constexpr double slack_of_bounds = 0.01;
+    /** Elements of higher degree obey no maximum principle: by what share of the bounds'
+     * span they may exceed them, as Capabilities say. A wall that jumps at the start
+     * leaves a layer that the first steps do not resolve; it is the wider in cells, by
+     * their root, the more there are. */
+    double slack_of_bounds(const int cells)
+    {
+      return overshoot_at_twenty * std::pow(20. / cells, overshoot_order);
+    }
   } // namespace
 
   FittedRun::FittedRun(const cases::Scene &scene, const cases::EffectSet &effects,
@@ -110,7 +116,7 @@ namespace meltfront::reference_fem::fitted
         highest = std::max(highest, value);
       }
     cases::check_temperature(bounds, lowest, highest, method_name, step, time,
-                             slack_of_bounds);
+                             slack_of_bounds(options.cells));
   }
 
   void FittedRun::enter(const Stretch &stretch, cases::Observer &observer)

@@ -138,5 +138,6 @@ namespace meltfront::reference_fem::fitted
     snapshot.temperature = temperature;
     snapshot.solid_fraction = solid_fraction;
     snapshot.cells = cells;
+    snapshot.obeys_maximum_principle = false;
   }
 } // namespace meltfront::reference_fem::fitted
