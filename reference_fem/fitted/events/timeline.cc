@@ -72,11 +72,8 @@ namespace meltfront::reference_fem::fitted
       bool goes_on = true;
       const auto watched
           = [&](const AcceptedStep &step) { return goes_on = after_step(step); };
-      for(const StepRange &range : ranges)
-      {
-        if(goes_on)
-          integrator.advance_to(range.end, range.step * (1 + 1e-9), watched);
-      }
+      for(auto range = ranges.begin(); goes_on && range != ranges.end(); ++range)
+        integrator.advance_to(range->end, range->step * (1 + 1e-9), watched);
     }
 
     void add(const IntegrationCost &cost, IntegrationCost &total)
