@@ -17,8 +17,9 @@ namespace meltfront::reference_fem::fitted
     /** What quadrature over a step may miss, of the integral over all steps. */
     constexpr double missed = 1e-6;
 
-    /** Parts of a step in which a feature is looked for. */
-    constexpr int parts = 8;
+    /** Parts of a step in which a feature is looked for: so many in all steps, but no
+     * fewer and no more in each than that. */
+    constexpr long parts_in_all = 8192, fewest_parts = 8, most_parts = 64;
 
     /** The first step after a jump, of the one that was planned: a power of two. */
     constexpr int doublings_after_jump = 8;
@@ -51,6 +52,9 @@ namespace meltfront::reference_fem::fitted
         if(data.values.empty())
           return ranges;
         totals.assign(data.values.size(), 0);
+        long steps = 0;
+        for_each_step(ranges, [&](double, double, std::size_t) { ++steps; });
+        parts = std::clamp(parts_in_all / steps, fewest_parts, most_parts);
         for_each_step(ranges, [&](double from, double to, std::size_t)
                       { add_to_totals(from, to); });
         std::vector<bool> whole(ranges.size(), !controlled);
@@ -180,7 +184,7 @@ namespace meltfront::reference_fem::fitted
                       bool of_size) const
       {
         double sum = 0;
-        for(int k = 0; k < parts; ++k)
+        for(long k = 0; k < parts; ++k)
           sum += integral(value, from + (to - from) * k / parts,
                           from + (to - from) * (k + 1) / parts, of_size);
         return sum;
@@ -220,6 +224,7 @@ namespace meltfront::reference_fem::fitted
       const TimeData &data;
       bool controlled;
       std::vector<double> totals;
+      long parts = fewest_parts;
     };
   } // namespace
 

@@ -25,9 +25,9 @@ namespace meltfront::reference_fem::fitted
    *
    * A step ends at each breakpoint, by rounding before it, so that its stages see the
    * values on the near side. After a jump steps begin small and double. A step over which
-   * Radau's quadrature of the data differs from that of its eighths by more than 1e-6 of
-   * the data's integral over all steps is halved until it does not. Steps that see the
-   * data stay as planned, to the bit.
+   * Radau's quadrature of the data differs from that of its parts (8 to 64) by more than
+   * 1e-6 of the data's integral over all steps is halved until it does not. Steps that
+   * see the data stay as planned, to the bit.
    *
    * @param begin      clock at which the first of them begins
    * @param controlled the integrator makes longer steps than planned where it can: each

@@ -1,5 +1,7 @@
 #include <reference_fem/fitted/events/phase_check.h>
 
+#include <cases/overshoot.h>
+
 #include <cases/error.h>
 
 #include <fmt/format.h>
@@ -24,9 +26,6 @@ namespace meltfront::reference_fem::fitted
     /** What exact solutions that keep a wall at the melting point miss it by, of the
      * melting temperature, and what Newton's method leaves, of the scale. */
     constexpr double margin_of_melting = 1e-9, margin_of_scale = 1e-9;
-
-    /** Overshoot of elements that is borne, of the temperature scale. */
-    constexpr double overshoot = 0.01;
 
     /** A source of less than this share of its largest strength is none. */
     constexpr double no_source = 1e-9;
@@ -108,8 +107,16 @@ namespace meltfront::reference_fem::fitted
         = flux_through(wall, place, time, physics.melting_temperature + excess).value;
     // Elements overshoot also at a wall; it passes the melting temperature where heat
     // leads it there.
-    return beyond(solid, excess) > (beyond(solid, flux) > 0 ? margin_of_scale : overshoot)
-                                       * physics.temperature_scale;
+    return beyond(solid, excess)
+           > (beyond(solid, flux) > 0 ? margin_of_scale : overshoot())
+                 * physics.temperature_scale;
+  }
+
+  double PhaseCheck::overshoot() const
+  {
+    const cases::Domain &domain = setting.scene.domain;
+    return cases::allowed_overshoot(fitted::overshoot,
+                                    domain.side() / setting.options.cells, domain);
   }
 
   bool PhaseCheck::is_held_beyond(const FittedProblem &problem, bool inner,
@@ -215,7 +222,7 @@ namespace meltfront::reference_fem::fitted
           continue;
         const double excess
             = u[mesh.node(ray, level)] + problem.source(phase, time).value(r);
-        if(beyond(solid, excess) > overshoot * physics.temperature_scale)
+        if(beyond(solid, excess) > overshoot() * physics.temperature_scale)
           throw cases::NumericalError(
               method, step, time, fmt::format("the temperature at r = {:.6g}", r),
               fmt::format("is {:.6g}, {} the melting point in {} away from the front; "

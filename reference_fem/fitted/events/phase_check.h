@@ -66,6 +66,9 @@ namespace meltfront::reference_fem::fitted
       return solid ? excess : -excess;
     }
 
+    /** That of elements which is borne, of the temperature scale. */
+    double overshoot() const;
+
     bool has_passed(const FittedProblem &problem, bool inner, unsigned int ray,
                     double time, const dealii::Vector<double> &u) const;
     bool is_held_beyond(const FittedProblem &problem, bool inner, double time) const;

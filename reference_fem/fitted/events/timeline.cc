@@ -64,6 +64,18 @@ namespace meltfront::reference_fem::fitted
       return result;
     }
 
+    /** Take the steps until one is not to be followed by another, which may be the last
+     * of its range. */
+    void advance(Integrator &integrator, const std::vector<StepRange> &ranges,
+                 const Integrator::AfterStep &after_step)
+    {
+      bool goes_on = true;
+      const auto watched
+          = [&](const AcceptedStep &step) { return goes_on = after_step(step); };
+      for(auto range = ranges.begin(); goes_on && range != ranges.end(); ++range)
+        integrator.advance_to(range->end, range->step * (1 + 1e-9), watched);
+    }
+
     void add(const IntegrationCost &cost, IntegrationCost &total)
     {
       total.halved += cost.halved;
@@ -169,9 +181,7 @@ namespace meltfront::reference_fem::fitted
       before = {step.clock, step.u, 0};
       return true;
     };
-    for(const StepRange &range : ranges)
-      if(!integrator.advance_to(range.end, range.step * (1 + 1e-9), after_step))
-        break;
+    advance(integrator, ranges, after_step);
     return crossing ? cross_wall(stretch, integrator, before, *crossing) : std::nullopt;
   }
 
@@ -207,9 +217,7 @@ namespace meltfront::reference_fem::fitted
                        < steps_ahead * step.size;
       return !arrives;
     };
-    for(const StepRange &range : ranges)
-      if(!integrator.advance_to(range.end, range.step * (1 + 1e-9), after_step))
-        break;
+    advance(integrator, ranges, after_step);
     if(!arrives || !(last.clock < problem.physics().clock.clock(setting.scene.end_time)))
       return std::nullopt;
     return approach_end(stretch, ranges, integrator, last);
@@ -236,9 +244,7 @@ namespace meltfront::reference_fem::fitted
         before = step.clock;
         return !crossing && ++tried < early_steps;
       };
-      for(const StepRange &range : ranges)
-        if(!trial.advance_to(range.end, range.step * (1 + 1e-9), after_step))
-          break;
+      advance(trial, ranges, after_step);
       add(trial.cost(), total);
       if(!crossing)
         return finer;
