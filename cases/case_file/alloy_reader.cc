@@ -241,9 +241,12 @@ namespace meltfront::cases
                               const PhaseDiagram &diagram, double lowest, double first,
                               double second)
     {
-      constexpr double infinity = std::numeric_limits<double>::infinity();
-      const double temperature
-          = std::max(lowest, std::nextafter(scene.alloy->eutectic_temperature, infinity));
+      const double eutectic = scene.alloy->eutectic_temperature;
+      // Just above it: by more than what subtracting the melting temperature rounds off.
+      const double margin = std::isfinite(eutectic)
+                                ? 1e-9 * (scene.material.melting_temperature - eutectic)
+                                : 0;
+      const double temperature = std::max(lowest, eutectic + margin);
       if(!std::isfinite(temperature) || first + second == 0)
         return;
       try

@@ -266,7 +266,7 @@ TEST(App, CrosscheckRunsRandomScenesAndTakesUpWhereItStopped)
   const TemporaryDirectory directory;
   const std::string out = " --out " + directory.path().string();
   const Outcome outcome
-      = run_program("crosscheck --scenes 20 --seed 1 --dimension 1" + out);
+      = run_program("crosscheck --scenes 20 --seed 1 --dimension 1 --within 3" + out);
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   const nlohmann::json summary = read_json(directory.path() / "summary.json");
   EXPECT_EQ(summary.at("scenes"), 20);
@@ -282,7 +282,7 @@ TEST(App, CrosscheckRunsRandomScenesAndTakesUpWhereItStopped)
       + " --method fem-enthalpy --n 20 --out " + (directory.path() / "run").string());
   EXPECT_EQ(run.status, 0) << run.output;
   const Outcome again
-      = run_program("crosscheck --scenes 20 --seed 1 --dimension 1" + out);
+      = run_program("crosscheck --scenes 20 --seed 1 --dimension 1 --within 3" + out);
   expect_text(again, "20 runs were finished before and are kept");
   EXPECT_EQ(read_json(directory.path() / "summary.json"), summary);
 }

@@ -39,7 +39,7 @@ namespace meltfront::verification
       SceneDraft make()
       {
         if(problem == Problem::alloy)
-          substance.liquid_density = substance.solid_density;
+          make_alloy_of_substance();
         if(problem == Problem::steady)
           draft.set("Scene", "problem", "poisson");
         choose_domain();
@@ -61,6 +61,18 @@ namespace meltfront::verification
       bool changes_phase() const
       {
         return problem == Problem::pure || problem == Problem::alloy;
+      }
+
+      /** An alloy has one density, and heat of melting down to its coldest mush, which is
+       * less than 20 scales below the melting point. */
+      void make_alloy_of_substance()
+      {
+        substance.liquid_density = substance.solid_density;
+        const double loss
+            = 20 * substance.temperature_scale
+              * std::abs(substance.liquid_capacity - substance.solid_capacity);
+        if(loss > substance.latent_heat / 2)
+          substance.liquid_capacity = substance.solid_capacity;
       }
 
       bool round() const
