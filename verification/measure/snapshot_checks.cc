@@ -33,6 +33,9 @@ namespace meltfront::verification
     /** Relative to what enters and leaves: sums over many steps. */
     constexpr double integral_of_round_off = 1e-6;
 
+    /** Spacings: at two walls and on both sides of a front. */
+    constexpr double layers_unaccounted_for = 4;
+
     /** Share of the domain in a layer half a spacing thick along its walls. */
     double layer_of_walls(const cases::Scene &scene, double spacing)
     {
@@ -83,6 +86,7 @@ namespace meltfront::verification
     , entries{{.name = "phase against temperature"},
               {.name = "maximum principle"},
               {.name = "heat of sites"},
+              {.name = "heat balance"},
               {.name = "heat of walls",
                .bound = given.walls_vary ? spacing / scene.domain.side()
                                          : integral_of_round_off},
@@ -99,7 +103,8 @@ namespace meltfront::verification
     entries[heat_of_walls].reason = given.unknown_walls;
     entries[heat_of_sources].reason = given.unknown_sources;
     if(scene.problem == cases::ProblemKind::poisson)
-      entries[heat_of_sites_].reason = "a steady state stores nothing";
+      entries[heat_of_sites_].reason = entries[balance].reason
+          = "a steady state stores nothing";
   }
 
   const cases::TemperatureBounds &SnapshotChecks::bounds() const
@@ -280,7 +285,7 @@ namespace meltfront::verification
   {
     if(!snapshot.heat.booked)
     {
-      for(const Kind kind : {heat_of_sites_, heat_of_walls, heat_of_sources})
+      for(const Kind kind : {heat_of_sites_, balance, heat_of_walls, heat_of_sources})
         if(entries[kind].reason.empty())
           entries[kind].reason = "the method books no heat";
       return;
@@ -309,6 +314,43 @@ namespace meltfront::verification
             given.gross_walls());
     compare(heat_of_sources, snapshot.heat.sources, given.from_sources(snapshot.time),
             given.gross_sources());
+    judge_balance(snapshot);
+  }
+
+  /** What a layer of the domain one spacing thick, out of all of it, takes up between
+   * the coldest and the warmest state seen. */
+  double SnapshotChecks::heat_of_layer(const cases::Snapshot &snapshot) const
+  {
+    const cases::Material &material = scene.material;
+    const double capacity = std::max(material.solid.volumetric_heat_capacity(),
+                                     material.liquid.volumetric_heat_capacity());
+    double volume = 0;
+    for(const double weight : snapshot.weights)
+      volume += weight;
+    return volume * spacing / scene.domain.side()
+           * (capacity * span() + material.solid.density * material.latent_heat);
+  }
+
+  void SnapshotChecks::judge_balance(const cases::Snapshot &snapshot)
+  {
+    if(!entries[balance].reason.empty())
+      return;
+    const cases::HeatBudget &heat = snapshot.heat;
+    const double imbalance = std::abs(heat.stored + heat.latent - heat.initial
+                                      - heat.boundary - heat.sources);
+    largest_term = std::max({largest_term, std::abs(heat.stored) + std::abs(heat.latent),
+                             std::abs(heat.initial), std::abs(heat.boundary),
+                             std::abs(heat.sources)});
+    const bool conserves = snapshot.obeys_maximum_principle && !tracks_front;
+    const double share = layers_unaccounted_for * spacing / scene.domain.side();
+    entries[balance].bound = conserves ? integral_of_round_off : share;
+    const double scale = largest_term + (conserves ? 0 : heat_of_layer(snapshot) / share);
+    if(!add(balance, imbalance == 0 ? 0 : imbalance / scale))
+      end_run(
+          snapshot, "heat balance",
+          fmt::format("leaves {:.6g} unaccounted for, {:.3g} of the heat at hand, more "
+                      "than {:.3g}",
+                      imbalance, imbalance / scale, entries[balance].bound));
   }
 
   void SnapshotChecks::judge_front(const cases::Snapshot &snapshot)

@@ -32,6 +32,12 @@ namespace meltfront::verification
    * sites hold (SiteHeat); round-off, but where a tracked front or a curved wall cuts the
    * volumes of sites: what a layer half a spacing thick along all walls is of the domain;
    *
+   * heat balance: what the book's terms leave over, in relation to the largest of them so
+   * far; round-off, but for a method that tracks its front or overshoots: there a layer
+   * of one spacing at all walls and on both sides of the front, 4 h / side, may be
+   * unaccounted for, and of the heat that the whole domain can take up a layer of one
+   * spacing, h / side, while little has been exchanged;
+   *
    * heat of walls, heat of sources: how far the book's terms are off GivenHeat, over what
    * enters and leaves in the whole run;
    *
@@ -77,6 +83,7 @@ namespace meltfront::verification
       phase,
       principle,
       heat_of_sites_,
+      balance,
       heat_of_walls,
       heat_of_sources,
       front,
@@ -96,6 +103,8 @@ namespace meltfront::verification
     void judge_principle(const cases::Snapshot &snapshot);
     void judge_phase(const cases::Snapshot &snapshot);
     void judge_heat(const cases::Snapshot &snapshot);
+    void judge_balance(const cases::Snapshot &snapshot);
+    double heat_of_layer(const cases::Snapshot &snapshot) const;
     void judge_front(const cases::Snapshot &snapshot);
     bool add(Kind kind, double value);
     [[noreturn]] void end_run(const cases::Snapshot &snapshot,
@@ -113,7 +122,8 @@ namespace meltfront::verification
     GivenHeat given;
     cases::TemperatureBounds principle_bounds;
     double lowest_seen, highest_seen;
-    double capillary_shift; ///< largest plausible one (K)
+    double largest_term = 0; ///< of the heat budget so far
+    double capillary_shift;  ///< largest plausible one (K)
     bool tracks_front = false;
     std::vector<Entry> entries;
   };

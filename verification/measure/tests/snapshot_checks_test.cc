@@ -230,6 +230,28 @@ namespace meltfront::verification
       EXPECT_TRUE(says(judged(scene, state.view(1, 0.5)), "heat of sources is 0.1"));
     }
 
+    TEST(SnapshotChecks, FindHeatThatIsUnaccountedFor)
+    {
+      // Liquid at rest that a method booked a third of its heat into from nowhere.
+      cases::Scene scene = tests::scene_of(DomainShape::slab, 1, cases::Symmetry::planar);
+      tests::State state = state_with(-0.5);
+      state.temperature.assign(n, 1);
+      state.book(1);
+      cases::HeatBudget &heat = state.snapshot.heat;
+      const double content = heat.stored + heat.latent;
+      heat.initial = content;
+      heat.boundary = heat.sources = 0;
+      EXPECT_EQ(judged(scene, state.view(1, 0.5)), "");
+      heat.initial = content * 2 / 3;
+      EXPECT_TRUE(says(judged(scene, state.view(1, 0.5)), "heat balance leaves"));
+      // A method of high order may be off by some layers of one spacing.
+      state.snapshot.obeys_maximum_principle = false;
+      heat.initial = content * (1 - 2 * spacing);
+      EXPECT_EQ(judged(scene, state.view(1, 0.5)), "");
+      heat.initial = content * 2 / 3;
+      EXPECT_TRUE(says(judged(scene, state.view(1, 0.5)), "heat balance leaves"));
+    }
+
     TEST(SnapshotChecks, FindAFrontWhereNoPhaseChangesAndOneThatIsMissing)
     {
       const cases::Scene scene = freezing_slab();
