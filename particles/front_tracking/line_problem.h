@@ -18,10 +18,10 @@ namespace meltfront::particles::front_tracking
     cases::BoundaryKind kind = cases::BoundaryKind::insulated;
     /** Temperature, heat flux into the domain (W/m^2) or ambient temperature; where it
      * jumps, what it comes from. */
-    std::function<double(double time)> value;
-    std::function<double(double time)> value_after; ///< what it jumps to
-    /** The mean over a time of a flux that varies, else empty. */
-    std::function<double(double begin, double end)> mean_flux;
+    std::function<double(double time)> value{};
+    std::function<double(double time)> value_after{}; ///< what it jumps to
+    /** The mean over a time of a flux, else empty. */
+    std::function<double(double begin, double end)> mean_flux{};
     double transfer = 0; ///< of BoundaryKind::heat_transfer, W/(m^2 K)
 
     bool fixed() const

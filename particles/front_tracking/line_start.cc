@@ -42,7 +42,7 @@ namespace meltfront::particles::front_tracking
       wall.value = value_at(-beside);
       wall.value_after = value_at(beside);
       const cases::TimeMean mean(boundary.value);
-      if(wall.kind == BoundaryKind::flux && !mean.steady())
+      if(wall.kind == BoundaryKind::flux)
         wall.mean_flux = [mean, x](double begin, double end)
         { return mean(position_on_line(x), begin, end); };
       return wall;

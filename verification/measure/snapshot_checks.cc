@@ -30,6 +30,10 @@ namespace meltfront::verification
     /** Relative to the heat at hand: what is summed in another order. */
     constexpr double sum_of_round_off = 1e-9;
 
+    /** The same of an alloy: crystals and liquid of a site differ a little in
+     * temperature, and the site has the mean of both. */
+    constexpr double site_of_two_temperatures = 1e-4;
+
     /** Relative to what enters and leaves: sums over many steps. */
     constexpr double integral_of_round_off = 1e-6;
 
@@ -128,8 +132,9 @@ namespace meltfront::verification
     // A tracked front cuts the volumes of sites, and so does a curved wall.
     const bool sites_are_cut
         = tracks_front || scene.domain.round() || scene.domain.outline;
-    entries[heat_of_sites_].bound
-        = sites_are_cut ? layer_of_walls(scene, spacing) : sum_of_round_off;
+    entries[heat_of_sites_].bound = sites_are_cut ? layer_of_walls(scene, spacing)
+                                    : scene.alloy ? site_of_two_temperatures
+                                                  : sum_of_round_off;
     judge_principle(snapshot);
     judge_phase(snapshot);
     judge_heat(snapshot);

@@ -90,10 +90,12 @@ namespace meltfront::particles::front_tracking
     {
       // The solid lets q = 2 (430 - 380)/(1 - X) through; so must the wall.
       LineProblem problem = held_slab(bar_material(), 30);
-      problem.walls[0] = {cases::BoundaryKind::flux, [](double) { return 160.; }, 0};
+      problem.walls[0] = {.kind = cases::BoundaryKind::flux,
+                          .value = [](double) { return 160.; }};
       EXPECT_NEAR(resting_front(problem), 1 - 100. / 160, 1e-7);
-      problem.walls[0]
-          = {cases::BoundaryKind::heat_transfer, [](double) { return 550.; }, 2.};
+      problem.walls[0] = {.kind = cases::BoundaryKind::heat_transfer,
+                          .value = [](double) { return 550.; },
+                          .transfer = 2.};
       // 2 (550 - T) = (T - 430)/X = 100/(1 - X).
       const double front = resting_front(problem);
       const double wall = 430 + 100 * front / (1 - front);
