@@ -66,6 +66,15 @@ namespace meltfront::cases
       return numbers;
     }
 
+    /** A field whose words name no variable at all, and that is not constant, was made
+     * otherwise: it may depend on any. */
+    bool depends(const Field &field, const std::string &variable)
+    {
+      return !field.constant
+             && (may_depend_on(field.expression, variable)
+                 || !may_depend_on(field.expression, "xyzt"));
+    }
+
     bool in_round(const Domain &domain, const Position &p)
     {
       const double squared = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
@@ -128,9 +137,8 @@ namespace meltfront::cases
     for(int d = 0; d < domain.dimension; ++d)
     {
       const std::string variable(1, "xyz"[d]);
-      matters[d] = std::ranges::any_of(
-          fields, [&](const Field *field)
-          { return !field->constant && may_depend_on(field->expression, variable); });
+      matters[d] = std::ranges::any_of(fields, [&](const Field *field)
+                                       { return depends(*field, variable); });
       directions += matters[d];
     }
     const bool tells_inside = domain.round() || domain.outline;

@@ -41,7 +41,8 @@ namespace meltfront::cases
                       [&](const Position &p)
                       {
                         values.emplace_back(front(p), excess(p));
-                        largest = std::fmax(largest, std::abs(values.back().second));
+                        if(std::isfinite(values.back().second))
+                          largest = std::max(largest, std::abs(values.back().second));
                       });
         for(const auto &[front, excess] : values)
           found[static_cast<std::size_t>(phase(front, excess))] = true;
@@ -101,7 +102,7 @@ namespace meltfront::cases
       {
         const double value = scene.initial.temperature(p, scene.start_time)
                              - scene.material.melting_temperature;
-        return std::isfinite(value) ? value : 0;
+        return std::isnan(value) ? 0 : value;
       }
 
       const Scene &scene;

@@ -16,7 +16,8 @@ namespace meltfront::particles
 
     cases::Capabilities capabilities_of(std::vector<Effect> effects,
                                         std::vector<BoundaryKind> round_walls,
-                                        std::vector<FrontOrigin> of_pure_substances)
+                                        std::vector<FrontOrigin> of_pure_substances,
+                                        int most_threads)
     {
       std::vector<BoundaryKind> walls = round_walls;
       walls.push_back(BoundaryKind::periodic);
@@ -28,7 +29,7 @@ namespace meltfront::particles
                          {DomainShape::ball, {2, 3}, std::move(round_walls)},
                          {DomainShape::outline, {2}, {BoundaryKind::insulated}}},
               .front_origins = std::move(of_pure_substances),
-              .most_threads = cases::any_number_of_threads};
+              .most_threads = most_threads};
     }
 
     class MixtureMethod : public cases::Method
@@ -55,7 +56,8 @@ namespace meltfront::particles
             {BoundaryKind::insulated, BoundaryKind::fixed_temperature,
              BoundaryKind::flux},
             {FrontOrigin::none, FrontOrigin::initial_front, FrontOrigin::partly_melted,
-             FrontOrigin::wall, FrontOrigin::source})};
+             FrontOrigin::wall, FrontOrigin::source},
+            cases::any_number_of_threads)};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -114,7 +116,7 @@ namespace meltfront::particles
           effects.push_back(Effect::eutectic);
         return {capabilities_of(
             std::move(effects),
-            {BoundaryKind::insulated, BoundaryKind::fixed_temperature}, {})};
+            {BoundaryKind::insulated, BoundaryKind::fixed_temperature}, {}, 1)};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

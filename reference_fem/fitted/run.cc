@@ -36,6 +36,7 @@ namespace meltfront::reference_fem::fitted
       const Stretch stretch = one_phase_stretch({scene, effects, options, rays});
       problem = stretch.problem;
       initial_state = stretch.state;
+      refuse_start_at_melting_wall();
     }
     else
     {
@@ -54,6 +55,34 @@ namespace meltfront::reference_fem::fitted
     const HeatContent heat = problem->heat(scene.start_time, initial_state);
     initial_heat = heat.sensible + heat.latent;
     sites = std::make_unique<Sites>(*problem);
+  }
+
+  /** The layer of a front that sets out at once has no law that this method starts from.
+   */
+  void FittedRun::refuse_start_at_melting_wall() const
+  {
+    using cases::BoundaryKind;
+    constexpr double round_off = 1e-12;
+    const Physics &physics = problem->physics();
+    const RayMesh &mesh = problem->mesh();
+    for(const bool inner : {true, false})
+    {
+      const cases::Boundary &wall = inner ? physics.inner_wall : physics.outer_wall;
+      if(wall.kind != BoundaryKind::flux && wall.kind != BoundaryKind::heat_transfer)
+        continue;
+      const double excess
+          = problem->wall_excess(inner, 0, scene.start_time, initial_state);
+      const double flux
+          = flux_through(wall, mesh.position(0, inner ? mesh.inner : mesh.outer),
+                         scene.start_time, physics.melting_temperature + excess)
+                .value;
+      if(std::abs(excess) <= round_off * physics.temperature_scale
+         && (physics.phases[0].solid ? flux > 0 : flux < 0))
+        throw cases::Refusal(fmt::format("{} cannot start a front at a wall that is at "
+                                         "the melting temperature already "
+                                         "and {} heat",
+                                         method_name, flux > 0 ? "takes up" : "loses"));
+    }
   }
 
   IntegrationOptions FittedRun::integration_options() const

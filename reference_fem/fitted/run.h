@@ -26,6 +26,7 @@ namespace meltfront::reference_fem::fitted
 
   private:
     cases::RunDescription description() const;
+    void refuse_start_at_melting_wall() const;
     IntegrationOptions integration_options() const;
     void enter(const Stretch &stretch, cases::Observer &observer);
     IntegrationCost integrate(cases::Observer &observer);

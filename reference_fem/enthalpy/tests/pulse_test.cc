@@ -33,7 +33,7 @@ namespace meltfront::reference_fem::tests
                                                        {0.09996, 0.10006}};
     const std::vector<OptionTexts> schemes{
         {{"steps", "200"}, {"time_scheme", "bdf2"}},
-        {{"steps", "200"}, {"time_scheme", "backward-euler"}}};
+        {{"steps", "200"}, {"time_scheme", "backward_euler"}}};
 
     TEST(Pulse, OfFluxBringsItsEnergy)
     {

@@ -8,6 +8,7 @@
 #include <verification/app/tests/claims/conduction.h>
 #include <verification/app/tests/claims/fronts.h>
 #include <verification/app/tests/claims/motion.h>
+#include <verification/app/tests/claims/not_shown.h>
 #include <verification/app/tests/claims/tolerances.h>
 
 #include <fmt/format.h>
@@ -297,14 +298,39 @@ namespace meltfront::verification::claims
       return result;
     }
 
+    /** Stands for a claim that is not shown yet. */
+    class SkippedClaim : public testing::Test
+    {
+    public:
+      explicit SkippedClaim(std::string reason)
+        : reason(std::move(reason))
+      {
+      }
+
+      void TestBody() override
+      {
+        GTEST_SKIP() << reason;
+      }
+
+    private:
+      std::string reason;
+    };
+
     template <typename Test, typename... Arguments>
-    void add(const Form &form, const std::string &suite, const std::string &name,
+    void add(const Form &form, const std::string &suite, const std::string &claim,
              const Arguments &...arguments)
     {
-      testing::RegisterTest(
-          suite.c_str(), (identifier(form.name()) + "_" + identifier(name)).c_str(),
-          nullptr, nullptr, __FILE__, __LINE__,
-          [=]() -> testing::Test * { return new Test(form, arguments...); });
+      const std::string name = identifier(form.name()) + "_" + identifier(claim);
+      const auto open = not_shown.find(suite + "." + name);
+      const std::string reason = open == not_shown.end() ? "" : open->second;
+      testing::RegisterTest(suite.c_str(), name.c_str(), nullptr, nullptr, __FILE__,
+                            __LINE__,
+                            [=]() -> testing::Test *
+                            {
+                              if(reason.empty())
+                                return new Test(form, arguments...);
+                              return new SkippedClaim(reason);
+                            });
     }
 
     void add_tests(const Form &form)

@@ -118,8 +118,10 @@ namespace meltfront::verification
       drive(observer, 100, exact_front, 1,
             [](State &state, int step)
             {
-              if(step == 100)
-                state.temperature[10] += 0.05;
+              if(step != 100)
+                return;
+              state.temperature[10] += 0.05;
+              state.book(state.snapshot.heat.initial);
             });
       // |T_exact - T_m| reaches 0.49 at the last cell.
       EXPECT_NEAR(observer.quantities().at("temperature_max"), 0.05 / 0.49, 1e-12);
@@ -250,7 +252,13 @@ namespace meltfront::verification
       EXPECT_EQ(failing_step(
                     at_step_30([](State &s) { s.snapshot.heat.stored = std::nan(""); })),
                 30);
-      EXPECT_EQ(failing_step(at_step_30([](State &s) { s.temperature[3] = -0.5; })), -1);
+      EXPECT_EQ(failing_step(at_step_30(
+                    [](State &s)
+                    {
+                      s.temperature[3] = -0.5;
+                      s.book(s.snapshot.heat.initial);
+                    })),
+                -1);
     }
 
     TEST(RunObserver, KeepsTheWorstBudget)
