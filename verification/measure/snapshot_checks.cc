@@ -40,13 +40,14 @@ namespace meltfront::verification
     /** Spacings: at two walls and on both sides of a front. */
     constexpr double layers_unaccounted_for = 4;
 
-    /** Share of the domain in a layer half a spacing thick along its walls. */
+    /** Share of the domain in a layer one spacing thick along its walls: as much may lie
+     * between a curved wall and the volumes of the sites at it. */
     double layer_of_walls(const cases::Scene &scene, double spacing)
     {
       double area = 0;
       for(const cases::Side side : scene.sides())
         area += area_of(scene.domain, side);
-      return 0.5 * spacing * area / volume_of(scene.domain);
+      return spacing * area / volume_of(scene.domain);
     }
 
     std::string place_text(const cases::Position &place, int dimension)

@@ -30,7 +30,7 @@ namespace meltfront::verification
    *
    * heat of sites: how far stored and latent heat of the method's book are off what its
    * sites hold (SiteHeat); round-off, but where a tracked front or a curved wall cuts the
-   * volumes of sites: what a layer half a spacing thick along all walls is of the domain;
+   * volumes of sites: what a layer one spacing thick along all walls is of the domain;
    *
    * heat balance: what the book's terms leave over, in relation to the largest of them so
    * far; round-off, but for a method that tracks its front or overshoots: there a layer
