@@ -32,7 +32,7 @@ namespace meltfront::verification
 
     /** The same of an alloy: crystals and liquid of a site differ a little in
      * temperature, and the site has the mean of both. */
-    constexpr double site_of_two_temperatures = 1e-4;
+    constexpr double site_of_two_temperatures = 1e-3;
 
     /** Relative to what enters and leaves: sums over many steps. */
     constexpr double integral_of_round_off = 1e-6;
@@ -349,7 +349,9 @@ namespace meltfront::verification
                              std::abs(heat.sources)});
     const bool conserves = snapshot.obeys_maximum_principle && !tracks_front;
     const double share = layers_unaccounted_for * spacing / scene.domain.side();
-    entries[balance].bound = conserves ? integral_of_round_off : share;
+    entries[balance].bound = !conserves    ? share
+                             : scene.alloy ? site_of_two_temperatures
+                                           : integral_of_round_off;
     const double scale = largest_term + (conserves ? 0 : heat_of_layer(snapshot) / share);
     if(!add(balance, imbalance == 0 ? 0 : imbalance / scale))
       end_run(
