@@ -34,6 +34,9 @@ namespace meltfront::verification
      * temperature, and the site has the mean of both. */
     constexpr double site_of_two_temperatures = 1e-3;
 
+    /** And the published exchange between them loses some thousandths of the heat. */
+    constexpr double exchange_of_populations = 1e-2;
+
     /** Relative to what enters and leaves: sums over many steps. */
     constexpr double integral_of_round_off = 1e-6;
 
@@ -350,7 +353,7 @@ namespace meltfront::verification
     const bool conserves = snapshot.obeys_maximum_principle && !tracks_front;
     const double share = layers_unaccounted_for * spacing / scene.domain.side();
     entries[balance].bound = !conserves    ? share
-                             : scene.alloy ? site_of_two_temperatures
+                             : scene.alloy ? exchange_of_populations
                                            : integral_of_round_off;
     const double scale = largest_term + (conserves ? 0 : heat_of_layer(snapshot) / share);
     if(!add(balance, imbalance == 0 ? 0 : imbalance / scale))
