@@ -1,4 +1,5 @@
-// What g++ 12.2 miscompiles at -O3 with AVX-512: the last two of `f` come out as 0.5. Exits with 0 if they are right.
+// What g++ 12.2 miscompiles at -O3 with AVX-512: the last two of `f` come out as 0.5.
+// Exits with 0 if they are right.
 #include <array>
 #include <vector>
 

@@ -2,8 +2,8 @@
 int main()
 {
   __builtin_cpu_init();
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi")
-                 && __builtin_cpu_supports("bmi2")
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")
+                 && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2")
              ? 0
              : 1;
 }

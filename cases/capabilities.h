@@ -70,7 +70,7 @@ namespace meltfront::cases
     std::vector<Effect> effects{};
     std::vector<ShapeCapability> shapes{};
     std::vector<FrontOrigin> front_origins{}; ///< of scenes that conduct heat
-    int most_fronts = 0;                    ///< 0: any number
+    int most_fronts = 0;                      ///< 0: any number
     int most_threads = 1;
     Overshoot overshoot{};
 

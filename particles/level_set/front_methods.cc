@@ -301,9 +301,7 @@ namespace meltfront::particles
                  .problems = {cases::ProblemKind::interface_advection},
                  .effects = {},
                  .shapes
-                 = {{cases::DomainShape::box,
-                     {2, 3},
-                     {cases::BoundaryKind::insulated}}},
+                 = {{cases::DomainShape::box, {2, 3}, {cases::BoundaryKind::insulated}}},
                  .front_origins = {},
                  .most_threads = cases::any_number_of_threads}};
       }

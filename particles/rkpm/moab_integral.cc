@@ -112,8 +112,8 @@ namespace meltfront::particles
         return linear_demand(
             scene, resolution,
             {.nodes = cases::lattice_points(scene.domain, dimension, resolution.n),
-             .entries = cases::points_within(
-                 dimension, read_parameters(scene, resolution).dilation),
+             .entries = cases::points_within(dimension,
+                                             read_parameters(scene, resolution).dilation),
              .matrices = 8,
              .per_node = 500});
       }

@@ -36,7 +36,8 @@ namespace meltfront::particles
     int dimension = 2;      ///< of space: what `automatic` goes by
   };
 
-  /** The method that `automatic` stands for with so many unknowns; others as asked for. */
+  /** The method that `automatic` stands for with so many unknowns; others as asked for.
+   */
   LinearMethod chosen_method(std::size_t unknowns,
                              const LinearSolverParameters &parameters);
 

@@ -5,8 +5,8 @@
 
 namespace meltfront::verification
 {
-  /** What each method takes, as a table methods x effects and a paragraph for each form of
-   * a method: kinds of problem, shapes with their walls, how fronts begin, threads. */
+  /** What each method takes, as a table methods x effects and a paragraph for each form
+   * of a method: kinds of problem, shapes with their walls, how fronts begin, threads. */
   std::string capability_text();
 
   /**

@@ -90,8 +90,8 @@ namespace meltfront::particles::front_tracking
     {
       // The solid lets q = 2 (430 - 380)/(1 - X) through; so must the wall.
       LineProblem problem = held_slab(bar_material(), 30);
-      problem.walls[0] = {.kind = cases::BoundaryKind::flux,
-                          .value = [](double) { return 160.; }};
+      problem.walls[0]
+          = {.kind = cases::BoundaryKind::flux, .value = [](double) { return 160.; }};
       EXPECT_NEAR(resting_front(problem), 1 - 100. / 160, 1e-7);
       problem.walls[0] = {.kind = cases::BoundaryKind::heat_transfer,
                           .value = [](double) { return 550.; },
