@@ -168,6 +168,12 @@ namespace meltfront::verification
       record.status = RunStatus::refused;
       record.message = refusal.what();
     }
+    // An n or an option that does not go with the scene: the method declines it too.
+    catch(const cases::InputError &error)
+    {
+      record.status = RunStatus::refused;
+      record.message = fmt::format("{}: {}", method.name(), error.what());
+    }
     catch(const std::bad_alloc &error)
     {
       record.status = RunStatus::failed;
