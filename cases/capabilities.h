@@ -73,6 +73,7 @@ namespace meltfront::cases
     int most_fronts = 0;                      ///< 0: any number
     int most_threads = 1;
     Overshoot overshoot{};
+    bool conserves_heat = true; ///< up to round-off, whatever the spacing
 
     bool takes(Effect effect) const;
     bool takes(FrontOrigin origin) const;

@@ -69,7 +69,11 @@ namespace meltfront::particles::front_tracking
       const double x = side == 0 ? problem.nodes.front() : problem.nodes.back();
       if(side == 0 && problem.axis)
         continue;
-      double flux = problem.walls[side].mean_flux ? 0 : state.wall_flux[side];
+      // What is given is booked as given, not by a slope that meets it in the limit.
+      const cases::BoundaryKind kind = problem.walls[side].kind;
+      const bool given
+          = kind == cases::BoundaryKind::insulated || problem.walls[side].mean_flux;
+      double flux = given ? 0 : state.wall_flux[side];
       const bool solid = state.solid(side == 0 ? 0 : state.n_intervals() - 1);
       if(!state.fronts.empty() && problem.displacement(solid) != 0)
       {

@@ -33,7 +33,8 @@ namespace meltfront::particles
                          {DomainShape::ball, {2, 3}, walls},
                          {DomainShape::shell, {2, 3}, walls}},
               .front_origins = {FrontOrigin::initial_front, FrontOrigin::wall},
-              .overshoot = overshoot_along_line};
+              .overshoot = overshoot_along_line,
+              .conserves_heat = false};
     }
 
     cases::Capabilities in_plane()
@@ -51,7 +52,8 @@ namespace meltfront::particles
                          {DomainShape::outline, {2}, walls}},
               .front_origins = {FrontOrigin::initial_front, FrontOrigin::source},
               .most_threads = cases::any_number_of_threads,
-              .overshoot = overshoot_in_plane};
+              .overshoot = overshoot_in_plane,
+              .conserves_heat = false};
     }
 
     /** What a run takes: nodes with the stencils about them and, in the plane, the

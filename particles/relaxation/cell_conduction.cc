@@ -173,8 +173,12 @@ namespace meltfront::particles
     HeatInflow result;
     if(scene.heat_release)
       for(std::size_t i = 0; i < nodes.size(); ++i)
-        if(balanced[i] > 0)
-          result.released += given.release(release_point(i), step) * balanced[i];
+      {
+        const double heat = given.release(release_point(i), step) * cells.volumes[i];
+        result.released += heat;
+        // What a cell of fixed temperature releases leaves through its wall.
+        result.through_walls -= fixed[i].fixed ? heat : 0;
+      }
     for(const Contact &contact : contacts)
       result.through_walls
           += contact.conductance

@@ -39,7 +39,8 @@ namespace meltfront::reference_fem
                             {DomainShape::ball, {2}, walls},
                             {DomainShape::shell, {2}, walls}},
                  .front_origins = {FrontOrigin::initial_front, FrontOrigin::source},
-                 .overshoot = cut::overshoot}};
+                 .overshoot = cut::overshoot,
+                 .conserves_heat = false}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

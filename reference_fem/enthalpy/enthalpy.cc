@@ -49,7 +49,8 @@ namespace meltfront::reference_fem
                             {DomainShape::outline, {2}, walls}},
                  .front_origins
                  = {FrontOrigin::none, FrontOrigin::initial_front,
-                    FrontOrigin::partly_melted, FrontOrigin::wall, FrontOrigin::source}}};
+                    FrontOrigin::partly_melted, FrontOrigin::wall, FrontOrigin::source},
+                 .overshoot = overshoot}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_enthalpy_options_h
 
 #include <cases/method.h>
+#include <cases/overshoot.h>
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/linear_solver.h>
 
@@ -9,6 +10,10 @@
 
 namespace meltfront::reference_fem
 {
+  /** Cells along a curve are no rectangles: their matrix is none of the monotone ones that
+   * obey the maximum principle. On meshes of rectangles it is obeyed. */
+  inline constexpr cases::Overshoot overshoot{0.05, 0.5};
+
   /** The options of `fem-enthalpy`. */
   std::vector<cases::OptionDeclaration> enthalpy_options();
 

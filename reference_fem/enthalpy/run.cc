@@ -25,9 +25,6 @@ namespace meltfront::reference_fem
      */
     constexpr double smallest_step = 1e-4;
 
-    /** Without an M-matrix (balls in 2D and 3D) the discrete maximum principle holds only
-     * nearly; with one, up to round-off. Relative to the span of the bounds. */
-    constexpr double slack_without_maximum_principle = 0.01;
   } // namespace
 
   EnthalpyRun::EnthalpyRun(const cases::Scene &scene, const cases::EffectSet &effects,
@@ -44,8 +41,10 @@ namespace meltfront::reference_fem
     const std::unique_ptr<Mesh> geometry
         = make_mesh(scene, options.dimension, resolution.n);
     mesh = geometry->discretize();
-    if(!mesh.conduction.is_monotone())
-      slack = slack_without_maximum_principle;
+    obeys_maximum_principle = mesh.conduction.is_monotone();
+    slack = obeys_maximum_principle
+                ? cases::overshoot_of_round_off
+                : cases::allowed_overshoot(overshoot, mesh.spacing, scene.domain);
     const std::size_t n = mesh.volume.size();
     free.assign(n, 1);
     if(effects.contains(Effect::heat_sources))

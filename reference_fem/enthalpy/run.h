@@ -75,7 +75,8 @@ namespace meltfront::reference_fem
     std::optional<WallTemperature> walls;
     std::optional<WallFlux> flux;
     cases::TemperatureBounds bounds;
-    double slack = 1e-9;
+    bool obeys_maximum_principle; ///< discretely, whatever the spacing
+    double slack; ///< of temperatures, over the span of their bounds
 
     CompensatedVector u, u_accepted, u_before;     ///< by node, W/m
     std::vector<double> enthalpy, enthalpy_before; ///< by node, J/m^3

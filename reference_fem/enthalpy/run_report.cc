@@ -93,6 +93,7 @@ namespace meltfront::reference_fem
     snapshot.temperature = site_temperature;
     snapshot.solid_fraction = site_solid_fraction;
     snapshot.cells = mesh.cells;
+    snapshot.obeys_maximum_principle = obeys_maximum_principle;
     snapshot.heat.latent
         = sum_over(mesh.volume, [this](std::size_t i) { return latent_heat(i); });
     snapshot.heat.stored = sum_over(mesh.volume, [this](std::size_t i)

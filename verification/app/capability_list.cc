@@ -92,7 +92,8 @@ namespace meltfront::verification
           {"most_fronts", form.most_fronts},
           {"most_threads", form.most_threads},
           {"overshoot",
-           {{"at_twenty", form.overshoot.at_twenty}, {"order", form.overshoot.order}}}};
+           {{"at_twenty", form.overshoot.at_twenty}, {"order", form.overshoot.order}}},
+          {"conserves_heat", form.conserves_heat}};
     }
   } // namespace
 

@@ -30,10 +30,12 @@ namespace meltfront::verification
 
   double SiteHeat::difference(const cases::HeatBudget &book) const
   {
-    const double scale
-        = std::max({magnitude, std::abs(book.stored) + std::abs(book.latent),
-                    std::abs(book.initial)});
-    const double off = std::abs(stored - book.stored) + std::abs(latent - book.latent);
-    return scale > 0 ? off / scale : 0;
+    return std::abs(stored - book.stored) + std::abs(latent - book.latent);
+  }
+
+  double SiteHeat::scale(const cases::HeatBudget &book) const
+  {
+    return std::max({magnitude, std::abs(book.stored) + std::abs(book.latent),
+                     std::abs(book.initial)});
   }
 } // namespace meltfront::verification

@@ -14,11 +14,11 @@ namespace meltfront::verification
     double latent = 0;
     double magnitude = 0; ///< of all terms: sum of their absolute values
 
-    /**
-     * How far a method's book of stored and latent heat is off the sites', over the
-     * largest magnitude among both.
-     */
+    /** How far a method's book of stored and latent heat is off the sites'. */
     double difference(const cases::HeatBudget &book) const;
+
+    /** Largest magnitude among both. */
+    double scale(const cases::HeatBudget &book) const;
   };
 
   /**

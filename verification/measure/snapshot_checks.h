@@ -29,13 +29,14 @@ namespace meltfront::verification
    * method declares, or round-off in a snapshot that says that it obeys the principle;
    *
    * heat of sites: how far stored and latent heat of the method's book are off what its
-   * sites hold (SiteHeat); round-off, but where a tracked front or a curved wall cuts the
-   * volumes of sites: what a layer one spacing thick along all walls is of the domain;
+   * sites hold (SiteHeat), in relation to it; where a tracked front or a curved wall cuts
+   * the volumes of sites, in relation to what the domain can take up: at most the share
+   * that a layer one spacing thick along all walls is of it;
    *
    * heat balance: what the book's terms leave over, in relation to the largest of them so
-   * far; round-off, but for a method that tracks its front or overshoots: there a layer
-   * of one spacing at all walls and on both sides of the front, 4 h / side, may be
-   * unaccounted for, and of the heat that the whole domain can take up a layer of one
+   * far; round-off, but for a method that does not declare that it conserves heat: there
+   * a layer of one spacing at all walls and on both sides of the front, 4 h / side, may
+   * be unaccounted for, and of the heat that the whole domain can take up a layer of one
    * spacing, h / side, while little has been exchanged;
    *
    * heat of walls, heat of sources: how far the book's terms are off GivenHeat, over what
@@ -104,7 +105,8 @@ namespace meltfront::verification
     void judge_phase(const cases::Snapshot &snapshot);
     void judge_heat(const cases::Snapshot &snapshot);
     void judge_balance(const cases::Snapshot &snapshot);
-    double heat_of_layer(const cases::Snapshot &snapshot) const;
+    double heat_of_domain(const cases::Snapshot &snapshot) const;
+    bool sites_are_cut() const;
     void judge_front(const cases::Snapshot &snapshot);
     bool add(Kind kind, double value);
     [[noreturn]] void end_run(const cases::Snapshot &snapshot,

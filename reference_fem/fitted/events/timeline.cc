@@ -21,6 +21,10 @@ namespace meltfront::reference_fem::fitted
     /** The share of a ray at which a phase is dropped. */
     constexpr double thinnest = 1e-9;
 
+    /** The same where many rays are followed, of which one arrives before the others: how
+     * a phase breaks up is not simulated. */
+    constexpr double thinnest_of_many = 1e-3;
+
     /** A front is approached that will reach an end within so many steps. */
     constexpr double steps_ahead = 2;
 
@@ -62,6 +66,21 @@ namespace meltfront::reference_fem::fitted
       result.distance = result.to_inner ? h - mesh.inner : mesh.outer - h;
       result.remaining = result.distance / std::max(std::abs(rate), 1e-300);
       return result;
+    }
+
+    /** Whether the front comes so close to an end of a ray that it breaks up there. */
+    bool touches_end(const FittedProblem &problem, const AcceptedStep &step)
+    {
+      const RayMesh &mesh = problem.mesh();
+      const double thin = thinnest_of_many * (mesh.outer - mesh.inner);
+      for(unsigned int ray = 0; ray < mesh.surface.n_rays(); ++ray)
+      {
+        const unsigned int front = mesh.front_node(ray);
+        const double h = step.u[front], rate = step.rate[front];
+        if((rate < 0 && h - mesh.inner < thin) || (rate > 0 && mesh.outer - h < thin))
+          return true;
+      }
+      return false;
     }
 
     /** Take the steps until one is not to be followed by another, which may be the last
@@ -191,8 +210,6 @@ namespace meltfront::reference_fem::fitted
   {
     const FittedProblem &problem = *stretch.problem;
     const unsigned int front = problem.mesh().front_node(0);
-    // In more dimensions no event is followed: a front that reaches an end has turned
-    // an element over.
     const bool followed = setting.options.dimension == 1;
     Point last{integrator.clock(), stretch.state, 0};
     bool arrives = false;
@@ -212,6 +229,11 @@ namespace meltfront::reference_fem::fitted
                       problem.physics().clock.time(crossing->clock));
       accept(stretch, step);
       last = {step.clock, step.u, step.rate[front]};
+      if(!followed && touches_end(problem, step))
+        throw cases::Refusal(fmt::format(
+            "{} follows a front that reaches an end of the domain only along a line "
+            "(symmetry other than none); here it does at t = {:.6g}",
+            options.method, problem.physics().clock.time(step.clock)));
       arrives = followed
                 && approach_of(problem, last.u, last.front_rate).remaining
                        < steps_ahead * step.size;
