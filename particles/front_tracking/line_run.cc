@@ -17,6 +17,9 @@ namespace meltfront::particles::front_tracking
 {
   namespace
   {
+    /** Steps may use up so much of the overshoot that is allowed. */
+    constexpr double overshoot_of_step = 0.25;
+
     /** Steps shorter than this share of the run fail. */
     constexpr double shortest_step_over_run = 1e-13;
     constexpr int scheme_order(TimeScheme scheme)
@@ -99,6 +102,11 @@ namespace meltfront::particles::front_tracking
         result.temperature_span
             = temperature_span(bounds, initial, scene.material.melting_temperature);
         result.shortest_step = shortest_step_over_run * duration;
+        result.bounds = bounds;
+        result.largest_overshoot
+            = overshoot_of_step * result.temperature_span
+              * cases::allowed_overshoot(overshoot_along_line, problem.spacing,
+                                         scene.domain);
         return result;
       }
 

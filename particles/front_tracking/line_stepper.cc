@@ -23,6 +23,9 @@ namespace meltfront::particles::front_tracking
     constexpr double least_excess = 1e-9;
     constexpr double largest_excess = 1e-2;
     constexpr long most_events = 10000;
+    /** A shorter step is taken where it overshoots by less than this share of what the
+     * longer one does: else the cause is not the step. */
+    constexpr double worth_halving = 0.75;
     /** Phases beyond the melting temperature by more than this share of the span are
      * spoken of; walls see to themselves. */
     constexpr double spoken_of = 1e-3;
@@ -30,6 +33,28 @@ namespace meltfront::particles::front_tracking
     const char *name_of(bool solid)
     {
       return solid ? "solid" : "liquid";
+    }
+
+    /** By how much temperatures within the walls are beyond what bounds them, and phases
+     * beyond the melting temperature (K). */
+    double overshoot(const LineProblem &problem, const cases::TemperatureBounds &bounds,
+                     const LineState &state)
+    {
+      const double melting = problem.material.melting_temperature;
+      // Undercooled, or heated throughout, a phase may pass it.
+      const bool stable = !problem.metastable && !problem.heat_release;
+      double most = 0;
+      std::size_t number = 0;
+      for(std::size_t i = 1; i + 1 < problem.nodes.size(); ++i)
+      {
+        while(number < state.fronts.size() && state.fronts[number] <= problem.nodes[i])
+          ++number;
+        const double value = state.temperature[i];
+        most = std::max({most, bounds.lower - value, value - bounds.upper});
+        if(stable)
+          most = std::max(most, state.solid(number) ? value - melting : melting - value);
+      }
+      return most;
     }
   } // namespace
 
@@ -196,6 +221,31 @@ namespace meltfront::particles::front_tracking
     return false;
   }
 
+  double LineStepper::shorten_to_bounds(const std::deque<LineState> &before,
+                                        double time_step)
+  {
+    const double tolerated = std::max(rules.largest_overshoot,
+                                      overshoot(problem, rules.bounds, before.front()));
+    double beyond = overshoot(problem, rules.bounds, state());
+    while(beyond > tolerated && time_step > rules.first_step)
+    {
+      const std::deque<LineState> longer = solver.states();
+      solver.restore(before);
+      const bool solved
+          = solver.step_to(before.front().time + time_step / 2) == StepOutcome::accepted;
+      const double left = overshoot(problem, rules.bounds, state());
+      if(!solved || left > worth_halving * beyond)
+      {
+        solver.restore(longer);
+        break;
+      }
+      ++shortened_steps;
+      time_step /= 2;
+      beyond = left;
+    }
+    return time_step;
+  }
+
   void LineStepper::advance(double target, const std::function<void()> &after_step)
   {
     while(state().time < target)
@@ -218,6 +268,7 @@ namespace meltfront::particles::front_tracking
       next_step = time_step * growth;
       if(pass_wall(before, time_step))
         continue;
+      next_step = std::min(next_step, shorten_to_bounds(before, time_step) * growth);
       ++kept;
       warn_of_thin_layers();
       warn_of_metastable_phases();

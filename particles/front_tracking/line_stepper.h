@@ -5,6 +5,7 @@
 #include <particles/front_tracking/line_solver.h>
 
 #include <functional>
+#include <limits>
 #include <string>
 
 namespace meltfront::particles::front_tracking
@@ -16,6 +17,12 @@ namespace meltfront::particles::front_tracking
     double first_step = 0;       ///< after a start without history and after events (s)
     double temperature_span = 1; ///< that events are found to a share of (K)
     double shortest_step = 0;    ///< a step that must be shorter fails (s)
+    cases::TemperatureBounds bounds{}; ///< of all temperatures (K)
+    /** A step of a formula of high order that is long beside the time in which a phase
+     * evens out overshoots, whatever the spacing: it is made anew with half its length
+     * where temperatures pass their bounds, or a phase its melting temperature, by more
+     * than this and more than before (K). */
+    double largest_overshoot = std::numeric_limits<double>::infinity();
   };
 
   /**
@@ -81,6 +88,7 @@ namespace meltfront::particles::front_tracking
     double choose_end(double target) const;
     void shorten(StepOutcome outcome, double time_step);
     bool pass_wall(const std::deque<LineState> &before, double time_step);
+    double shorten_to_bounds(const std::deque<LineState> &before, double time_step);
     void insert(std::size_t side);
     void insert_where_called_for();
     void remove(std::size_t number);

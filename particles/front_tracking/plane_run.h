@@ -56,6 +56,9 @@ namespace meltfront::particles::front_tracking
     void observe_initial(cases::Observer &observer);
     std::vector<cases::EffectCost> effect_costs() const;
     std::map<std::string, double> evidence() const;
+    double shorten_to_bounds(double step, PlaneState &next);
+    double overshoot(const PlaneState &of) const;
+    double tolerated_overshoot() const;
 
     const cases::Scene &scene;
     const cases::EffectSet &effects;
