@@ -41,6 +41,33 @@ namespace meltfront::verification
     return result;
   }
 
+  namespace
+  {
+    /** Whether the sites on both sides of a point of a line are of different phases,
+     * however far they are. */
+    bool changes_between_neighbours(const cases::Snapshot &snapshot, double x)
+    {
+      double below = -std::numeric_limits<double>::infinity(), above = -below;
+      double fraction_below = 0, fraction_above = 0;
+      for(std::size_t i = 0; i < snapshot.solid_fraction.size(); ++i)
+      {
+        const double place = snapshot.positions[0][i];
+        if(place <= x && place > below)
+        {
+          below = place;
+          fraction_below = snapshot.solid_fraction[i];
+        }
+        if(place > x && place < above)
+        {
+          above = place;
+          fraction_above = snapshot.solid_fraction[i];
+        }
+      }
+      return std::isfinite(below) && std::isfinite(above)
+             && fraction_below != fraction_above;
+    }
+  } // namespace
+
   StrayPoints stray_points(const cases::Domain &domain, const cases::Snapshot &snapshot,
                            double spacing)
   {
@@ -64,6 +91,8 @@ namespace meltfront::verification
                    liquid |= snapshot.solid_fraction[site] < 1;
                  });
       if((solid && liquid) || distance_from_wall(domain, point) <= spacing)
+        continue;
+      if(snapshot.dimension == 1 && changes_between_neighbours(snapshot, point[0]))
         continue;
       if(stray == 0)
         result.first = point;

@@ -7,6 +7,7 @@
 #include <verification/measure/check.h>
 #include <verification/measure/given_heat.h>
 #include <verification/measure/metastable_sites.h>
+#include <verification/measure/site_heat.h>
 
 #include <map>
 #include <optional>
@@ -40,7 +41,8 @@ namespace meltfront::verification
    * spacing, h / side, while little has been exchanged;
    *
    * heat of walls, heat of sources: how far the book's terms are off GivenHeat, over what
-   * enters and leaves in the whole run;
+   * enters and leaves in the whole run; a release in a steady state may also be what the
+   * sites sample of it;
    *
    * front against phases: the share of tracked points beside which no phase changes, 1
    * where a method that tracks its front reports none between two phases; none may be.
@@ -104,8 +106,9 @@ namespace meltfront::verification
     void judge_principle(const cases::Snapshot &snapshot);
     void judge_phase(const cases::Snapshot &snapshot);
     void judge_heat(const cases::Snapshot &snapshot);
-    void judge_balance(const cases::Snapshot &snapshot);
+    void judge_balance(const cases::Snapshot &snapshot, const SiteHeat &held);
     double heat_of_domain(const cases::Snapshot &snapshot) const;
+    double expected_of_sources(const cases::Snapshot &snapshot) const;
     bool sites_are_cut() const;
     void judge_front(const cases::Snapshot &snapshot);
     bool add(Kind kind, double value);

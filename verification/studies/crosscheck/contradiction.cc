@@ -165,6 +165,16 @@ namespace meltfront::verification
     return worst;
   }
 
+  double largest_excess(const std::vector<Comparison> &comparisons)
+  {
+    double largest = 0;
+    for(const Comparison &comparison : comparisons)
+      for(const Statement &one : comparison.statements)
+        for(const Statement &other : comparison.statements)
+          largest = std::max(largest, excess_over(one.estimate, other.estimate));
+    return largest;
+  }
+
   std::map<std::string, double> relative_bars(const std::vector<Comparison> &comparisons)
   {
     std::map<std::string, std::vector<double>> bars;

@@ -58,6 +58,10 @@ namespace meltfront::verification
   std::optional<Contradiction>
   worst_contradiction(const std::vector<Comparison> &comparisons);
 
+  /** The largest difference of two statements of one quantity, over both bars together;
+   * 0 where nothing is compared. */
+  double largest_excess(const std::vector<Comparison> &comparisons);
+
   /** By method, the median of its bars over their scales: what a contradiction must
    * exceed to be seen. */
   std::map<std::string, double> relative_bars(const std::vector<Comparison> &comparisons);

@@ -75,7 +75,7 @@ namespace meltfront::verification
       return estimate;
     }
     const Level &second = coarse_to_fine[levels - 2];
-    estimate.order = 1;
+    estimate.order = lowest_order;
     if(levels > 2)
     {
       const Level &third = coarse_to_fine[levels - 3];

@@ -125,6 +125,7 @@ namespace meltfront::verification
       const std::vector<Comparison> all_of_them = comparisons(runs, c.scene.material);
       verdict.contradiction = worst_contradiction(all_of_them);
       verdict.bars = relative_bars(all_of_them);
+      verdict.closest_call = largest_excess(all_of_them);
     };
     compare();
     for(std::size_t i = base_levels; i < resolutions.size() && verdict.contradiction; ++i)

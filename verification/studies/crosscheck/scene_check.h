@@ -33,6 +33,7 @@ namespace meltfront::verification
     std::vector<Remark> out_of_time;
     std::optional<Contradiction> contradiction;
     std::map<std::string, double> bars; ///< relative_bars()
+    double closest_call = 0;            ///< largest_excess()
   };
 
   /** The resolutions for a scene, coarser in more dimensions: the three at which every

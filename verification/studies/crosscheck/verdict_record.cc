@@ -61,6 +61,7 @@ namespace meltfront::verification
             {"failures", json_of_remarks(verdict.failures)},
             {"out_of_time", json_of_remarks(verdict.out_of_time)},
             {"bars", json_of(verdict.bars)},
+            {"closest_call", json_of(verdict.closest_call)},
             {"contradiction", verdict.contradiction
                                   ? json_of_contradiction(*verdict.contradiction)
                                   : nlohmann::json()}};
@@ -118,6 +119,7 @@ namespace meltfront::verification
   {
     ++scenes;
     ++outcomes[verdict.at("outcome")];
+    closest_call = std::max(closest_call, number_in(verdict.at("closest_call")));
     for(const std::string method : verdict.at("compared"))
       ++compared[method];
     for(const auto &[method, bar] : named_numbers_in(verdict.at("bars")))
@@ -138,7 +140,8 @@ namespace meltfront::verification
   {
     nlohmann::json json{{"scenes", scenes},     {"suspects", suspects},
                         {"failures", failures}, {"out_of_time", out_of_time},
-                        {"refusals", refusals}, {"compared", compared}};
+                        {"refusals", refusals}, {"compared", compared},
+                        {"closest_call", json_of(closest_call)}};
     for(auto [method, list] : bars)
     {
       std::ranges::sort(list);

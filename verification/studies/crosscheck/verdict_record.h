@@ -40,6 +40,7 @@ namespace meltfront::verification
     nlohmann::json failures = nlohmann::json::array();
     nlohmann::json out_of_time = nlohmann::json::array();
     int scenes = 0;
+    double closest_call = 0; ///< largest of the scenes'
   };
 } // namespace meltfront::verification
 
