@@ -34,6 +34,9 @@ namespace meltfront::cases
       // Particles of a solid are where they are.
       if(scene.problem == ProblemKind::particle_solid)
         return {};
+      if(capabilities.needs_symmetry && scene.symmetry == Symmetry::none
+         && scene.domain.dimension > 1)
+        return "needs a scene with a symmetry";
       const auto shape = std::ranges::find(capabilities.shapes, scene.domain.shape,
                                            &ShapeCapability::shape);
       if(shape == capabilities.shapes.end())

@@ -66,6 +66,7 @@ namespace meltfront::cases
   struct Capabilities
   {
     std::string form{}; ///< `along a line`; empty for a method that has one form only
+    bool needs_symmetry = false; ///< simulates the one coordinate of a symmetry alone
     std::vector<ProblemKind> problems{};
     std::vector<Effect> effects{};
     std::vector<ShapeCapability> shapes{};

@@ -114,8 +114,10 @@ namespace meltfront::particles::front_tracking
     LineState changed = state();
     if(!changed.fronts.empty()
        && problem.material.solid.density != problem.material.liquid.density)
-      throw cases::NumericalError(method_name, kept, changed.time, "number of fronts",
-                                  "would be two where the densities differ");
+      throw cases::Refusal(
+          fmt::format("{} follows one front where the densities differ; at t = {:.6g} a "
+                      "second one starts at the {} wall",
+                      method_name, changed.time, side == 0 ? "lower" : "upper"));
     const double thickness = insert_layer(problem, changed, side);
     const bool solid = changed.solid(side == 0 ? 0 : changed.n_intervals() - 1);
     note(changed.time,

@@ -21,6 +21,7 @@ namespace meltfront::reference_fem
     cases::Capabilities along_line()
     {
       return {.form = "along a line",
+              .needs_symmetry = true,
               .problems = {cases::ProblemKind::stefan},
               .effects
               = {Effect::phase_change, Effect::phase_conductivity,

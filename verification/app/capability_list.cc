@@ -85,6 +85,7 @@ namespace meltfront::verification
                           {"walls", words_of(shape.walls)}});
       return {
           {"form", form.form},
+          {"needs_symmetry", form.needs_symmetry},
           {"problems", words_of(form.problems)},
           {"effects", words_of(form.effects)},
           {"shapes", shapes},

@@ -242,9 +242,11 @@ namespace meltfront::reference_fem::fitted
     {
       width += direction * surplus(result.state) / (latent * area);
       if(!(width > 0))
-        throw cases::NumericalError(integration.method, 0, time, "the front",
-                                    "that starts at a wall has no place that balances "
-                                    "the heat; more cells would help");
+        throw cases::Refusal(
+            fmt::format("{} cannot start a front at the wall {} at t = {:.6g}: no place "
+                        "of it balances "
+                        "the heat of its cells there; more cells would help",
+                        integration.method, to_string(side_at(scene, inner)), time));
       result.state = state_with(width);
     }
     result.before = sum_of(past.before, {0, 0, before.walls, before.sources});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace meltfront::verification
@@ -37,6 +38,39 @@ namespace meltfront::verification
       for(int k = 0; k <= degree; ++k)
         result[k] = binomials[degree][k] * std::pow(x, k) * std::pow(1 - x, degree - k);
       return result;
+    }
+
+    /** The coordinate up to which a volume reaches from an inner wall, in the measure of
+     * a symmetry. */
+    double end_of_volume(cases::Symmetry symmetry, double inner, double volume)
+    {
+      using std::numbers::pi;
+      if(symmetry == cases::Symmetry::cylindrical)
+        return std::sqrt(inner * inner + volume / pi);
+      if(symmetry == cases::Symmetry::spherical)
+        return std::cbrt(inner * inner * inner + volume * 3 / (4 * pi));
+      return inner + volume;
+    }
+
+    /** Middles of what sites along one coordinate stand for, one after the other: a site
+     * at a wall or a front is not in the middle of it. */
+    std::vector<double> middles_of(cases::Symmetry symmetry,
+                                   std::span<const double> positions,
+                                   std::span<const double> weights, double lower)
+    {
+      std::vector<std::size_t> order(positions.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::ranges::stable_sort(order, {}, [&](std::size_t i) { return positions[i]; });
+      std::vector<double> middles(positions.size());
+      double volume = 0, begin = lower;
+      for(const std::size_t i : order)
+      {
+        volume += weights[i];
+        const double end = end_of_volume(symmetry, lower, volume);
+        middles[i] = (begin + end) / 2;
+        begin = end;
+      }
+      return middles;
     }
 
     /** Latent and sensible heat per volume at a site, of phases of one density. */
@@ -125,9 +159,11 @@ namespace meltfront::verification
     if(scene.symmetry != cases::Symmetry::none)
     {
       const bool round = domain.round();
-      add_means(snapshot, round ? "r" : "x", coordinates.of(snapshot),
-                round ? domain.inner_radius : domain.lower[0],
-                round ? domain.radius : domain.upper[0]);
+      const double lower = round ? domain.inner_radius : domain.lower[0];
+      add_means(
+          snapshot, round ? "r" : "x",
+          middles_of(scene.symmetry, coordinates.of(snapshot), snapshot.weights, lower),
+          lower, round ? domain.radius : domain.upper[0]);
     }
     else
       for(int d = 0; d < snapshot.dimension; ++d)

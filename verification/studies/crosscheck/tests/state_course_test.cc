@@ -68,6 +68,29 @@ namespace meltfront::verification
       }
     }
 
+    TEST(CourseObserver, ASiteAtAWallIsReadInTheMiddleOfItsVolume)
+    {
+      const cases::Scene scene
+          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+      CourseObserver observer(scene);
+      for(int k = 0; k <= course_intervals; ++k)
+      {
+        tests::State state;
+        state.positions[0] = {1, 0.5};
+        state.weights = {0.1, 0.9};
+        state.temperature = {0, 0};
+        state.solid_fraction = {1, 0};
+        const double time = k / double(course_intervals);
+        observer.wants(k, time);
+        observer.observe(state.view(1, time));
+      }
+      const auto weight = [](double x) { return 3 * x * x * (1 - x); };
+      const double solid = 0.1 * weight(0.95), liquid = 0.9 * weight(0.45);
+      EXPECT_NEAR(
+          observer.course().quantities.at("solid fraction near x = 2/3").back(),
+          solid / (solid + liquid), 1e-12);
+    }
+
     TEST(CourseObserver, IsKeptAsJson)
     {
       cases::Scene scene
