@@ -80,6 +80,13 @@ namespace meltfront::reference_fem
     }
     if(effects.contains(Effect::phase_conductivity))
       conduction.emplace(mesh.conduction, scene.material, *scene.alloy, composition);
+    else
+    {
+      uniform_conduction = mesh.conduction;
+      uniform_conduction.weigh(mesh.conduction, std::vector<double>(n, 1.),
+                               [k = scene.material.solid.conductivity](double, double)
+                               { return k; });
+    }
     if(std::any_of(substances.begin(), substances.end(),
                    [](const Substance &s) { return s.diffuses(); }))
     {

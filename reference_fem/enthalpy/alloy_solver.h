@@ -79,7 +79,7 @@ namespace meltfront::reference_fem
     /** The stiffness matrix with the conductivities of the last pass. */
     const ConductionMatrix &conduction_matrix() const
     {
-      return conduction ? conduction->matrix() : mesh.conduction;
+      return conduction ? conduction->matrix() : uniform_conduction;
     }
 
     /**
@@ -144,6 +144,7 @@ namespace meltfront::reference_fem
     std::vector<Substance> substances;
     std::vector<Composition> composition;     ///< by node, in use
     std::optional<MushConduction> conduction; ///< where the phases conduct differently
+    ConductionMatrix uniform_conduction;      ///< else
     std::optional<SoluteDiffusion> diffusion;
     std::vector<double> liquid;        ///< mass fraction by node, where solute diffuses
     std::vector<double> supply, fixed; ///< work space of diffusion

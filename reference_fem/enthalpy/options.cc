@@ -67,7 +67,7 @@ namespace meltfront::reference_fem
          0,
          0,
          {"bdf2", "backward_euler"}},
-        {"steps_per_cell", "1", 0.78125,
+        {"steps_per_cell", "1", 2.5,
          "Time steps over the run per cell along the domain's side; at least 50 in all.",
          1e-6, 1e6},
         {"steps", "1", 0L, "Time steps over the run; 0: from steps_per_cell.", 0, 1e9},

@@ -176,6 +176,24 @@ namespace meltfront::verification
       principle_bounds.lower = std::min(principle_bounds.lower, value);
       principle_bounds.upper = std::max(principle_bounds.upper, value);
     }
+    if(scene.alloy)
+      include_liquidus(snapshot);
+  }
+
+  /** Mush from which solute spreads may become colder than anything was, but not colder
+   * than the liquidus of the largest concentration at hand. */
+  void SnapshotChecks::include_liquidus(const cases::Snapshot &snapshot)
+  {
+    if(std::ranges::none_of(scene.alloy->solutes, [](const cases::Solute &solute)
+                            { return solute.diffusivity > 0; }))
+      return;
+    const cases::PhaseDiagram diagram(scene.material, *scene.alloy);
+    const auto &[first, second] = snapshot.concentration;
+    for(std::size_t i = 0; i < snapshot.temperature.size(); ++i)
+      principle_bounds.lower
+          = std::min(principle_bounds.lower,
+                     diagram.liquidus(first.empty() ? 0 : first[i],
+                                      second.empty() ? 0 : second[i]));
   }
 
   double SnapshotChecks::span() const
@@ -189,6 +207,16 @@ namespace meltfront::verification
       highest = std::max(highest, scene.material.melting_temperature);
     }
     return highest - lowest;
+  }
+
+  /** What latent heat is worth (K): a state at rest may be 0 throughout. */
+  double SnapshotChecks::temperature_of_melting() const
+  {
+    const cases::Material &material = scene.material;
+    return scene.changes_phase() ? material.latent_heat
+                                       / std::max(material.solid.specific_heat_capacity,
+                                                  material.liquid.specific_heat_capacity)
+                                 : 0;
   }
 
   bool SnapshotChecks::add(Kind kind, double value)
@@ -223,7 +251,7 @@ namespace meltfront::verification
     // A method that may overshoot solves for temperatures in bases of any condition.
     const double same
         = (snapshot.obeys_maximum_principle ? same_temperature : solved_temperature)
-          * std::max(std::abs(*lowest), std::abs(*highest));
+          * std::max({std::abs(*lowest), std::abs(*highest), temperature_of_melting()});
     const double beyond = std::max(below, above);
     const double value = beyond <= same ? 0 : beyond / span();
     if(add(principle, value))

@@ -103,6 +103,8 @@ namespace meltfront::verification
 
     void require_finite(const cases::Snapshot &snapshot) const;
     void include_initial(const cases::Snapshot &snapshot);
+    void include_liquidus(const cases::Snapshot &snapshot);
+    double temperature_of_melting() const;
     void judge_principle(const cases::Snapshot &snapshot);
     void judge_phase(const cases::Snapshot &snapshot);
     void judge_heat(const cases::Snapshot &snapshot);

@@ -51,14 +51,9 @@ namespace meltfront::verification
         if(changes_phase())
           choose_sources();
         else
-        {
-          choose_release(problem == Problem::steady ? 0.8 : 0.5);
-          choose_inclusion();
-        }
+          choose_release_and_inclusion();
         if(problem == Problem::alloy)
           choose_solute();
-        else if(changes_phase())
-          choose_release(0.12);
         return draft;
       }
 
@@ -420,28 +415,24 @@ namespace meltfront::verification
         }
       }
 
-      void choose_release(double probability)
+      void choose_release_and_inclusion()
       {
-        if(!random.chance(probability))
-          return;
         const double length = substance.length;
-        const double density = random_sign() * substance.solid_conductivity
-                               * substance.temperature_scale / (length * length)
-                               * random.log_uniform(0.5, 20);
-        const Course course = over_time(density, 0);
-        const std::string wave
-            = random.chance(0.5) && symmetry != "cylindrical" && symmetry != "spherical"
-                  ? fmt::format("(1 + 0.5*sin({}*x))*", words(6 / length))
-                  : "";
-        draft.set("Scene/Heat release", "power density",
-                  fmt::format("{}({})", wave, course.expression), course.simpler);
-      }
-
-      void choose_inclusion()
-      {
+        if(random.chance(problem == Problem::steady ? 0.8 : 0.5))
+        {
+          const double density = random_sign() * substance.solid_conductivity
+                                 * substance.temperature_scale / (length * length)
+                                 * random.log_uniform(0.5, 20);
+          const Course course = over_time(density, 0);
+          const std::string wave
+              = random.chance(0.5) && symmetry != "cylindrical" && symmetry != "spherical"
+                    ? fmt::format("(1 + 0.5*sin({}*x))*", words(6 / length))
+                    : "";
+          draft.set("Scene/Heat release", "power density",
+                    fmt::format("{}({})", wave, course.expression), course.simpler);
+        }
         if(!random.chance(0.2))
           return;
-        const double length = substance.length;
         const std::string here = "Scene/Inclusion";
         const std::string middle = words(length * random.uniform(0.3, 0.6));
         const std::string distance
