@@ -67,6 +67,16 @@ namespace meltfront::reference_fem::tests
       EXPECT_GE(fitted_order(n, errors_early), 1.5);
     }
 
+    TEST(AlloyFreezing, ConductivityScalesTime)
+    {
+      Scene one = freezing(91800);
+      one.material.liquid.conductivity = one.material.solid.conductivity = 1;
+      Scene quarter = one;
+      quarter.material.liquid.conductivity = quarter.material.solid.conductivity = 0.25;
+      quarter.end_time *= 4;
+      expect_same(run(one, 60), run(quarter, 60), 1e-9);
+    }
+
     TEST(AlloyFreezing, WithoutSoluteItIsThePureSubstance)
     {
       Scene pure = freezing(91800);
