@@ -1,5 +1,5 @@
 # The method in two dimensions.
-target_sources(meltfront_particles PRIVATE plane_bins.cc plane_bodies.cc plane_closure.cc plane_contour.cc plane_events.cc plane_front.cc
+target_sources(meltfront_particles PRIVATE plane_bins.cc plane_bodies.cc plane_bounds.cc plane_closure.cc plane_contour.cc plane_events.cc plane_front.cc
                                            plane_heat.cc plane_marked_front.cc
                                            plane_measure.cc plane_nodes.cc plane_relax.cc plane_report.cc plane_run.cc plane_sinks.cc
                                            plane_start.cc plane_step.cc plane_stencils.cc plane_topology.cc)

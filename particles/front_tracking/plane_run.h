@@ -56,6 +56,11 @@ namespace meltfront::particles::front_tracking
     void observe_initial(cases::Observer &observer);
     std::vector<cases::EffectCost> effect_costs() const;
     std::map<std::string, double> evidence() const;
+    /** A step is done when no particle has farther to move, in spacings: the move itself
+     * is made, and what it leaves is smaller by about its square. */
+    static constexpr double done = 1e-4;
+
+    /** @return the length of the step that is made, which may become shorter */
     double shorten_to_bounds(double step, PlaneState &next);
     double overshoot(const PlaneState &of) const;
     double tolerated_overshoot() const;

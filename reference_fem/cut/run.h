@@ -44,6 +44,13 @@ namespace meltfront::reference_fem::cut
     void accept(State next);
     void follow_front();
     void check(const State &state) const;
+    template <typename Visit>
+    void visit_vertices(const State &of, const Visit &visit) const;
+    double overshoot(const State &of) const;
+    double tolerated_overshoot() const;
+
+    /** @return the length of the step that is made, which may become shorter */
+    double shorten_to_bounds(double step, State &next);
 
     cases::RunDescription description() const;
     void report(cases::Observer &observer, bool always);

@@ -52,7 +52,8 @@ namespace meltfront::verification
       for(std::size_t i = 0; i < snapshot.solid_fraction.size(); ++i)
       {
         const double place = snapshot.positions[0][i];
-        if(place <= x && place > below)
+        // The front's own site, if it has one, is on neither side.
+        if(place < x && place > below)
         {
           below = place;
           fraction_below = snapshot.solid_fraction[i];

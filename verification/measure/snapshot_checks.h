@@ -41,8 +41,8 @@ namespace meltfront::verification
    * spacing, h / side, while little has been exchanged;
    *
    * heat of walls, heat of sources: how far the book's terms are off GivenHeat, over what
-   * enters and leaves in the whole run; a release in a steady state may also be what the
-   * sites sample of it;
+   * enters and leaves in the whole run; a release in a steady state may lie between
+   * that and what the sites sample of it;
    *
    * front against phases: the share of tracked points beside which no phase changes, 1
    * where a method that tracks its front reports none between two phases; none may be.

@@ -1,0 +1,106 @@
+#include <cases/error.h>
+#include <cases/overshoot.h>
+#include <particles/front_tracking/plane_run.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meltfront::particles::front_tracking
+{
+  namespace
+  {
+    /** A step of BDF2 that is long beside the time in which a phase evens out overshoots,
+     * whatever the spacing. It may use up so much of the overshoot that is allowed;
+     * beyond that it is halved as long as this leaves less than a share of it. */
+    constexpr double overshoot_of_step = 0.25;
+    constexpr double worth_halving = 0.75;
+  } // namespace
+
+  double PlaneRun::shorten_to_bounds(double step, PlaneState &next)
+  {
+    const double tolerated = std::max(overshoot(state), tolerated_overshoot());
+    double beyond = overshoot(next);
+    while(beyond > tolerated)
+    {
+      PlaneState shorter;
+      if(attempt(step / 2, shorter) > done)
+        break;
+      const double left = overshoot(shorter);
+      if(left > worth_halving * beyond)
+        break;
+      ++halved_steps;
+      step /= 2;
+      beyond = left;
+      next = std::move(shorter);
+    }
+    return step;
+  }
+
+  double PlaneRun::tolerated_overshoot() const
+  {
+    const double melting = scene.material.melting_temperature;
+    double lowest = melting, highest = melting;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      const double value = heat.temperature(state, i);
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+    }
+    const double span = (std::isfinite(bounds.upper) ? bounds.upper : highest)
+                        - (std::isfinite(bounds.lower) ? bounds.lower : lowest);
+    return overshoot_of_step * span
+           * cases::allowed_overshoot(overshoot_in_plane, nodes.spacing, scene.domain);
+  }
+
+  /** By how much temperatures are beyond what bounds them, and phases beyond the melting
+   * temperature (K). */
+  double PlaneRun::overshoot(const PlaneState &of) const
+  {
+    const double melting = scene.material.melting_temperature;
+    // Undercooled, capillary, or heated throughout, a phase may pass it.
+    const bool stable = !cases::metastable_initial_phase(scene)
+                        && heat.settings.capillarity == 0 && !scene.heat_release;
+    double most = 0;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if(of.phase[i] == NodePhase::front)
+        continue;
+      const double value = heat.temperature(of, i);
+      most = std::max({most, bounds.lower - value, value - bounds.upper});
+      if(stable)
+        most = std::max(most, of.phase[i] == NodePhase::solid ? value - melting
+                                                              : melting - value);
+    }
+    return most;
+  }
+
+  void PlaneRun::check(const PlaneState &checked) const
+  {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if(checked.phase[i] == NodePhase::front)
+        continue;
+      const double value = heat.temperature(checked, i);
+      if(!std::isfinite(value)) // comparisons pass over what is not a number
+      {
+        lowest = highest = value;
+        break;
+      }
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+    }
+    cases::check_temperature(
+        bounds, lowest, highest, method_name, step_number, checked.time,
+        cases::allowed_overshoot(overshoot_in_plane, nodes.spacing, scene.domain));
+    for(const PlanePoint &place : heat.sinks.places)
+      if(!(heat.front_index().signed_distance(place, nodes.spacing) < 0))
+        throw cases::Refusal(fmt::format(
+            "rkpm-tracked: the source at ({:.6g}, {:.6g}) does not lie in the "
+            "solid at time {:.6g}",
+            place.x(), place.y(), checked.time));
+  }
+} // namespace meltfront::particles::front_tracking
