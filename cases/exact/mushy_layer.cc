@@ -145,8 +145,12 @@ namespace meltfront::cases
         const DiffusingMush<double> trial(mush, x, steps);
         return {mush.wall - trial.solid_layer()->at(0).depth, mush.wall};
       };
-      return mush.diffusion > 0 ? similarity::decreasing_root<double>(with, what)
-                                : similarity::decreasing_root<double>(without, what);
+      if(!(mush.diffusion > 0))
+        return similarity::decreasing_root<double>(without, what);
+      const double lambda = similarity::decreasing_root<double>(with, what);
+      if(!DiffusingMush<double>(mush, lambda, steps).forms_mush())
+        refuse("solute diffuses away so fast that no mush forms: the front is sharp");
+      return lambda;
     }
   } // namespace
 

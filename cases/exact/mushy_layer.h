@@ -31,8 +31,8 @@ namespace meltfront::cases
      * @param concentration  mass fraction of each solute far away
      * @throws InputError for properties that are not positive, phases of different
      * densities, a wall that is not below the liquidus, a far temperature that is not
-     * above it, solutes that diffuse unequally, or, where they diffuse, a curved liquidus
-     * or a wall below the eutectic temperature.
+     * above it, solutes that diffuse unequally, or, where they diffuse, a curved
+     * liquidus, a wall below the eutectic temperature, or data of which no mush forms.
      */
     MushyLayer(const Material &material, const Alloy &alloy,
                const std::vector<double> &concentration, double wall_temperature,

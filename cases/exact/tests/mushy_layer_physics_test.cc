@@ -172,6 +172,36 @@ namespace meltfront::cases
     }
   }
 
+  /** Where solute diffuses fast, the mush ends at a jump, and at last there is none. */
+  TEST(MushyLayer, SoluteLeavesTheSolidAtAJump)
+  {
+    const auto layer_of = [](double diffusivity)
+    {
+      Alloy alloy;
+      alloy.solutes.push_back(
+          {.name = "solute", .liquidus_slope = 4, .diffusivity = diffusivity});
+      return MushyLayer({{1, 1, 1}, {1, 1, 1}, 5, 0}, alloy, {0.25}, -3, 0);
+    };
+    for(const double diffusivity : {0.03, 0.1, 0.3})
+    {
+      const MushyLayer layer = layer_of(diffusivity);
+      SCOPED_TRACE(layer.description());
+      constexpr double time = 0.06, end = 5;
+      const double solid = solid_edge(layer, time);
+      EXPECT_GT(solid, 0);
+      EXPECT_LT(layer.solid_fraction(1.0001 * solid, time), 0.75);
+      const auto heat = [&](double y)
+      { return layer.temperature(y, time) + 5 * (1 - layer.solid_fraction(y, time)); };
+      const auto solute = [&](double y) { return layer.concentration(y, time); };
+      expect_relative(integral(solute, 0, end, edges(layer, time)), 0.25 * end, 1e-10);
+      expect_relative(integral(heat, 0, end, edges(layer, time)),
+                      layer.heat_content(0, end, time), 1e-10);
+      expect_relative(layer.heat_content(0, end, time) - layer.heat_content(0, end, 0),
+                      layer.wall_heat(time), 1e-12);
+    }
+    EXPECT_THROW(layer_of(0.4), InputError);
+  }
+
   TEST(MushyLayer, LiquidIsNowhereUndercooled)
   {
     const Problem problem = problems()[2];
