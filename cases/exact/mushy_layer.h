@@ -37,7 +37,8 @@ namespace meltfront::cases
     MushyLayer(const Material &material, const Alloy &alloy,
                const std::vector<double> &concentration, double wall_temperature,
                double far_temperature,
-               similarity::HeatOfFreezing heat = similarity::HeatOfFreezing::consistent);
+               similarity::HeatOfFreezing heat = similarity::HeatOfFreezing::consistent,
+               similarity::MushConduction conduction = similarity::MushConduction::mean);
     ~MushyLayer() override;
 
     /** The front constant. */

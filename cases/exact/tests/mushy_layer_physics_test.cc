@@ -202,6 +202,34 @@ namespace meltfront::cases
     EXPECT_THROW(layer_of(0.4), InputError);
   }
 
+  /** Both phases beside each other, and what they exchange. */
+  TEST(MushyLayer, MayConductAsPublished)
+  {
+    Alloy alloy;
+    alloy.solutes.push_back({.name = "solute", .liquidus_slope = 4});
+    const MushyLayer layer({{2, 1, 1}, {1, 1, 1}, 5, 0}, alloy, {0.25}, -3, 0,
+                           similarity::HeatOfFreezing::constant,
+                           similarity::MushConduction::published);
+    const double time = 0.1, step = 1e-5;
+    const double solid = 2 * layer.solid_fraction(0, time), liquid = 1 - solid / 2;
+    const double conductivity = solid + liquid + 4 * solid * liquid / (solid + liquid);
+    const double slope
+        = (-3 * layer.temperature(0, time) + 4 * layer.temperature(step, time)
+           - layer.temperature(2 * step, time))
+          / (2 * step);
+    expect_relative(-2 * time * conductivity * slope, layer.wall_heat(time), 1e-7);
+    expect_relative(layer.heat_content(0, 5, time) - layer.heat_content(0, 5, 0),
+                    layer.wall_heat(time), 1e-12);
+    similarity::Mush<double> mush;
+    mush.conductivity_ratio = 3;
+    mush.expansion = 1.2;
+    mush.conduction = similarity::MushConduction::published;
+    for(const double f : {0.1, 0.3, 0.9})
+      EXPECT_NEAR(mush.conductivity_slope(f),
+                  (mush.conductivity(f + 1e-5) - mush.conductivity(f - 1e-5)) / 2e-5,
+                  1e-8);
+  }
+
   TEST(MushyLayer, LiquidIsNowhereUndercooled)
   {
     const Problem problem = problems()[2];
