@@ -46,13 +46,13 @@ namespace meltfront::cases::similarity
       if(!jumps)
         jumps = integrate_to(log(least), steps);
       MushPoint<Real> edge_point = point(path.last());
-      edge_point.liquid = edge_point.composition = 0;
       if(jumps)
       {
-        const Real in_front = edge_point.enthalpy;
-        edge_point.enthalpy = -mush.capacity_ratio * edge_point.depth;
-        edge_point.flux += 2 * edge() * (in_front - edge_point.enthalpy);
+        const Real freezing = edge_point.liquid * mush.heat_of_freezing(edge_point.depth);
+        edge_point.enthalpy -= freezing;
+        edge_point.flux += 2 * edge() * freezing;
       }
+      edge_point.liquid = edge_point.composition = 0;
       solid.emplace(mush, edge(), edge_point);
     }
 
