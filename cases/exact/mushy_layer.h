@@ -29,6 +29,7 @@ namespace meltfront::cases
   public:
     /**
      * @param concentration  mass fraction of each solute far away
+     * @param conduction  of the mush; `published` for what a method repeats as printed
      * @throws InputError for properties that are not positive, phases of different
      * densities, a wall that is not below the liquidus, a far temperature that is not
      * above it, solutes that diffuse unequally, or, where they diffuse, a curved
