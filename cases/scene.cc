@@ -162,6 +162,9 @@ namespace meltfront::cases
       visit_densely(scene, {&scene.initial.temperature},
                     [&](const Position &p)
                     { include(scene.initial.temperature(p, scene.start_time)); });
+    // The front that grows into a metastable phase is at the melting point.
+    if(metastable_initial_phase(scene) != nullptr)
+      include(scene.material.melting_temperature);
     for(const Side side : scene.sides())
     {
       const Boundary &boundary = scene.boundary(side);

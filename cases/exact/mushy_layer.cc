@@ -79,7 +79,8 @@ namespace meltfront::cases
 
     Mush<double> mush_of(const Material &material, const Alloy &alloy,
                          const std::vector<double> &concentration, double wall,
-                         double far, similarity::HeatOfFreezing heat)
+                         double far, similarity::HeatOfFreezing heat,
+                         similarity::MushConduction conduction)
     {
       check(material, alloy, concentration);
       const PhaseDiagram diagram(material, alloy);
@@ -99,6 +100,7 @@ namespace meltfront::cases
       mush.diffusion = common_diffusivity(alloy) / material.liquid.diffusivity();
       mush.eutectic = melting - alloy.eutectic_temperature;
       mush.heat = heat;
+      mush.conduction = conduction;
       check_temperatures(mush, melting);
       if(mush.diffusion > 0 && mush.wall > mush.eutectic)
         refuse("where solute diffuses, the wall must not be below the eutectic "
@@ -145,8 +147,12 @@ namespace meltfront::cases
         const DiffusingMush<double> trial(mush, x, steps);
         return {mush.wall - trial.solid_layer()->at(0).depth, mush.wall};
       };
-      return mush.diffusion > 0 ? similarity::decreasing_root<double>(with, what)
-                                : similarity::decreasing_root<double>(without, what);
+      if(!(mush.diffusion > 0))
+        return similarity::decreasing_root<double>(without, what);
+      const double lambda = similarity::decreasing_root<double>(with, what);
+      if(!DiffusingMush<double>(mush, lambda, steps).forms_mush())
+        refuse("solute diffuses away so fast that no mush forms: the front is sharp");
+      return lambda;
     }
   } // namespace
 
@@ -216,11 +222,12 @@ namespace meltfront::cases
   MushyLayer::MushyLayer(const Material &material, const Alloy &alloy,
                          const std::vector<double> &concentration,
                          double wall_temperature, double far_temperature,
-                         similarity::HeatOfFreezing heat)
+                         similarity::HeatOfFreezing heat,
+                         similarity::MushConduction conduction)
     : material(material)
     , far_concentration(concentration)
     , mush(mush_of(material, alloy, concentration, wall_temperature, far_temperature,
-                   heat))
+                   heat, conduction))
     , profile(std::make_unique<const Profile>(mush))
   {
   }

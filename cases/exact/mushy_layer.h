@@ -29,15 +29,17 @@ namespace meltfront::cases
   public:
     /**
      * @param concentration  mass fraction of each solute far away
+     * @param conduction  of the mush; `published` for what a method repeats as printed
      * @throws InputError for properties that are not positive, phases of different
      * densities, a wall that is not below the liquidus, a far temperature that is not
-     * above it, solutes that diffuse unequally, or, where they diffuse, a curved liquidus
-     * or a wall below the eutectic temperature.
+     * above it, solutes that diffuse unequally, or, where they diffuse, a curved
+     * liquidus, a wall below the eutectic temperature, or data of which no mush forms.
      */
     MushyLayer(const Material &material, const Alloy &alloy,
                const std::vector<double> &concentration, double wall_temperature,
                double far_temperature,
-               similarity::HeatOfFreezing heat = similarity::HeatOfFreezing::consistent);
+               similarity::HeatOfFreezing heat = similarity::HeatOfFreezing::consistent,
+               similarity::MushConduction conduction = similarity::MushConduction::mean);
     ~MushyLayer() override;
 
     /** The front constant. */

@@ -19,8 +19,14 @@ namespace meltfront::cases::similarity
    *     = -2 eta x' f (1 + (eps/K) H_x).
    *
    * Next to the wall the factor of f' comes near zero: in a layer of about eps all the
-   * solute leaves, within a fan in which f falls to zero, and solid without solute
-   * remains in front of the wall. So ln f is the parameter along which all is smooth.
+   * solute leaves, and solid without solute remains in front of the wall. f falls to zero
+   * either within a fan, so that ln f is the parameter along which all is smooth, or at
+   * once: with g = f (2 eta x + eps x') solute reads g' = 2 f x, so that g goes through
+   * at a jump, and f may jump to zero where
+   *
+   *   2 eta x = eps q/K,
+   *
+   * behind which the path would turn back. There w goes through, too, and q jumps.
    */
   template <typename Real>
   class DiffusingMush
@@ -34,12 +40,27 @@ namespace meltfront::cases::similarity
     {
       using std::log;
       const Real full = mush.full();
-      if(full > least)
-        integrate_to(log(full), steps);
-      integrate_to(log(least), steps);
+      bool jumps = !forms_mush();
+      if(full > least && !jumps)
+        jumps = integrate_to(log(full), steps);
+      if(!jumps)
+        jumps = integrate_to(log(least), steps);
       MushPoint<Real> edge_point = point(path.last());
+      if(jumps)
+      {
+        const Real freezing = edge_point.liquid * mush.heat_of_freezing(edge_point.depth);
+        edge_point.enthalpy -= freezing;
+        edge_point.flux += 2 * edge() * freezing;
+      }
       edge_point.liquid = edge_point.composition = 0;
       solid.emplace(mush, edge(), edge_point);
+    }
+
+    /** Whether there is a mush at all: else the solid's front is sharp, and the liquid
+     * ahead of it nowhere undercooled. */
+    bool forms_mush() const
+    {
+      return surplus(path.first()) > 0;
     }
 
     /** Outer end of the solid without solute. */
@@ -112,8 +133,17 @@ namespace meltfront::cases::similarity
       };
     }
 
-    /** Steps of 1/steps, and shorter where the fan draws neighbouring paths together. */
-    void integrate_to(const Real &end, int steps)
+    /** 2 eta x - eps q/K, which is zero where f jumps to zero. */
+    Real surplus(const typename MushPath::Place &place) const
+    {
+      const auto &[eta, x, flux, enthalpy, solid] = place.state;
+      return 2 * eta * x
+             - mush.diffusion * flux / mush.conductivity(exp_of(place.parameter));
+    }
+
+    /** Steps of 1/steps, and shorter where the fan draws neighbouring paths together.
+     * @return whether f jumps to zero on the way */
+    bool integrate_to(const Real &end, int steps)
     {
       while(path.last().parameter > end)
       {
@@ -121,10 +151,13 @@ namespace meltfront::cases::similarity
         const Real pull
             = state[0] * state[2] / (state[1] * mush.conductivity(exp_of(parameter)));
         const Real step = std::min<Real>(Real(1) / steps, pull / 2);
-        if(!(step > 1e-6) || !(state[0] < 2 * front))
-          return;
-        path.advance(-std::min<Real>(step, parameter - end));
+        if(!(step > 1e-6))
+          return false;
+        if(path.advance_to_zero(-std::min<Real>(step, parameter - end),
+                                [this](const auto &place) { return surplus(place); }))
+          return true;
       }
+      return false;
     }
 
     static Real exp_of(const Real &parameter)

@@ -55,6 +55,31 @@ namespace meltfront::cases::similarity
       places.push_back(stepped(places.back(), step));
     }
 
+    /**
+     * Go on by a step of the parameter, or to where a function of the place, positive
+     * here, has fallen to zero within it.
+     * @return whether it has
+     */
+    template <typename Function>
+    bool advance_to_zero(const Real &step, const Function &function)
+    {
+      const Place from = places.back();
+      Place to = stepped(from, step);
+      const bool reached = !(function(to) > 0);
+      if(reached)
+      {
+        Real before = 0, after = 1;
+        for(int i = 0; i < std::numeric_limits<Real>::digits; ++i)
+        {
+          const Real share = (before + after) / 2;
+          to = stepped(from, share * step);
+          (function(to) > 0 ? before : after) = share;
+        }
+      }
+      places.push_back(to);
+      return reached;
+    }
+
     /** The place at which the first unknown has a value, between its first and its last.
      */
     Place at(const Real &value) const

@@ -7,6 +7,8 @@
 
 #include <boost/math/constants/constants.hpp>
 
+#include <array>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -36,6 +38,15 @@ namespace meltfront::cases::similarity
     constant    ///< L at any temperature (Monaghan, Huppert and Worster 2005, 4.4)
   };
 
+  /** How a mush conducts heat. */
+  enum class MushConduction
+  {
+    mean,     ///< the mean of both phases by volume
+    published ///< with 4 k_l' k_s'/(k_l' + k_s') besides, k' by volume: what particles of
+              ///< liquid and ice conduct that exchange heat as Monaghan, Huppert and
+              ///< Worster (2005) printed it
+  };
+
   /** What the equations hold. */
   template <typename Real>
   struct Mush
@@ -50,6 +61,7 @@ namespace meltfront::cases::similarity
     Real diffusion = 0;      ///< D/a
     Real eutectic = std::numeric_limits<Real>::infinity(); ///< depth (K)
     HeatOfFreezing heat = HeatOfFreezing::consistent;
+    MushConduction conduction = MushConduction::mean;
     /** f in equilibrium at a depth, of a liquidus that is not straight. */
     std::function<Real(const Real &depth)> curved_liquid{};
 
@@ -61,13 +73,32 @@ namespace meltfront::cases::similarity
 
     Real conductivity(const Real &f) const
     {
-      const Real volume = expansion * (1 - f);
-      return 1 + (volume < 1 ? volume : Real(1)) * (conductivity_ratio - 1);
+      const auto [liquid, solid] = conductivities(f);
+      const Real mean = liquid + solid;
+      return conduction == MushConduction::mean ? mean : mean + 4 * liquid * solid / mean;
     }
 
+    /** dK/df */
     Real conductivity_slope(const Real &f) const
     {
-      return expansion * (1 - f) < 1 ? -expansion * (conductivity_ratio - 1) : Real(0);
+      if(!(expansion * (1 - f) < 1))
+        return 0;
+      const Real by_f = -expansion * (conductivity_ratio - 1);
+      if(conduction == MushConduction::mean)
+        return by_f;
+      const auto [liquid, solid] = conductivities(f);
+      const Real mean = liquid + solid;
+      return by_f
+             + 4 * expansion * (solid * solid - conductivity_ratio * liquid * liquid)
+                   / (mean * mean);
+    }
+
+    /** Of the liquid and of the solid, over k_l, times the volumes that they take up. */
+    std::array<Real, 2> conductivities(const Real &f) const
+    {
+      const Real volume = expansion * (1 - f);
+      const Real solid = volume < 1 ? volume : Real(1);
+      return {1 - solid, solid * conductivity_ratio};
     }
 
     /** Liquid fraction at which crystals take up all the volume; not positive where they

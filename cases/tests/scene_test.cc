@@ -102,6 +102,18 @@ TEST(TemperatureBounds, AreTheExtremesOfInitialAndWallTemperatures)
   EXPECT_EQ(bounds.upper, 5);
 }
 
+TEST(TemperatureBounds, HoldTheFrontOfAMetastablePhase)
+{
+  Scene scene = box_scene(2);
+  scene.initial.temperature = Field::uniform(-0.2);
+  EXPECT_EQ(temperature_bounds(scene).upper, -0.2);
+  scene.initial.front = Field{
+      .expression = "", .value = [](const Position &p, double) { return p[0] - 0.5; }};
+  const TemperatureBounds bounds = temperature_bounds(scene);
+  EXPECT_EQ(bounds.lower, -0.2);
+  EXPECT_EQ(bounds.upper, scene.material.melting_temperature);
+}
+
 TEST(TemperatureBounds, FollowAWallInTimeAndAlongItself)
 {
   Scene scene = box_scene(3);

@@ -34,6 +34,7 @@ namespace meltfront::reference_fem::fitted
                                Vector<double> &flow, Matrices *matrices) const
   {
     const double time = laws.clock.time(clock);
+    assemblies_of_both_phases += rays.has_front();
     mass.reinit(n_unknowns);
     flow.reinit(n_unknowns);
     for(unsigned int l = 0; l < rays.layers.size(); ++l)

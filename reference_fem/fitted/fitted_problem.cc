@@ -206,6 +206,7 @@ namespace meltfront::reference_fem::fitted
   cases::EffectCost FittedProblem::effect_cost(cases::Effect effect) const
   {
     const Meter &meter = meters[static_cast<std::size_t>(effect)];
+    long calls = meter.calls;
     std::vector<unsigned int> rows;
     std::size_t bytes = 0;
     switch(effect)
@@ -234,6 +235,12 @@ namespace meltfront::reference_fem::fitted
       for(unsigned int ray = 0; rays.has_front() && ray < rays.surface.n_rays(); ++ray)
         rows.push_back(rays.front_node(ray));
       break;
+    case cases::Effect::phase_conductivity:
+    case cases::Effect::phase_heat_capacity:
+    case cases::Effect::metastable_phase:
+      // Values in the same integrals: no memory and no time of their own.
+      calls = assemblies_of_both_phases;
+      break;
     default:
       break;
     }
@@ -242,7 +249,7 @@ namespace meltfront::reference_fem::fitted
       if(row != RayMesh::none)
         bytes += sizeof(double)
                  + pattern.row_length(row) * (sizeof(unsigned int) + 3 * sizeof(double));
-    return {effect, meter.calls, static_cast<long>(bytes), meter.seconds};
+    return {effect, calls, static_cast<long>(bytes), meter.seconds};
   }
 
   Vector<double> FittedProblem::scale(const Vector<double> &) const

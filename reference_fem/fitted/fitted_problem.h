@@ -71,7 +71,8 @@ namespace meltfront::reference_fem::fitted
                        const dealii::Vector<double> &u) const;
 
     /** What the code of an effect has cost in this problem: calls, bytes of its own
-     * unknowns and tables, seconds. */
+     * unknowns and tables, seconds. Differences of the phases and a phase beyond the
+     * melting temperature are called in each assembly that holds both phases. */
     cases::EffectCost effect_cost(cases::Effect effect) const;
 
     /** T - T_m - S at a node, that of the front's side in a phase. */
@@ -164,6 +165,7 @@ namespace meltfront::reference_fem::fitted
       double seconds = 0;
     };
     mutable std::array<Meter, cases::n_effects> meters;
+    mutable long assemblies_of_both_phases = 0;
     dealii::SparsityPattern pattern;
   };
 } // namespace meltfront::reference_fem::fitted

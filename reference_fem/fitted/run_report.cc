@@ -66,8 +66,6 @@ namespace meltfront::reference_fem::fitted
 
   void FittedRun::add_effect_costs()
   {
-    // The phases' coefficients and a metastable phase are values in the same integrals:
-    // they have no code and no memory of their own.
     for(cases::EffectCost &sum : effect_costs)
     {
       const cases::EffectCost cost = problem->effect_cost(sum.effect);

@@ -222,13 +222,20 @@ namespace meltfront::reference_fem::fitted
           continue;
         const double excess
             = u[mesh.node(ray, level)] + problem.source(phase, time).value(r);
-        if(beyond(solid, excess) > overshoot() * physics.temperature_scale)
-          throw cases::NumericalError(
-              method, step, time, fmt::format("the temperature at r = {:.6g}", r),
-              fmt::format("is {:.6g}, {} the melting point in {} away from the front; "
-                          "more cells or steps may help",
-                          physics.melting_temperature + excess, solid ? "above" : "below",
-                          solid ? "solid" : "liquid"));
+        if(!(beyond(solid, excess) > overshoot() * physics.temperature_scale))
+          continue;
+        if(step == 0)
+          throw cases::Refusal(fmt::format(
+              "fem-fitted takes {} {} its melting point ({:.6g} at r = {:.6g}) only with "
+              "the effect metastable_phase, which is off",
+              solid ? "solid" : "liquid", solid ? "above" : "below",
+              physics.melting_temperature + excess, r));
+        throw cases::NumericalError(
+            method, step, time, fmt::format("the temperature at r = {:.6g}", r),
+            fmt::format("is {:.6g}, {} the melting point in {} away from the front; "
+                        "more cells or steps may help",
+                        physics.melting_temperature + excess, solid ? "above" : "below",
+                        solid ? "solid" : "liquid"));
       }
   }
 } // namespace meltfront::reference_fem::fitted

@@ -49,7 +49,8 @@ namespace meltfront::reference_fem::fitted
 
     /**
      * Check a state.
-     * @throws Refusal where a wall or the source at the centre starts a second front,
+     * @throws Refusal where a wall or the source at the centre starts a second front, and
+     * of a start (step 0) beyond the melting point,
      * @throws NumericalError where the temperature of a phase is beyond the melting point
      * elsewhere, by more than the overshoot that is borne.
      */

@@ -290,7 +290,7 @@ namespace meltfront::reference_fem::fitted::tests
                          || cost.effect == cases::Effect::wall_temperature
                          || cost.effect == cases::Effect::wall_transfer;
         EXPECT_EQ(cost.bytes > 0, own) << to_string(cost.effect);
-        EXPECT_EQ(cost.calls > 0, own) << to_string(cost.effect);
+        EXPECT_GT(cost.calls, 0) << to_string(cost.effect);
         EXPECT_EQ(cost.seconds > 0, own) << to_string(cost.effect);
       }
     }

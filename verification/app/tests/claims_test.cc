@@ -8,6 +8,7 @@
 #include <verification/app/tests/claims/conduction.h>
 #include <verification/app/tests/claims/fronts.h>
 #include <verification/app/tests/claims/motion.h>
+#include <verification/app/tests/claims/mushes.h>
 #include <verification/app/tests/claims/not_shown.h>
 #include <verification/app/tests/claims/tolerances.h>
 
@@ -41,7 +42,13 @@ namespace meltfront::verification::claims
       Outcome run(Trial trial) const
       {
         adapt(method->name(), capabilities.form, trial);
-        return claims::run(*method, trial);
+        Outcome outcome = claims::run(*method, trial);
+        if(capabilities.form == "along a line" || solves_in_more_dimensions())
+        {
+          EXPECT_EQ(outcome.dimension > 1, solves_in_more_dimensions())
+              << "not the form that claims it";
+        }
+        return outcome;
       }
 
       bool solves(ProblemKind problem) const
@@ -71,7 +78,13 @@ namespace meltfront::verification::claims
       /** Scenes that depend on one coordinate say so, but where the plane is meant. */
       bool symmetric() const
       {
-        return capabilities.form != "in the plane";
+        return !solves_in_more_dimensions();
+      }
+
+      bool solves_in_more_dimensions() const
+      {
+        return capabilities.form == "in the plane"
+               || capabilities.form == "in more dimensions";
       }
 
       std::string name() const
@@ -98,18 +111,21 @@ namespace meltfront::verification::claims
       if(form.is_bar())
         return particle_bar_trials(effect);
       if(form.needs_solute())
-        return mush_trials(effect);
+        return mush_trials(effect, !form.method->corrected_form().empty());
       switch(effect)
       {
       case Effect::solute:
       case Effect::solute_diffusion:
       case Effect::eutectic:
-        return mush_trials(effect);
+        return mush_trials(effect, !form.method->corrected_form().empty());
       case Effect::gibbs_thomson:
         return capillary_trials();
       case Effect::heat_sources:
-        return EffectTrials{line_sink(0.4, form.symmetric()),
-                            line_sink(0.7, form.symmetric())};
+      {
+        const bool begun = !form.capabilities.takes(FrontOrigin::source);
+        return EffectTrials{line_sink(0.4, form.symmetric(), begun),
+                            line_sink(0.7, form.symmetric(), begun)};
+      }
       case Effect::inclusion:
         if(!form.solves(ProblemKind::poisson))
           return inclusion_trials();
@@ -159,7 +175,7 @@ namespace meltfront::verification::claims
                    ? moving_front(DomainShape::slab, 1, BoundaryKind::insulated, false)
                    : moving_front(DomainShape::box, 2, BoundaryKind::insulated, false);
       case FrontOrigin::source:
-        return line_sink(0.6, form.symmetric());
+        return line_sink(0.6, form.symmetric(), false);
       default:
         return cold_wall(origin == FrontOrigin::partly_melted);
       }

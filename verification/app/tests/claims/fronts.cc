@@ -2,7 +2,6 @@
 #include <verification/app/tests/claims/fronts.h>
 
 #include <cases/exact/line_sink.h>
-#include <cases/exact/mushy_layer.h>
 #include <cases/exact/oracle.h>
 #include <cases/exact/planar_neumann.h>
 
@@ -218,48 +217,6 @@ namespace meltfront::verification::claims
       return of.trial;
     }
 
-    /** Data of a mushy layer. */
-    struct Mush
-    {
-      double slope = 4, diffusivity = 0;
-      double eutectic = cases::Alloy().eutectic_temperature;
-      double cold = -3;
-      double latent_heat = 5;
-      double liquid_conductivity = 1, liquid_heat_capacity = 1;
-    };
-
-    Trial mushy_layer(const Mush &mush)
-    {
-      constexpr double concentration = 0.25;
-      Trial trial;
-      trial.scene = scene_on(domain_of(DomainShape::slab, 1, false));
-      cases::Scene &scene = trial.scene;
-      scene.material.latent_heat = mush.latent_heat;
-      scene.material.liquid.conductivity = mush.liquid_conductivity;
-      scene.material.liquid.specific_heat_capacity = mush.liquid_heat_capacity;
-      scene.end_time
-          = mush.diffusivity > 0 ? 0.06 : 0.15; // before the far wall is reached
-      constexpr double far = 0;
-      scene.initial.temperature = cases::Field::uniform(far);
-      scene.initial.concentration = {cases::Field::uniform(concentration)};
-      cases::Solute solute;
-      solute.name = "solute";
-      solute.liquidus_slope = mush.slope;
-      solute.diffusivity = mush.diffusivity;
-      scene.alloy
-          = cases::Alloy{.solutes = {solute}, .eutectic_temperature = mush.eutectic};
-      const auto layer = std::make_shared<cases::MushyLayer>(
-          scene.material, *scene.alloy, std::vector<double>{concentration}, mush.cold,
-          far);
-      wall(scene, Side::x_min) = {.kind = BoundaryKind::fixed_temperature,
-                                  .value = cases::Field::uniform(mush.cold)};
-      wall(scene, Side::x_max) = held_at([layer](const Position &p, double time)
-                                         { return layer->temperature(p[0], time); });
-      trial.judge = solution_judge(scene, layer);
-      trial.n = 80;
-      return trial;
-    }
-
     /** The mean temperature and the disk's radius follow from the balance of heat,
      * R^2 = R_0^2 + c R_out^2 (T_front(R) - T_0)/L. */
     Trial capillary_disk(double coefficient)
@@ -272,7 +229,18 @@ namespace meltfront::verification::claims
       cases::Scene &scene = trial.scene;
       scene.material.latent_heat = 1;
       scene.material.gibbs_thomson_coefficient = coefficient;
-      scene.initial.temperature = cases::Field::uniform(-undercooling);
+      // With the mean -undercooling, and warmer at the front: without capillarity it is
+      // at zero.
+      constexpr double even = 0.6;
+      const auto off_front = [](double share)
+      { return std::pow(share - start * start / (outer * outer), 2); };
+      const double mean = (std::pow(off_front(1), 1.5) + std::pow(off_front(0), 1.5)) / 3;
+      scene.initial.temperature = field(
+          [=](const Position &p, double)
+          {
+            const double share = (p[0] * p[0] + p[1] * p[1]) / (outer * outer);
+            return -undercooling * (even + (1 - even) * off_front(share) / mean);
+          });
       scene.initial.front = field([](const Position &p, double)
                                   { return std::hypot(p[0], p[1]) - start; });
       scene.end_time = 0.6;
@@ -376,7 +344,7 @@ namespace meltfront::verification::claims
     }
   }
 
-  Trial line_sink(double lambda, bool symmetric)
+  Trial line_sink(double lambda, bool symmetric, bool begun)
   {
     constexpr double far = 0.5;
     Trial trial;
@@ -391,6 +359,19 @@ namespace meltfront::verification::claims
     const auto sink = std::make_shared<cases::LineSink>(scene.material, lambda, far);
     wall(scene, Side::outer) = held_at([sink](const Position &p, double time)
                                        { return sink->temperature(p, time); });
+    if(begun)
+    {
+      scene.start_time = scene.end_time / 4;
+      constexpr double next_to_line = 1e-3; // at which it is infinitely cold
+      scene.initial.temperature = field(
+          [sink](const Position &p, double time) {
+            return sink->temperature(std::fmax(next_to_line, std::hypot(p[0], p[1])),
+                                     time);
+          });
+      scene.initial.front = field([sink](const Position &p, double time)
+                                  { return std::hypot(p[0], p[1]) - sink->front(time); });
+      scene.initial.exact = sink;
+    }
     const double strength = sink->strength();
     scene.sources = {{.position = {},
                       .expression = "of the claim",
@@ -429,39 +410,6 @@ namespace meltfront::verification::claims
                                     partly_melted ? (1 + front) / 2 : front);
     trial.n = resolution_of(1);
     return trial;
-  }
-
-  std::optional<EffectTrials> mush_trials(Effect effect)
-  {
-    Mush first, second;
-    switch(effect)
-    {
-    case Effect::phase_change:
-      second.latent_heat = 15;
-      break;
-    case Effect::phase_conductivity:
-      second.liquid_conductivity = 4;
-      break;
-    case Effect::phase_heat_capacity:
-      second.liquid_heat_capacity = 1.8;
-      break;
-    case Effect::wall_temperature:
-      second.cold = -1.6;
-      break;
-    case Effect::solute:
-      first.slope = 2;
-      second.slope = 7;
-      break;
-    case Effect::solute_diffusion:
-      second.diffusivity = 0.3;
-      break;
-    case Effect::eutectic:
-      second.eutectic = -1.3;
-      break;
-    default:
-      return {};
-    }
-    return EffectTrials{mushy_layer(first), mushy_layer(second)};
   }
 
   EffectTrials capillary_trials()

@@ -19,15 +19,13 @@ namespace meltfront::verification::claims
   std::optional<EffectTrials> front_trials(cases::Effect effect, cases::DomainShape shape,
                                            int dimension);
 
-  /** Ice around a line that draws heat from the centre of a disk. */
-  Trial line_sink(double lambda, bool symmetric);
+  /** Ice around a line that draws heat from the centre of a disk, from the start or,
+   * where it has `begun`, from a front that is there. */
+  Trial line_sink(double lambda, bool symmetric, bool begun);
 
   /** Liquid that a cold wall begins to freeze (Neumann); half of it solid, at the melting
    * point, where `partly_melted`. */
   Trial cold_wall(bool partly_melted);
-
-  /** The same of an alloy: mushy layers. */
-  std::optional<EffectTrials> mush_trials(cases::Effect effect);
 
   /** A disk of solid whose melt has become as warm as its curved front. */
   EffectTrials capillary_trials();

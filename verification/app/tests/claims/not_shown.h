@@ -10,49 +10,14 @@ namespace meltfront::verification::claims
    * are skipped, and stay here until they pass or the claim goes. */
   inline const std::map<std::string, std::string> not_shown = []
   {
-    const std::string mush = "all methods are off the mushy layer by the same 0.006 to "
-                             "0.009 of solid: the scene is in doubt",
-                      published = "the published form breaks the maximum principle in "
-                                  "this mush and is stopped",
-                      noise = "a bar of 74 x 8 particles is noisier than the tolerance",
-                      uncounted = "the method counts no calls of this effect: it has no "
-                                  "code of its own",
-                      coarse = "off by 1.1 to 2 tolerances at this resolution";
+    // Not noise: an average over seeds or a larger change of the wall would not do.
+    const std::string bar
+        = "a bar of 74 x 8 particles has melted to 0.215 +- 0.011 (six seeds), where "
+          "Neumann's solution has 0.280, and at a wall of 46 not at all (0.044)";
     return std::map<std::string, std::string>{
-        {"EffectClaims.SphMixture_SoluteDiffusion", mush},
-        {"EffectClaims.SphTwoPopulation_SoluteDiffusion", mush},
-        {"EffectClaims.FemEnthalpy_SoluteDiffusion", mush},
-        {"EffectClaims.SphTwoPopulation2005_PhaseChange", published},
-        {"EffectClaims.SphTwoPopulation2005_PhaseConductivity", published},
-        {"EffectClaims.SphTwoPopulation2005_PhaseHeatCapacity", published},
-        {"EffectClaims.SphTwoPopulation2005_WallTemperature", published},
-        {"EffectClaims.SphTwoPopulation2005_Solute", published},
-        {"EffectClaims.SphTwoPopulation2005_SoluteDiffusion", published},
-        {"EffectClaims.RkpmTrackedInThePlane_GibbsThomson",
-         "the solid's share is off by 0.013 at n = 18, tolerance 0.01"},
-        {"EffectClaims.GreenspanAsABarThatConductsHeat_WallTemperature", noise},
-        {"FrontOriginClaims.GreenspanAsABarThatConductsHeat_Wall", noise},
-        {"WallClaims.GreenspanAsABarThatConductsHeat_Slab1DFixedTemperature", noise},
-        {"EffectClaims.FemFittedAlongALine_PhaseConductivity", uncounted},
-        {"EffectClaims.FemFittedAlongALine_PhaseHeatCapacity", uncounted},
-        {"EffectClaims.FemFittedAlongALine_MetastablePhase", uncounted},
-        {"EffectClaims.FemFittedInMoreDimensions_PhaseConductivity", uncounted},
-        {"EffectClaims.FemFittedInMoreDimensions_PhaseHeatCapacity", uncounted},
-        {"EffectClaims.FemFittedInMoreDimensions_MetastablePhase", uncounted},
-        {"EffectClaims.FemCut_HeatSources",
-         "the front of the sink cannot be seeded at this resolution"},
-        {"WallClaims.SphMixture_Ball3DFlux", coarse},
-        {"WallClaims.FemFittedInMoreDimensions_Shell3DFlux", coarse},
-        {"WallClaims.FemFittedInMoreDimensions_Shell3DHeatTransfer", coarse},
-        {"WallClaims.FemCut_Shell2DInsulated", coarse},
-        {"WallClaims.FemCut_Shell2DFixedTemperature", coarse},
-        {"WallClaims.FemCut_Shell2DFlux", coarse},
-        {"WallClaims.FemFittedAlongALine_Shell3DFlux", coarse},
-        {"WallClaims.FemFittedAlongALine_Shell3DHeatTransfer", coarse},
-        {"WallClaims.RkpmTrackedAlongALine_Ball3DFlux", coarse},
-        {"WallClaims.RkpmTrackedAlongALine_Ball3DHeatTransfer", coarse},
-        {"WallClaims.RkpmTrackedAlongALine_Shell3DFlux", coarse},
-        {"WallClaims.RkpmTrackedAlongALine_Shell3DHeatTransfer", coarse}};
+        {"EffectClaims.GreenspanAsABarThatConductsHeat_WallTemperature", bar},
+        {"FrontOriginClaims.GreenspanAsABarThatConductsHeat_Wall", bar},
+        {"WallClaims.GreenspanAsABarThatConductsHeat_Slab1DFixedTemperature", bar}};
   }();
 } // namespace meltfront::verification::claims
 

@@ -21,6 +21,11 @@ namespace meltfront::verification::claims
       {
       }
 
+      void begin(const cases::RunDescription &description) override
+      {
+        dimension = description.dimension;
+      }
+
       bool wants(long, double) override
       {
         return false;
@@ -48,6 +53,7 @@ namespace meltfront::verification::claims
 
       const cases::Scene &scene;
       EndState start, end;
+      int dimension = 0;
     };
   } // namespace
 
@@ -117,6 +123,6 @@ namespace meltfront::verification::claims
     Ends ends(scene);
     cases::Cost cost = method.solve(scene, effects, resolution, ends);
     return {std::move(ends.start), std::move(ends.end), std::move(cost),
-            std::move(effects)};
+            std::move(effects), ends.dimension};
   }
 } // namespace meltfront::verification::claims

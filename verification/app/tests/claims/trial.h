@@ -82,6 +82,7 @@ namespace meltfront::verification::claims
     EndState start, end;
     cases::Cost cost;
     cases::EffectSet effects;
+    int dimension; ///< in which the scene was simulated
   };
 
   /** Run a trial. @throws what the method throws */
