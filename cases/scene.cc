@@ -189,18 +189,11 @@ namespace meltfront::cases
                                    || boundary->kind == BoundaryKind::heat_transfer)
                                && !boundary->value.constant;
                       });
-    // A state at rest, be it at 0, is rounded in relation to what latent heat is worth.
-    const double at_rest
-        = lower == upper && scene.changes_phase()
-              ? 1e-10 * scene.material.latent_heat
-                    / std::max(scene.material.solid.specific_heat_capacity,
-                               scene.material.liquid.specific_heat_capacity)
-              : 0;
     const double slack
         = varying && std::isfinite(upper - lower) ? 1e-3 * (upper - lower) : 0;
     if(lower > upper) // a steady scene whose walls prescribe no temperature
       return {};
-    return {lower - slack - at_rest, upper + slack + at_rest};
+    return {lower - slack, upper + slack};
   }
 
   const char *metastable_initial_phase(const Scene &scene)

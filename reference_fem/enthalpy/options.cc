@@ -13,9 +13,8 @@ namespace meltfront::reference_fem
   namespace
   {
     /** Coarse runs take more steps than the cells call for, so that their fronts can be
-     * compared at some times. Added, not a minimum: more cells mean more steps from the
-     * coarsest run on, and an error in time is seen when n is refined. */
-    constexpr long steps_of_any_run = 25;
+     * compared at 50 times at least. */
+    constexpr long fewest_steps = 50;
 
     int choose_dimension(const cases::Scene &scene, const cases::Options &options)
     {
@@ -35,7 +34,8 @@ namespace meltfront::reference_fem
       const long steps = options.get_integer("steps");
       if(steps > 0)
         return steps;
-      return steps_of_any_run + std::lround(options.get_double("steps_per_cell") * n);
+      return std::max(fewest_steps,
+                      std::lround(options.get_double("steps_per_cell") * n));
     }
 
     Preconditioner choose_preconditioner(const cases::Options &options)
@@ -68,8 +68,8 @@ namespace meltfront::reference_fem
          0,
          {"bdf2", "backward_euler"}},
         {"steps_per_cell", "1", 0.78125,
-         "Time steps over the run per cell along the domain's side, beside 25.", 1e-6,
-         1e6},
+         "Time steps over the run per cell along the domain's side; at least 50 in all.",
+         1e-6, 1e6},
         {"steps", "1", 0L, "Time steps over the run; 0: from steps_per_cell.", 0, 1e9},
         {"start_halvings", "1", 3L,
          "The first step is replaced by steps that double from 2^-start_halvings of it.",

@@ -132,10 +132,13 @@ namespace meltfront::reference_fem::fitted
         lowest = std::min(lowest, value);
         highest = std::max(highest, value);
       }
-    cases::check_temperature(bounds, lowest, highest, method_name, step, time,
-                             cases::allowed_overshoot(overshoot,
-                                                      scene.domain.side() / options.cells,
-                                                      scene.domain));
+    // What Newton's method leaves of a state at rest, be it at 0.
+    constexpr double solved_to = 1e-10;
+    const double left = solved_to * physics.temperature_scale;
+    cases::check_temperature(
+        bounds, lowest + left, highest - left, method_name, step, time,
+        cases::allowed_overshoot(overshoot, scene.domain.side() / options.cells,
+                                 scene.domain));
   }
 
   void FittedRun::enter(const Stretch &stretch, cases::Observer &observer)

@@ -150,11 +150,9 @@ namespace meltfront::reference_fem::fitted
       for(const double bound : {bounds.lower, bounds.upper})
         if(std::isfinite(bound))
           scale = std::max(scale, std::abs(bound - scene.material.melting_temperature));
-      // The bounds of a state at rest are apart by what is rounded.
-      constexpr double at_rest = 1e-9;
-      const double of_melting
-          = scene.material.latent_heat / scene.material.solid.specific_heat_capacity;
-      return scale > at_rest * of_melting ? scale : of_melting;
+      return scale > 0 ? scale
+                       : scene.material.latent_heat
+                             / scene.material.solid.specific_heat_capacity;
     }
 
     Clock clock_of(const cases::Scene &scene, const std::string &word)

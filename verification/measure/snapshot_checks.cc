@@ -279,7 +279,9 @@ namespace meltfront::verification
       return;
     const double tolerance
         = entries[principle].bound * span()
-          + same_temperature * std::max(std::abs(lowest_seen), std::abs(highest_seen))
+          + same_temperature
+                * std::max({std::abs(lowest_seen), std::abs(highest_seen),
+                            temperature_of_melting()})
           + capillary_shift;
     const MetastableSites found = finder.find(snapshot, tolerance);
     if(add(phase, found.share))

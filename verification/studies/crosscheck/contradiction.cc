@@ -45,7 +45,7 @@ namespace meltfront::verification
           // Of two levels of one spacing the later one counts.
           if(!levels.empty() && levels.back().spacing == run->spacing)
             levels.pop_back();
-          levels.push_back({run->spacing, run->steps, found->second});
+          levels.push_back({run->spacing, found->second});
         }
       return levels;
     }

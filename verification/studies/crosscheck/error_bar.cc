@@ -96,8 +96,7 @@ namespace meltfront::verification
                        + floor;
         return estimate;
       }
-      const bool same_steps = finest.steps < 1.1 * second.steps;
-      estimate.order = std::clamp(observed, lowest_order, same_steps ? 1 : highest_order);
+      estimate.order = std::clamp(observed, lowest_order, highest_order);
     }
     double error = 0;
     for(std::size_t i = std::max<std::size_t>(levels, 3) - 3; i < levels; ++i)

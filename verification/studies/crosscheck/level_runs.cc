@@ -52,7 +52,6 @@ namespace meltfront::verification
                                        {}, &observer, once);
       LevelRun run{record.method, plan.n, record.status, record.message};
       run.spacing = record.description.spacing;
-      run.steps = static_cast<double>(record.cost.steps);
       if(run.status == RunStatus::finished)
         run.course = observer.course();
       return run;
@@ -163,8 +162,7 @@ namespace meltfront::verification
             {"status", to_string(run.status)},
             {"message", run.message},
             {"out_of_time", run.out_of_time},
-            {"spacing", json_of(run.spacing)},
-            {"steps", json_of(run.steps)}};
+            {"spacing", json_of(run.spacing)}};
     if(run.status == RunStatus::finished)
       json["course"] = run.course;
   }
@@ -180,7 +178,6 @@ namespace meltfront::verification
     run.message = json.at("message");
     run.out_of_time = json.at("out_of_time");
     run.spacing = number_in(json.at("spacing"));
-    run.steps = number_in(json.at("steps"));
     if(run.status == RunStatus::finished)
       run.course = json.at("course");
   }

@@ -21,8 +21,7 @@ namespace meltfront::verification
     std::string message{};    ///< of a refusal or failure
     bool out_of_time = false; ///< it was ended at its time limit: status failed
     double spacing = 0;       ///< h (m)
-    double steps = 0;
-    StateCourse course{}; ///< of a finished run
+    StateCourse course{};     ///< of a finished run
   };
 
   void to_json(nlohmann::json &json, const LevelRun &run);

@@ -138,9 +138,12 @@ namespace meltfront::verification
 
   nlohmann::json SummaryOfVerdicts::json() const
   {
-    nlohmann::json json{{"scenes", scenes},     {"suspects", suspects},
-                        {"failures", failures}, {"out_of_time", out_of_time},
-                        {"refusals", refusals}, {"compared", compared},
+    nlohmann::json json{{"scenes", scenes},
+                        {"suspects", suspects},
+                        {"failures", failures},
+                        {"out_of_time", out_of_time},
+                        {"refusals", refusals},
+                        {"compared", compared},
                         {"closest_call", json_of(closest_call)}};
     for(auto [method, list] : bars)
     {

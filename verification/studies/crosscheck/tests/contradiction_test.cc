@@ -57,7 +57,6 @@ namespace meltfront::verification
       {
         LevelRun run{method, n, RunStatus::finished};
         run.spacing = 1. / n;
-        run.steps = n;
         run.course.lowest = -1;
         run.course.highest = 1;
         run.course.quantities["temperature"]

@@ -86,9 +86,8 @@ namespace meltfront::verification
       }
       const auto weight = [](double x) { return 3 * x * x * (1 - x); };
       const double solid = 0.1 * weight(0.95), liquid = 0.9 * weight(0.45);
-      EXPECT_NEAR(
-          observer.course().quantities.at("solid fraction near x = 2/3").back(),
-          solid / (solid + liquid), 1e-12);
+      EXPECT_NEAR(observer.course().quantities.at("solid fraction near x = 2/3").back(),
+                  solid / (solid + liquid), 1e-12);
     }
 
     TEST(CourseObserver, IsKeptAsJson)
