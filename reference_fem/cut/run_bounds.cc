@@ -108,6 +108,13 @@ namespace meltfront::reference_fem::cut
     cases::check_temperature(
         bounds, lowest, highest, method_name, step_number, checked.time,
         cases::allowed_overshoot(cut::overshoot, checked.mesh->spacing, scene.domain));
+    for(const cases::PointSource &source : scene.sources)
+      if(source.power(checked.time) > 0)
+        throw cases::Refusal(
+            fmt::format("fem-cut takes sources that draw heat out of solid; at time "
+                        "{:.6g} that at ({:.6g}, {:.6g}) heats it, and a second front "
+                        "would start there",
+                        checked.time, source.position[0], source.position[1]));
     for(const Point &place : heat.sinks.places)
       if(!heat.in_solid(checked, place))
         throw cases::Refusal(fmt::format(

@@ -18,7 +18,8 @@ namespace meltfront::reference_fem::fitted
   {
     using dealii::Vector;
 
-    /** The share of a ray at which a phase is dropped. */
+    /** The share of a ray, at its centre of the volume, at which a phase is dropped: less
+     * than that is lost in the rounding of the heat of all. */
     constexpr double thinnest = 1e-9;
 
     /** The same where many rays are followed, of which one arrives before the others: how
@@ -49,6 +50,13 @@ namespace meltfront::reference_fem::fitted
     /** Shortest step of an approach, of the run. */
     constexpr double shortest = 1e-13;
 
+    double thinnest_share(const RayMesh &mesh, const bool to_inner)
+    {
+      return to_inner && mesh.has_centre()
+                 ? std::pow(thinnest, 1. / (mesh.surface.exponent + 1))
+                 : thinnest;
+    }
+
     /** How far a front is from the end that it moves to, and for how long. */
     struct Approach
     {
@@ -65,6 +73,9 @@ namespace meltfront::reference_fem::fitted
       result.to_inner = rate < 0;
       result.distance = result.to_inner ? h - mesh.inner : mesh.outer - h;
       result.remaining = result.distance / std::max(std::abs(rate), 1e-300);
+      // To a centre it is the volume within that shrinks evenly, or faster.
+      if(result.to_inner && mesh.has_centre())
+        result.remaining /= mesh.surface.exponent + 1;
       return result;
     }
 
@@ -405,7 +416,8 @@ namespace meltfront::reference_fem::fitted
         step /= 4;
         continue;
       }
-      if(state.distance < thinnest * (mesh.outer - mesh.inner))
+      if(state.distance
+         < thinnest_share(mesh, state.to_inner) * (mesh.outer - mesh.inner))
         return remaining_stretch(setting, stretch, clock.time(last.clock), last.u,
                                  state.to_inner);
       step = std::min({approach * state.remaining, 2 * step, range->step});
