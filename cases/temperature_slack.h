@@ -9,7 +9,7 @@
 namespace meltfront::cases
 {
   /** By how much temperatures may pass bounds because numbers are rounded, in thousands of
-   * steps and in systems that are solved for them: 1e-10 of the larger of those that are
+   * steps and in systems that are solved for them: 1e-9 of the larger of those that are
    * finite. Their span, to which other slacks are related, says
    * nothing of it: a body at rest has none. */
   inline double temperature_round_off(const TemperatureBounds &bounds)
@@ -18,7 +18,7 @@ namespace meltfront::cases
     for(const double bound : {bounds.lower, bounds.upper})
       if(std::isfinite(bound))
         largest = std::max(largest, std::abs(bound));
-    return 1e-10 * largest;
+    return 1e-9 * largest;
   }
 } // namespace meltfront::cases
 

@@ -133,7 +133,7 @@ namespace
       EXPECT_NO_THROW(
           check_temperature(bounds, temperature - off, temperature + off, "test", 1, 0));
       EXPECT_THROW(
-          check_temperature(bounds, temperature, temperature + 1e5 * off, "test", 1, 0),
+          check_temperature(bounds, temperature, temperature + 1e6 * off, "test", 1, 0),
           NumericalError);
     }
   }

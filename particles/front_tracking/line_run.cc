@@ -75,8 +75,6 @@ namespace meltfront::particles::front_tracking
         report(initial, true);
         stepper.start(start.state, start.older);
         booked = heat_of(problem, start.state).total() - initial_heat;
-        inflow = wall_heat(problem, stepper.state());
-        last_time = start.state.time;
         if(start.state.time > scene.start_time)
         {
           ++first_step;
@@ -115,11 +113,10 @@ namespace meltfront::particles::front_tracking
       {
         const double end
             = cases::end_of_piece(problem.breakpoints, stepper.state().time, target);
-        stepper.advance(end, [this] { after_step(); });
+        stepper.advance(end, [this](const LineState &begin) { after_step(begin); });
         if(!std::ranges::binary_search(problem.breakpoints, end))
           return;
         walls += stepper.begin_anew();
-        inflow = wall_heat(problem, stepper.state());
       }
 
       double planned_time(int step) const
@@ -183,16 +180,13 @@ namespace meltfront::particles::front_tracking
         return result;
       }
 
-      void after_step()
+      void after_step(const LineState &begin)
       {
         const LineState &state = stepper.state();
-        const double now = wall_heat(problem, state);
-        const double step = state.time - last_time;
-        walls += step * (now + inflow) / 2
-                 + given_wall_heat(problem, last_time, state.time);
-        released += release(last_time, state.time);
-        inflow = now;
-        last_time = state.time;
+        const double step = state.time - begin.time;
+        walls += step * (wall_heat(problem, begin) + wall_heat(problem, state)) / 2
+                 + given_wall_heat(problem, begin.time, state.time);
+        released += release(begin.time, state.time);
         const auto [lowest, highest]
             = std::minmax_element(state.temperature.begin(), state.temperature.end());
         cases::check_temperature(bounds, *lowest, *highest, method_name,
@@ -296,7 +290,6 @@ namespace meltfront::particles::front_tracking
       double initial_heat = heat_of(problem, initial).total();
       double booked = 0; ///< through the walls before the first step
       double walls = 0, released = 0;
-      double inflow = 0, last_time = 0;
       long first_step = 0; ///< 1 if the run set out from the similarity solution
     };
   } // namespace

@@ -18,6 +18,10 @@ namespace meltfront::particles::front_tracking
      * which time its age grows by twice as much. */
     constexpr double layer_growth = 0.1;
     constexpr double thin_layer = 5;
+    /** One that vanishes at a wall of given temperature is to thin by no more, and is
+     * left no less than this share. */
+    constexpr double layer_decline = 0.25;
+    constexpr double most_decline = 0.5;
     /** Events are found to this share of the temperature's span. */
     constexpr double event_tolerance = 1e-5;
     constexpr double least_excess = 1e-9;
@@ -166,10 +170,19 @@ namespace meltfront::particles::front_tracking
     {
       const double below = now.fronts.front() - problem.nodes.front();
       const double above = problem.nodes.back() - now.fronts.back();
+      // Against a wall whose temperature is given heat flows as one over the thickness.
       if(below < thin_layer * problem.spacing)
+      {
         allow(layer_growth * below, now.speed.front());
+        if(problem.walls[0].fixed())
+          allow(layer_decline * below, -now.speed.front());
+      }
       if(above < thin_layer * problem.spacing)
+      {
         allow(layer_growth * above, -now.speed.back());
+        if(problem.walls[1].fixed())
+          allow(layer_decline * above, now.speed.back());
+      }
     }
     constexpr double round_off = 1e-9;
     const double rest = target - now.time;
@@ -196,6 +209,21 @@ namespace meltfront::particles::front_tracking
               : "finds no place that its speed and its neighbours agree with");
   }
 
+  bool LineStepper::vanishes_too_fast(const LineState &before) const
+  {
+    const auto too_fast = [this](std::size_t side, double thickness, double thickness_now)
+    {
+      return problem.walls[side].fixed() && thickness < thin_layer * problem.spacing
+             && thickness_now < most_decline * thickness;
+    };
+    const LineState &now = state();
+    if(now.fronts.empty() || now.fronts.size() != before.fronts.size())
+      return false;
+    const double lower = problem.nodes.front(), upper = problem.nodes.back();
+    return too_fast(0, before.fronts.front() - lower, now.fronts.front() - lower)
+           || too_fast(1, upper - before.fronts.back(), upper - now.fronts.back());
+  }
+
   bool LineStepper::pass_wall(const std::deque<LineState> &before, double time_step)
   {
     if(problem.metastable)
@@ -207,18 +235,15 @@ namespace meltfront::particles::front_tracking
       if(now <= 0)
         continue;
       const double earlier = wall_excess(problem, before.front(), side) - wanted[side];
-      const bool late = now > tolerance && time_step > rules.shortest_step;
-      if(late && -earlier > tolerance)
-      {
-        // The step that ends where the wall passes, by straight interpolation.
-        solver.restore(before);
+      if(now <= tolerance || time_step <= rules.shortest_step)
+        continue; // as good as at the melting temperature
+      solver.restore(before);
+      // The step that ends where the wall passes, by straight interpolation.
+      if(-earlier > tolerance)
         next_step = time_step * earlier / (earlier - now);
-        return true;
-      }
-      if(late)
-        solver.restore(before);
-      insert(side);
-      return late;
+      else
+        insert(side);
+      return true;
     }
     return false;
   }
@@ -248,7 +273,7 @@ namespace meltfront::particles::front_tracking
     return time_step;
   }
 
-  void LineStepper::advance(double target, const std::function<void()> &after_step)
+  void LineStepper::advance(double target, const AfterStep &after_step)
   {
     while(state().time < target)
     {
@@ -267,6 +292,13 @@ namespace meltfront::particles::front_tracking
         shorten(outcome, time_step);
         continue;
       }
+      if(time_step > rules.shortest_step && vanishes_too_fast(before.front()))
+      {
+        ++shortened_steps;
+        solver.restore(before);
+        next_step = time_step / 2;
+        continue;
+      }
       next_step = time_step * growth;
       if(pass_wall(before, time_step))
         continue;
@@ -274,7 +306,8 @@ namespace meltfront::particles::front_tracking
       ++kept;
       warn_of_thin_layers();
       warn_of_metastable_phases();
-      after_step();
+      after_step(before.front());
+      insert_where_called_for();
     }
   }
 

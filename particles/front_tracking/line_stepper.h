@@ -35,6 +35,7 @@ namespace meltfront::particles::front_tracking
   {
   public:
     using Note = std::function<void(double time, const std::string &event)>;
+    using AfterStep = std::function<void(const LineState &begin)>;
 
     LineStepper(const LineProblem &problem, const LineSettings &settings,
                 const StepRules &rules, Note note);
@@ -50,11 +51,12 @@ namespace meltfront::particles::front_tracking
 
     /**
      * Advance to a time, reached exactly.
-     * @param after_step called after every step that is kept
+     * @param after_step called after every step that is kept, with the state in which it
+     * began: after an event not the one in which the last ended
      * @throws cases::NumericalError where steps would have to be too short or a value is
      * not finite
      */
-    void advance(double target, const std::function<void()> &after_step);
+    void advance(double target, const AfterStep &after_step);
 
     /** See LineSolver; to be called after a step that was kept. */
     void nodes_moved(std::span<const double> before, std::deque<LineState> states)
@@ -78,7 +80,7 @@ namespace meltfront::particles::front_tracking
       return kept;
     }
 
-    /** Steps that were cut short because their equations had no solution in reach. */
+    /** Steps that were cut short. */
     long shortened() const
     {
       return shortened_steps;
@@ -87,6 +89,7 @@ namespace meltfront::particles::front_tracking
   private:
     double choose_end(double target) const;
     void shorten(StepOutcome outcome, double time_step);
+    bool vanishes_too_fast(const LineState &before) const;
     bool pass_wall(const std::deque<LineState> &before, double time_step);
     double shorten_to_bounds(const std::deque<LineState> &before, double time_step);
     void insert(std::size_t side);

@@ -4,6 +4,7 @@
 #include <particles/relaxation/relax_nodes.h>
 #include <particles/rkpm/integral_problem.h>
 #include <particles/rkpm/moab_integral.h>
+#include <particles/scattered/linear_choices.h>
 
 #include <fmt/format.h>
 
@@ -19,12 +20,6 @@ namespace meltfront::particles
      * 20, 40 in a slab whose wall is switched from 0 to 1, 0.07, 0.06 at n = 20, 32 where
      * heat is exchanged with an ambient temperature far off. */
     constexpr cases::Overshoot overshoot{0.16, 0.5};
-
-    template <typename Enumeration>
-    Enumeration choice(const std::vector<std::string> &names, const std::string &name)
-    {
-      return static_cast<Enumeration>(std::ranges::find(names, name) - names.begin());
-    }
 
     /** Every kernel with a Laplacian. */
     std::vector<std::string> kernels_with_laplacian()

@@ -1,7 +1,7 @@
-#include <cases/demand.h>
 #include <cases/error.h>
 #include <cases/overshoot.h>
 #include <cases/stopwatch.h>
+#include <particles/scattered/linear_choices.h>
 #include <particles/scattered/linear_problem.h>
 
 #include <fmt/format.h>
@@ -17,24 +17,8 @@ namespace meltfront::particles
   {
     constexpr double singular = 1e-13;
 
-    const std::vector<std::string> &scheme_names()
-    {
-      static const std::vector<std::string> names{"backward-euler", "crank-nicolson",
-                                                  "bdf2"};
-      return names;
-    }
-
-    long steps_of(const cases::Resolution &resolution)
-    {
-      const long wanted = resolution.options.get_integer("steps");
-      return wanted > 0 ? wanted : std::max(50L, 4L * resolution.n);
-    }
-
-    template <typename Enumeration>
-    Enumeration choice(const std::vector<std::string> &names, const std::string &name)
-    {
-      return static_cast<Enumeration>(std::ranges::find(names, name) - names.begin());
-    }
+    /** Fewer steps are not taken by default, however short the run. */
+    constexpr long fewest_steps = 10;
 
     /** One run: the matrices, the unknowns, and their advance in time. */
     class LinearRun
@@ -48,7 +32,7 @@ namespace meltfront::particles
         , sites(sites)
         , description(description)
         , n(problem.operator_rows.rows())
-        , scheme(choice<LinearScheme>(scheme_names(),
+        , scheme(choice<LinearScheme>(linear_scheme_names(),
                                       resolution.options.get_string("time_scheme")))
         , threads(resolution.threads)
         , bounds(cases::temperature_bounds(scene))
@@ -63,7 +47,9 @@ namespace meltfront::particles
         solver_parameters.tolerance = options.get_double("solver_tolerance");
         solver_parameters.symmetric = problem.symmetric;
         solver_parameters.dimension = sites.dimension;
-        steps = steps_of(resolution);
+        steps = linear_steps(resolution);
+        if(options.get_integer("steps") == 0)
+          steps = std::min(steps, std::max(fewest_steps, most_monotone_steps()));
         if(!problem.reconstruction.columns.empty())
           temperature.resize(n);
       }
@@ -131,6 +117,35 @@ namespace meltfront::particles
                 "functions is singular");
         }
         initial_heat = stored_heat();
+      }
+
+      /** As many steps as the run may have, of at least s^2 / (2 d a) each, with s^2 the
+       * largest mean square distance over which a row of the mass matrix spreads what a
+       * site stores, a the diffusivity: in shorter ones heat moves less far than that,
+       * and temperatures beside a wall that jumps overshoot whatever the spacing (Vermeer
+       * and Verruijt 1981; linear elements: h^2 / (6 a)). */
+      long most_monotone_steps() const
+      {
+        double largest = 0;
+        for(std::size_t i = 0; i < n; ++i)
+        {
+          double sum = 0, second = 0;
+          for(std::size_t k = problem.mass.offsets[i]; k < problem.mass.offsets[i + 1];
+              ++k)
+          {
+            const std::size_t j = problem.mass.columns[k];
+            double square = 0;
+            for(int d = 0; d < sites.dimension; ++d)
+              square += std::pow(sites.positions[d][j] - sites.positions[d][i], 2);
+            sum += problem.mass.coefficients[k];
+            second += problem.mass.coefficients[k] * square;
+          }
+          if(sum > 0)
+            largest = std::max(largest, second / sum);
+        }
+        const double paths = (scene.end_time - scene.start_time) * 2 * sites.dimension
+                             * scene.material.solid.diffusivity() / largest;
+        return paths < double(steps) ? std::lround(std::floor(paths)) : steps;
       }
 
       cases::Position position(std::size_t site) const
@@ -389,7 +404,7 @@ namespace meltfront::particles
                fmt::format("{:.2g}", solver.reciprocal_condition()), "1"});
         if(length > 0)
           result.parameters.push_back(
-              {"time scheme", scheme_names()[std::size_t(scheme)], ""});
+              {"time scheme", linear_scheme_names()[std::size_t(scheme)], ""});
         else
         {
           result.parameters.push_back(
@@ -437,50 +452,6 @@ namespace meltfront::particles
       double worst_residual = 0;
     };
   } // namespace
-
-  std::vector<cases::OptionDeclaration> linear_options()
-  {
-    return {{"linear_solver", "", std::string("automatic"),
-             "Solver of the linear systems: direct factors for small ones, incomplete "
-             "factors or multigrid with a Krylov method for large ones.",
-             0, 0, linear_method_names()},
-            {"solver_tolerance", "1", 1e-12,
-             "Residual over the right-hand side at which an iterative solver stops.",
-             1e-16, 1},
-            {"time_scheme", "", std::string("bdf2"), "Time steps of transient scenes.", 0,
-             0, scheme_names()},
-            {"steps", "1", 0L,
-             "Time steps of transient scenes; 0: four times n, but at least 50.", 0,
-             1e9}};
-  }
-
-  cases::Demand linear_demand(const cases::Scene &scene,
-                              const cases::Resolution &resolution, const LinearSize &size)
-  {
-    // An entry has a coefficient and a column.
-    constexpr double per_entry = 16;
-    LinearSolverParameters solver;
-    solver.method = choice<LinearMethod>(linear_method_names(),
-                                         resolution.options.get_string("linear_solver"));
-    solver.dimension = scene.domain.dimension;
-    double fill = 2;
-    switch(chosen_method(static_cast<std::size_t>(size.nodes), solver))
-    {
-    case LinearMethod::direct:
-      fill = cases::fill_of_factors(solver.dimension, size.nodes);
-      break;
-    case LinearMethod::gmres_ilut:
-      fill = solver.ilut_fill;
-      break;
-    default:
-      break;
-    }
-    return {
-        cases::program_bytes
-            + size.nodes
-                  * (size.per_node + size.entries * per_entry * (size.matrices + fill)),
-        scene.problem == cases::ProblemKind::poisson ? 1. : double(steps_of(resolution))};
-  }
 
   cases::Cost run_linear_problem(const cases::Scene &scene, const LinearProblem &problem,
                                  const LinearSites &sites,

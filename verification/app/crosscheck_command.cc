@@ -48,6 +48,10 @@ namespace meltfront::verification
                  summary.at("refused").get<int>(), summary.at("failed").get<int>(),
                  summary.at("suspect").get<int>());
       print_remarks(summary.at("failures"), "failed ");
+      if(const std::size_t count = summary.at("too_coarse").size(); count > 0)
+        fmt::print("  {} runs failed at resolutions that were too coarse for them; "
+                   "three finer ones finished\n",
+                   count);
       for(const nlohmann::json &suspect : summary.at("suspects"))
         fmt::print(
             "  suspect {}: {} in '{}', {:.3g} times the bars: {}/{}\n",

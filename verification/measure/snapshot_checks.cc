@@ -16,11 +16,9 @@ namespace meltfront::verification
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    /** Relative to the largest temperature: what is nearer is the same. */
-    constexpr double same_temperature = 1e-12;
-
-    /** The same of temperatures that are the solution of an ill-conditioned system. */
-    constexpr double solved_temperature = 1e-9;
+    /** Relative to the largest temperature: what is nearer is the same, of solutions of
+     * systems that are rounded in thousands of steps (cases::temperature_round_off()). */
+    constexpr double same_temperature = 1e-9;
 
     /** A front that is to be resolved bends no more than a body this many spacings
      * across. */
@@ -248,9 +246,8 @@ namespace meltfront::verification
     const auto [lowest, highest] = std::ranges::minmax_element(snapshot.temperature);
     const double below = principle_bounds.lower - *lowest;
     const double above = *highest - principle_bounds.upper;
-    // A method that may overshoot solves for temperatures in bases of any condition.
     const double same
-        = (snapshot.obeys_maximum_principle ? same_temperature : solved_temperature)
+        = same_temperature
           * std::max({std::abs(*lowest), std::abs(*highest), temperature_of_melting()});
     const double beyond = std::max(below, above);
     const double value = beyond <= same ? 0 : beyond / span();

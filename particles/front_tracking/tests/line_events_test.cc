@@ -179,17 +179,16 @@ namespace meltfront::particles::front_tracking
                                               : 0.4 * (x - 0.4) * (0.6 - x));
       run.stepper.start(state, {});
       const LineHeat before = heat_of(problem, state);
-      double in = 0, last = wall_heat(problem, run.stepper.state()), time = 0;
+      double in = 0;
       for(int k = 1; k <= 10; ++k)
-        run.stepper.advance(0.006 * k,
-                            [&]
-                            {
-                              const LineState &now = run.stepper.state();
-                              const double heat = wall_heat(problem, now);
-                              in += (now.time - time) * (heat + last) / 2;
-                              last = heat;
-                              time = now.time;
-                            });
+        run.stepper.advance(
+            0.006 * k,
+            [&](const LineState &begin)
+            {
+              const LineState &now = run.stepper.state();
+              in += (now.time - begin.time)
+                    * (wall_heat(problem, begin) + wall_heat(problem, now)) / 2;
+            });
       return (heat_of(problem, run.stepper.state()).total() - before.total() - in)
              / before.latent;
     }

@@ -24,7 +24,7 @@ namespace meltfront::particles::front_tracking
     void advance(double target)
     {
       stepper.advance(target,
-                      [this]
+                      [this](const LineState &)
                       {
                         const LineState &state = stepper.state();
                         for(const double value : state.temperature)

@@ -46,7 +46,8 @@ namespace meltfront::verification
    *
    * @return what summary.json holds: `scenes`, `agreed`, `refused`, `failed`, `suspect`
    * (numbers of scenes), `suspects` [{scene, methods, quantity, values, bars, time,
-   * suspected, file}], `failures` and `out_of_time` [{scene, method, n, reason}],
+   * suspected, file}], `failures`, `too_coarse` and `out_of_time` [{scene, method, n,
+   * reason}],
    * `refusals` (by method and reason: number of scenes) and `compared` (by method: number
    * of scenes) and `median_bars` (by method, over scenes: relative_bars())
    * @throws InputError for fewer than two methods, OutputError if the directory cannot be

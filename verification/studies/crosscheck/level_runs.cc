@@ -46,6 +46,8 @@ namespace meltfront::verification
       CourseObserver observer(c.scene);
       cases::Resolution resolution{plan.n,
                                    cases::Options(plan.method->option_declarations())};
+      if(plan.steps > 0)
+        resolution.options.set("steps", std::to_string(plan.steps));
       RepeatPolicy once;
       once.most = 1;
       const RunRecord record = run_one(c, *plan.method, resolution, plan.method->name(),
@@ -128,10 +130,13 @@ namespace meltfront::verification
         if(std::filesystem::exists(file(level.number)))
           run = read_json(file(level.number)).get<LevelRun>();
         else
-          run = {planned.method->name(), planned.n, RunStatus::failed,
+          run = {planned.method->name(),
+                 planned.n,
+                 RunStatus::failed,
                  fmt::format("{} {}", planned.method->name(),
                              problem.empty() ? "ended without a result" : problem),
-                 out_of_time};
+                 out_of_time,
+                 !out_of_time};
         return true;
       }
 
@@ -162,6 +167,7 @@ namespace meltfront::verification
             {"status", to_string(run.status)},
             {"message", run.message},
             {"out_of_time", run.out_of_time},
+            {"crashed", run.crashed},
             {"spacing", json_of(run.spacing)}};
     if(run.status == RunStatus::finished)
       json["course"] = run.course;
@@ -177,6 +183,7 @@ namespace meltfront::verification
                                                            : RunStatus::failed;
     run.message = json.at("message");
     run.out_of_time = json.at("out_of_time");
+    run.crashed = json.at("crashed");
     run.spacing = number_in(json.at("spacing"));
     if(run.status == RunStatus::finished)
       run.course = json.at("course");

@@ -20,6 +20,7 @@ namespace meltfront::verification
     RunStatus status = RunStatus::failed;
     std::string message{};    ///< of a refusal or failure
     bool out_of_time = false; ///< it was ended at its time limit: status failed
+    bool crashed = false;     ///< it ended without a word: status failed
     double spacing = 0;       ///< h (m)
     StateCourse course{};     ///< of a finished run
   };
@@ -32,6 +33,7 @@ namespace meltfront::verification
   {
     const cases::Method *method;
     int n;
+    long steps = 0; ///< of its option `steps`; 0: as many as it takes by itself
   };
 
   /** How runs are made. */

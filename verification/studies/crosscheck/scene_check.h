@@ -30,6 +30,7 @@ namespace meltfront::verification
     std::vector<std::string> compared; ///< methods with two levels or more
     std::vector<Remark> refusals;      ///< one for each method that took no level
     std::vector<Remark> failures;
+    std::vector<Remark> too_coarse; ///< failures where three finer runs finished
     std::vector<Remark> out_of_time;
     std::optional<Contradiction> contradiction;
     std::map<std::string, double> bars; ///< relative_bars()
@@ -48,8 +49,14 @@ namespace meltfront::verification
    * is suspect: coarse levels may lie before the range in which errors fall as they
    * should.
    *
+   * Time is refined with space: a method that takes fewer steps by itself than grow with
+   * n from the coarsest resolution is given as many (option `steps`), so that its error
+   * bar holds the error of its steps.
+   *
    * A failure at one of the three resolutions counts, one of a refinement does not; nor
-   * does a run that is out of time, as long as two levels are left.
+   * does a run that is out of time, as long as two levels are left. A method that fails
+   * at the coarsest resolutions and finishes at all finer ones runs at still finer ones
+   * until three are done: it said that those were too coarse (`too_coarse`).
    */
   SceneVerdict check_scene(const cases::Case &c,
                            const std::vector<const cases::Method *> &methods,

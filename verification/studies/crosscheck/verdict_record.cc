@@ -59,6 +59,7 @@ namespace meltfront::verification
             {"compared", verdict.compared},
             {"refusals", json_of_remarks(verdict.refusals)},
             {"failures", json_of_remarks(verdict.failures)},
+            {"too_coarse", json_of_remarks(verdict.too_coarse)},
             {"out_of_time", json_of_remarks(verdict.out_of_time)},
             {"bars", json_of(verdict.bars)},
             {"closest_call", json_of(verdict.closest_call)},
@@ -127,6 +128,7 @@ namespace meltfront::verification
     for(const nlohmann::json &refusal : verdict.at("refusals"))
       ++refusals[refusal.at("method")][reason_without_numbers(refusal.at("reason"))];
     add_remarks(scene, verdict.at("failures"), failures);
+    add_remarks(scene, verdict.at("too_coarse"), too_coarse);
     add_remarks(scene, verdict.at("out_of_time"), out_of_time);
     if(verdict.at("contradiction").is_null())
       return;
@@ -138,13 +140,11 @@ namespace meltfront::verification
 
   nlohmann::json SummaryOfVerdicts::json() const
   {
-    nlohmann::json json{{"scenes", scenes},
-                        {"suspects", suspects},
-                        {"failures", failures},
-                        {"out_of_time", out_of_time},
-                        {"refusals", refusals},
-                        {"compared", compared},
-                        {"closest_call", json_of(closest_call)}};
+    nlohmann::json json{
+        {"scenes", scenes},           {"suspects", suspects},
+        {"failures", failures},       {"too_coarse", too_coarse},
+        {"out_of_time", out_of_time}, {"refusals", refusals},
+        {"compared", compared},       {"closest_call", json_of(closest_call)}};
     for(auto [method, list] : bars)
     {
       std::ranges::sort(list);

@@ -10,7 +10,8 @@
 namespace meltfront::verification
 {
   /** A verdict as it is stored: `outcome`, `compared`, `refusals`, `failures`,
-   * `out_of_time` [{method, n, reason}], `bars`, `contradiction` or null. */
+   * `too_coarse`, `out_of_time` [{method, n, reason}], `bars`, `contradiction` or null.
+   */
   nlohmann::json json_of(const SceneVerdict &verdict);
 
   /** One line: `agreed: sph, fem-enthalpy`. */
@@ -38,6 +39,7 @@ namespace meltfront::verification
     std::map<std::string, std::map<std::string, int>> refusals; ///< by method and reason
     nlohmann::json suspects = nlohmann::json::array();
     nlohmann::json failures = nlohmann::json::array();
+    nlohmann::json too_coarse = nlohmann::json::array();
     nlohmann::json out_of_time = nlohmann::json::array();
     int scenes = 0;
     double closest_call = 0; ///< largest of the scenes'

@@ -165,6 +165,73 @@ namespace meltfront::verification
       EXPECT_EQ(summary.at("compared").at("slow"), 1);
     }
 
+    TEST_F(CrosscheckTest, FailuresAtCoarseResolutionsAloneLeadToFinerOnes)
+    {
+      settings.scenes = 1;
+      const auto fails_at = [](int first, int last)
+      {
+        return [first, last](const auto &, const cases::Resolution &resolution)
+        {
+          if(resolution.n >= first && resolution.n <= last)
+            throw cases::NumericalError("a method", 1, 0, "layer", "is not resolved");
+        };
+      };
+      add("coarse", 0.1, 1, fails_at(20, 32));
+      nlohmann::json summary = run();
+      EXPECT_EQ(summary.at("agreed"), 1);
+      EXPECT_EQ(summary.at("too_coarse").size(), 2u);
+      EXPECT_EQ(summary.at("compared").at("coarse"), 1);
+      settings.methods.pop_back();
+      add("fine", 0.1, 1, fails_at(52, 52));
+      summary = run();
+      EXPECT_EQ(summary.at("failed"), 1);
+      settings.methods.pop_back();
+      add("crashing", 0.1, 1,
+          [](const auto &, const cases::Resolution &resolution)
+          {
+            if(resolution.n == 20)
+              std::raise(SIGSEGV);
+          });
+      summary = run();
+      EXPECT_EQ(summary.at("failed"), 1);
+      EXPECT_TRUE(summary.at("too_coarse").empty());
+    }
+
+    /** Takes 50 steps whatever the resolution, unless it is given more. */
+    class SteadyStepper : public FakeMethod
+    {
+    public:
+      using FakeMethod::FakeMethod;
+
+      std::vector<cases::OptionDeclaration> option_declarations() const override
+      {
+        return {{"steps", "1", 0L, "A number.", 0, 1e9}};
+      }
+
+      cases::Demand demand(const cases::Scene &, const cases::EffectSet &,
+                           const cases::Resolution &) const override
+      {
+        return {1, 50};
+      }
+    };
+
+    TEST_F(CrosscheckTest, TimeIsRefinedWithSpace)
+    {
+      settings.scenes = 1;
+      const SteadyStepper stepper(
+          "stepper",
+          [](const auto &, const cases::Resolution &resolution)
+          {
+            const long steps = resolution.options.get_integer("steps");
+            if(steps != (resolution.n == 20 ? 0 : 50 * resolution.n / 20))
+              throw cases::NumericalError("stepper", 1, 0, "steps",
+                                          std::to_string(steps));
+          });
+      settings.methods.push_back(&stepper);
+      const nlohmann::json summary = run();
+      EXPECT_EQ(summary.at("agreed"), 1) << summary;
+    }
+
     TEST_F(CrosscheckTest, OneMethodAloneIsAnError)
     {
       settings.methods.pop_back();

@@ -1,0 +1,66 @@
+#include <cases/demand.h>
+#include <particles/scattered/linear_choices.h>
+#include <particles/scattered/linear_problem.h>
+
+namespace meltfront::particles
+{
+  const std::vector<std::string> &linear_scheme_names()
+  {
+    static const std::vector<std::string> names{"backward-euler", "crank-nicolson",
+                                                "bdf2"};
+    return names;
+  }
+
+  long linear_steps(const cases::Resolution &resolution)
+  {
+    const long wanted = resolution.options.get_integer("steps");
+    return wanted > 0 ? wanted : std::max(50L, 4L * resolution.n);
+  }
+
+  std::vector<cases::OptionDeclaration> linear_options()
+  {
+    return {{"linear_solver", "", std::string("automatic"),
+             "Solver of the linear systems: direct factors for small ones, incomplete "
+             "factors or multigrid with a Krylov method for large ones.",
+             0, 0, linear_method_names()},
+            {"solver_tolerance", "1", 1e-12,
+             "Residual over the right-hand side at which an iterative solver stops.",
+             1e-16, 1},
+            {"time_scheme", "", std::string("bdf2"), "Time steps of transient scenes.", 0,
+             0, linear_scheme_names()},
+            {"steps", "1", 0L,
+             "Time steps of transient scenes; 0: four times n, but at least 50; fewer, "
+             "but at least 10, where heat would move less far in a step than the rows of "
+             "the mass matrix reach.",
+             0, 1e9}};
+  }
+
+  cases::Demand linear_demand(const cases::Scene &scene,
+                              const cases::Resolution &resolution, const LinearSize &size)
+  {
+    // An entry has a coefficient and a column.
+    constexpr double per_entry = 16;
+    LinearSolverParameters solver;
+    solver.method = choice<LinearMethod>(linear_method_names(),
+                                         resolution.options.get_string("linear_solver"));
+    solver.dimension = scene.domain.dimension;
+    double fill = 2;
+    switch(chosen_method(static_cast<std::size_t>(size.nodes), solver))
+    {
+    case LinearMethod::direct:
+      fill = cases::fill_of_factors(solver.dimension, size.nodes);
+      break;
+    case LinearMethod::gmres_ilut:
+      fill = solver.ilut_fill;
+      break;
+    default:
+      break;
+    }
+    return {
+        cases::program_bytes
+            + size.nodes
+                  * (size.per_node + size.entries * per_entry * (size.matrices + fill)),
+        scene.problem == cases::ProblemKind::poisson ? 1.
+                                                     : double(linear_steps(resolution))};
+  }
+} // namespace meltfront::particles
