@@ -330,14 +330,15 @@ namespace meltfront::particles::front_tracking
         if(strength <= warned[solid ? 1 : 0])
           continue;
         warned[solid ? 1 : 0] = strength;
-        note(now.time,
-             fmt::format("the thermal layer of the {} beside the front is {}: V h/alpha "
-                         "= {:.3g} with V = {:.3g} m/s, h = {:.3g} m, alpha = {:.3g} "
-                         "m^2/s; 0.5 wants a spacing of {:.3g} m",
-                         name_of(solid),
-                         strength == 2 ? "not resolved" : "hardly resolved", peclet,
-                         now.speed[j], problem.spacing, diffusivity,
-                         problem.spacing * 0.5 / peclet));
+        const std::string text = fmt::format(
+            "the thermal layer of the {} beside the front is {}: V h/alpha = {:.3g} with "
+            "V = {:.3g} m/s, h = {:.3g} m, alpha = {:.3g} m^2/s; 0.5 wants a spacing of "
+            "{:.3g} m",
+            name_of(solid), strength == 2 ? "not resolved" : "hardly resolved", peclet,
+            now.speed[j], problem.spacing, diffusivity, problem.spacing * 0.5 / peclet);
+        note(now.time, text);
+        if(strength == 2)
+          unresolved = fmt::format("at t = {:.6g} {}", now.time, text);
       }
     }
   }

@@ -80,6 +80,13 @@ namespace meltfront::particles::front_tracking
       return kept;
     }
 
+    /** Where and how a thermal layer beside a front was thinner than a spacing; empty:
+     * none was, but those that had just appeared. */
+    const std::string &unresolved_layer() const
+    {
+      return unresolved;
+    }
+
     /** Steps that were cut short. */
     long shortened() const
     {
@@ -110,6 +117,7 @@ namespace meltfront::particles::front_tracking
     long shortened_steps = 0;
     long events = 0;
     std::array<int, 2> warned{}; ///< of liquid and solid: how strongly
+    std::string unresolved;
     std::array<bool, 2> warned_metastable{};
   };
 } // namespace meltfront::particles::front_tracking

@@ -1,5 +1,7 @@
 #include <particles/sph/initial_state.h>
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -57,6 +59,7 @@ namespace meltfront::particles
       const double solid = exact.solid_at_origin() ? inner : 1 - inner;
       return scene.material.enthalpy(scene.material.melting_temperature, solid);
     }
+
     /** Whether a level set changes its sign between a cell's centre and its corners. */
     bool cuts(const Discretisation &dis, const cases::Position &centre,
               const cases::Field &level)
@@ -74,13 +77,48 @@ namespace meltfront::particles
       return false;
     }
 
-    /** The scene's own front decides on the phase; a cell that it cuts is at the melting
-     * temperature. */
+    /** Mean enthalpy of a cell of a slab, each phase integrated up to the front. */
+    double mean_along_line(const Discretisation &dis, double centre)
+    {
+      const cases::Scene &scene = dis.scene;
+      const double time = scene.start_time;
+      const auto is_solid = [&](double x) {
+        return (*scene.initial.front)({x, 0, 0}, time) < 0;
+      };
+      const double lower = centre - 0.5 * dis.spacing, upper = centre + 0.5 * dis.spacing;
+      double split = upper;
+      if(is_solid(lower) != is_solid(upper))
+      {
+        double other = lower;
+        for(int k = 0; k < 50; ++k)
+        {
+          const double middle = (other + split) / 2;
+          (is_solid(middle) == is_solid(lower) ? other : split) = middle;
+        }
+      }
+      const auto heat = [&](double from, double to)
+      {
+        const bool solid = is_solid((from + to) / 2);
+        return from == to ? 0
+                          : boost::math::quadrature::gauss<double, 7>::integrate(
+                              [&](double x) {
+                                return scene.material.enthalpy(
+                                    scene.initial.temperature({x, 0, 0}, time), solid);
+                              },
+                              from, to);
+      };
+      return (heat(lower, split) + heat(split, upper)) / dis.spacing;
+    }
+
+    /** The scene's own front decides on the phase; a cell of the plane or of space that
+     * it cuts is at the melting temperature. */
     double from_front(const Discretisation &dis, const cases::Position &position)
     {
       const cases::Scene &scene = dis.scene;
       const cases::Field &level = *scene.initial.front;
-      const bool cut = dis.dimension > 1 && cuts(dis, position, level);
+      const bool cut = cuts(dis, position, level);
+      if(cut && dis.dimension == 1)
+        return mean_along_line(dis, position[0]);
       const double solid = cut ? negative_fraction(dis, position, level)
                                : double(level(position, scene.start_time) < 0);
       return scene.material.enthalpy(

@@ -75,7 +75,8 @@ namespace meltfront::verification
       diagram.emplace(scene.material, *scene.alloy);
   }
 
-  double MetastableFinder::beyond(const cases::Snapshot &snapshot, std::size_t site) const
+  double MetastableFinder::beyond(const cases::Snapshot &snapshot, std::size_t site,
+                                  double tolerance) const
   {
     const double fraction = snapshot.solid_fraction[site];
     const double temperature = snapshot.temperature[site];
@@ -89,7 +90,7 @@ namespace meltfront::verification
       };
       melting = std::max(eutectic_temperature, diagram->liquidus(content(0), content(1)));
       // Crystals are pure: what is solid and holds solute froze at the eutectic.
-      if(fraction >= 1 && melting < melting_temperature)
+      if(fraction >= 1 && melting < melting_temperature - tolerance)
         melting = eutectic_temperature;
     }
     return fraction >= 1 ? temperature - melting : melting - temperature;
@@ -104,7 +105,7 @@ namespace meltfront::verification
     for(std::size_t i = 0; i < snapshot.temperature.size(); ++i)
     {
       volume += snapshot.weights[i];
-      const double excess = snapshot.weights[i] > 0 ? beyond(snapshot, i) : 0;
+      const double excess = snapshot.weights[i] > 0 ? beyond(snapshot, i, tolerance) : 0;
       if(!(excess > tolerance))
         continue;
       if(!vicinity)

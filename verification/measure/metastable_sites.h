@@ -38,7 +38,8 @@ namespace meltfront::verification
     MetastableSites find(const cases::Snapshot &snapshot, double tolerance) const;
 
   private:
-    double beyond(const cases::Snapshot &snapshot, std::size_t site) const;
+    double beyond(const cases::Snapshot &snapshot, std::size_t site,
+                  double tolerance) const;
 
     double melting_temperature, eutectic_temperature;
     std::optional<cases::PhaseDiagram> diagram;

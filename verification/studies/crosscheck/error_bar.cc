@@ -8,6 +8,9 @@ namespace meltfront::verification
 {
   namespace
   {
+    /** Of the finest levels so many tell of errors. */
+    constexpr std::size_t counted_levels = 4;
+
     /** Root mean square of the difference of two levels from one time to another. */
     double difference(const Level &one, const Level &other, std::size_t from,
                       std::size_t to)
@@ -99,7 +102,8 @@ namespace meltfront::verification
       estimate.order = std::clamp(observed, lowest_order, highest_order);
     }
     double error = 0;
-    for(std::size_t i = std::max<std::size_t>(levels, 3) - 3; i < levels; ++i)
+    for(std::size_t i = std::max(levels, counted_levels) - counted_levels; i < levels;
+        ++i)
       for(std::size_t j = i + 1; j < levels; ++j)
         error = std::max(error, error_of_finest(finest, coarse_to_fine[j],
                                                 coarse_to_fine[i], time, estimate.order));

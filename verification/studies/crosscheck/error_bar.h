@@ -42,13 +42,14 @@ namespace meltfront::verification
   /**
    * The value of the finest level at one of the course's times, and its error bar.
    *
-   * With levels i < j of the finest three, d the difference f_i - f_j at this time, D its
+   * With levels i < j of the finest four, d the difference f_i - f_j at this time, D its
    * root mean square over a quarter of the course around it, and a = sqrt((d^2 + D^2)/2),
    * because a front that stands in a cell makes single differences vanish by chance:
    *
    *   bar = F max_ij a_ij h_1^p / (h_j^p - h_i^p) + floor,
    *
-   * the largest error of the finest level (1) of which any two tell. The order p solves
+   * the largest error of the finest level (1) of which any two tell: where errors fall in
+   * leaps, the finest may agree by chance. Of the finest three, the order p solves
    * D_32/D_21 = r_21^p (r_32^p - 1)/(r_21^p - 1) for root mean squares over the whole
    * course, bounded by lowest_order and highest_order. Levels whose
    * differences do not shrink give three times their largest difference (`converging` is
@@ -57,7 +58,7 @@ namespace meltfront::verification
    * Levels should not double: a front that rests at x stands in its cell at the fraction
    * of n x, and doubling n leaves its distance from the cell's middle as it was.
    *
-   * @param coarse_to_fine at least one, of the same times; only the finest three count
+   * @param coarse_to_fine at least one, of the same times; only the finest four count
    * @param scale of the quantity
    */
   Estimate estimate_at(const std::vector<Level> &coarse_to_fine, std::size_t time,

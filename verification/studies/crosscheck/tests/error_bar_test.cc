@@ -68,12 +68,21 @@ namespace meltfront::verification
 
     TEST(ErrorBar, FinestOfFiveLevelsCount)
     {
-      // The two coarsest lie before the range in which errors fall as they should.
-      const std::vector<Level> finest{level(80, 3, 2), level(160, 3, 2),
+      // The coarsest lies before the range in which errors fall as they should.
+      const std::vector<Level> finest{level(40, 3, 2), level(80, 3, 2), level(160, 3, 2),
                                       level(320, 3, 2)};
-      std::vector<Level> all{level(20, 90, 0), level(40, -70, 0)};
+      std::vector<Level> all{level(20, 90, 0)};
       all.insert(all.end(), finest.begin(), finest.end());
       EXPECT_DOUBLE_EQ(estimate_at(all, 6, 1).bar, estimate_at(finest, 6, 1).bar);
+    }
+
+    TEST(ErrorBar, LevelsThatFellInALeapAreNotBelievedBecauseTheFinestAgree)
+    {
+      const std::vector<Level> finest{level(80, 0, 1), level(160, 0, 1),
+                                      level(320, 0, 1)};
+      std::vector<Level> all{level(40, 3, 1)};
+      all.insert(all.end(), finest.begin(), finest.end());
+      EXPECT_GT(estimate_at(all, 6, 1).bar, 20 * estimate_at(finest, 6, 1).bar);
     }
   } // namespace
 } // namespace meltfront::verification
