@@ -68,6 +68,16 @@ namespace meltfront::particles::front_tracking
     return state.solid(side == 0 ? 0 : state.n_intervals() - 1) ? excess : -excess;
   }
 
+  LineHeat heat_before_layers(const LineProblem &problem, LineState state)
+  {
+    for(const std::size_t side : {0, 1})
+      if(!problem.metastable && !(side == 0 && problem.axis)
+         && wall_excess(problem, state, side) > 0)
+        (side == 0 ? state.temperature.front() : state.temperature.back())
+            = problem.material.melting_temperature;
+    return heat_of(problem, state);
+  }
+
   double insert_layer(const LineProblem &problem, LineState &state, std::size_t side)
   {
     const LineInterval phase

@@ -2,6 +2,7 @@
 #define meltfront_particles_front_tracking_line_events_h
 
 #include <particles/front_tracking/line_collocation.h>
+#include <particles/front_tracking/line_sites.h>
 
 #include <optional>
 
@@ -34,6 +35,13 @@ namespace meltfront::particles::front_tracking
    * temperature for the phase there (K); negative where that phase is stable. */
   double wall_excess(const LineProblem &problem, const LineState &state,
                      std::size_t side);
+
+  /**
+   * The heat of a state whose walls are no farther than at the melting temperature where
+   * the phase there is to melt or freeze at once: a wall that jumps beyond it brings no
+   * more heat into the cells beside it than that, and then the layer that appears.
+   */
+  LineHeat heat_before_layers(const LineProblem &problem, LineState state);
 
   /** Insert a front near a wall: the other phase appears in a layer there, a twentieth of
    * a spacing thick or less.

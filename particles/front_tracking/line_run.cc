@@ -2,6 +2,7 @@
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
 #include <cases/time_integral.h>
+#include <particles/front_tracking/line_events.h>
 #include <particles/front_tracking/line_relax.h>
 #include <particles/front_tracking/line_run.h>
 #include <particles/front_tracking/line_sites.h>
@@ -78,7 +79,7 @@ namespace meltfront::particles::front_tracking
         watch.restart();
         report(initial, true);
         stepper.start(start.state, start.older);
-        booked = heat_of(problem, start.state).total() - initial_heat;
+        booked = heat_before_layers(problem, start.state).total() - initial_heat;
         if(start.state.time > scene.start_time)
         {
           ++first_step;

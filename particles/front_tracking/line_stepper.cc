@@ -99,7 +99,7 @@ namespace meltfront::particles::front_tracking
       if(problem.walls[side].fixed())
         (side == 0 ? now.temperature.front() : now.temperature.back())
             = problem.walls[side].value_after(now.time);
-    const double after = heat_of(problem, now).total();
+    const double after = heat_before_layers(problem, now).total();
     restart(std::move(now));
     insert_where_called_for();
     return after - before;
