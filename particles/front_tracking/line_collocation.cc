@@ -6,6 +6,13 @@
 
 namespace meltfront::particles::front_tracking
 {
+  namespace
+  {
+    /** Spacings over the thickness of a layer before a front, V h/a: up to the one it is
+     * resolved, from the other on it is fitted. */
+    constexpr double resolved_peclet = 0.25, unresolved_peclet = 0.75;
+  } // namespace
+
   using cases::BoundaryKind;
 
   LineInterval interval(const LineProblem &problem, const LineState &state,
@@ -229,7 +236,38 @@ namespace meltfront::particles::front_tracking
     for(std::size_t i = first; i < end; ++i)
       temperature[i] = right_side[i - first + offset];
     interpolate_absorbed(interval, temperature);
-    return end_slopes();
+    EndSlopes slopes = end_slopes();
+    for(std::size_t side = 0; side < 2; ++side)
+      if(terms.approach[side] > 0)
+        slopes[side] *= slope_over_resolved(interval, side, terms.approach[side]);
+    return slopes;
+  }
+
+  /**
+   * By how much the slope at a front that moves into a phase exceeds what its stencil
+   * has. A layer of thickness a/V runs before the front, in which the temperature is 1 -
+   * exp(-V x/a) steadily; the factor is what makes the stencil exact for that
+   * (exponential fitting: Il'in 1969, Scharfetter and Gummel 1969), so that the front
+   * draws from a phase whose layer no node resolves the heat rho c V (T - T_m) that it
+   * meets. It comes in where the layer is about as thin as the spacing.
+   */
+  double LineCollocation::slope_over_resolved(const LineInterval &interval,
+                                              std::size_t side, double approach) const
+  {
+    const double rate = approach / problem.phase(interval.solid).diffusivity();
+    const double share = std::clamp((rate * problem.spacing - resolved_peclet)
+                                        / (unresolved_peclet - resolved_peclet),
+                                    0., 1.);
+    if(share == 0)
+      return 1;
+    const LineStencil &row = rows[side == 0 ? 0 : cloud.size() - 1];
+    const double front = side == 0 ? interval.lower : interval.upper;
+    double sum = 0;
+    for(std::size_t j = 0; j < row.size(); ++j)
+      sum -= row.slope[j]
+             * std::expm1(-rate * std::abs(cloud.position[0][row.first + j] - front));
+    const double factor = (side == 0 ? rate : -rate) / sum;
+    return factor > 0 ? 1 + share * share * (3 - 2 * share) * (factor - 1) : 1;
   }
 
   void LineCollocation::interpolate_absorbed(const LineInterval &interval,

@@ -30,6 +30,9 @@ namespace meltfront::particles::front_tracking
     std::span<const double> history; ///< of each node (K/s)
     double displaced_speed = 0;      ///< u at the front that displaces matter (m/s)
     double displacing_front = 0;     ///< its place (m)
+    /** Speeds at which fronts at the lower and the upper end move into the phase (m/s); 0
+     * where none does, or where its layer is not to be fitted. */
+    std::array<double, 2> approach{};
   };
 
   /** Slopes of the temperature at the two ends of an interval (K/m). */
@@ -78,6 +81,8 @@ namespace meltfront::particles::front_tracking
     void interpolate_absorbed(const LineInterval &interval,
                               std::span<double> temperature) const;
     EndSlopes end_slopes() const;
+    double slope_over_resolved(const LineInterval &interval, std::size_t side,
+                               double approach) const;
 
     const LineProblem &problem;
     double absorption; ///< m

@@ -141,6 +141,9 @@ namespace meltfront::particles::front_tracking
         terms.displaced_speed = problem.displacement(phase.solid) * trial.rate[0];
         terms.displacing_front = state.fronts[0];
       }
+      if(!problem.metastable && problem.displacement(phase.solid) == 0)
+        terms.approach = {phase.lower_front ? std::max(trial.rate[p - 1], 0.) : 0.,
+                          phase.upper_front ? std::max(-trial.rate[p], 0.) : 0.};
       slopes[p] = collocation.solve(phase, terms, state.temperature);
       const auto [first, end] = collocation.nodes_of(phase);
       const std::size_t wall = phase.lower_front ? 1 : 0;
