@@ -320,8 +320,8 @@ namespace meltfront::particles::front_tracking
     return result;
   }
 
-  EndSlopes LineCollocation::slopes(const LineInterval &interval,
-                                    std::span<const double> temperature)
+  void LineCollocation::gather_values(const LineInterval &interval,
+                                      std::span<const double> temperature)
   {
     gather(interval);
     right_side.resize(cloud.size());
@@ -333,6 +333,33 @@ namespace meltfront::particles::front_tracking
     }
     stencil(0);
     stencil(cloud.size() - 1);
+  }
+
+  EndSlopes LineCollocation::slopes(const LineInterval &interval,
+                                    std::span<const double> temperature)
+  {
+    gather_values(interval, temperature);
     return end_slopes();
+  }
+
+  double LineCollocation::exchanging_wall(const LineInterval &interval, std::size_t side,
+                                          double ambient,
+                                          std::span<const double> temperature)
+  {
+    gather_values(interval, temperature);
+    const std::size_t point = side == 0 ? 0 : cloud.size() - 1;
+    const LineStencil &row = rows[point];
+    const double conductivity = problem.phase(interval.solid).conductivity;
+    const double transfer = problem.walls[side].transfer;
+    double own = transfer, others = 0;
+    for(std::size_t j = 0; j < row.size(); ++j)
+    {
+      const double coefficient = (side == 0 ? -1 : 1) * conductivity * row.slope[j];
+      if(row.first + j == point)
+        own += coefficient;
+      else
+        others += coefficient * right_side[row.first + j];
+    }
+    return (transfer * ambient - others) / own;
   }
 } // namespace meltfront::particles::front_tracking

@@ -55,6 +55,11 @@ namespace meltfront::particles::front_tracking
     /** Slopes at the ends of an interval for given temperatures. */
     EndSlopes slopes(const LineInterval &interval, std::span<const double> temperature);
 
+    /** Temperature of a wall (0: lower, 1: upper) beside an interval that exchanges heat
+     * with an ambient temperature, for given temperatures of the other nodes. */
+    double exchanging_wall(const LineInterval &interval, std::size_t side, double ambient,
+                           std::span<const double> temperature);
+
     /** Nodes strictly inside an interval or on a wall that bounds it, [first, end);
      * `absorbed` counts those that lie too near to a front. */
     std::pair<std::size_t, std::size_t> nodes_of(const LineInterval &interval) const;
@@ -80,6 +85,7 @@ namespace meltfront::particles::front_tracking
     void fill_matrix();
     void interpolate_absorbed(const LineInterval &interval,
                               std::span<double> temperature) const;
+    void gather_values(const LineInterval &interval, std::span<const double> temperature);
     EndSlopes end_slopes() const;
     double slope_over_resolved(const LineInterval &interval, std::size_t side,
                                double approach) const;

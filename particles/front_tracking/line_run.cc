@@ -2,7 +2,6 @@
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
 #include <cases/time_integral.h>
-#include <particles/front_tracking/line_events.h>
 #include <particles/front_tracking/line_relax.h>
 #include <particles/front_tracking/line_run.h>
 #include <particles/front_tracking/line_sites.h>
@@ -72,14 +71,16 @@ namespace meltfront::particles::front_tracking
 
       cases::Cost run()
       {
-        const LineStart start = choose_start(scene, problem, parameters, initial,
-                                             planned_time(1) - scene.start_time);
+        LineStart start = choose_start(scene, problem, parameters, initial,
+                                       planned_time(1) - scene.start_time);
         const cases::Stopwatch::Seconds setup = watch.elapsed();
         watch.without([&] { observer.begin(description(start)); });
         watch.restart();
         report(initial, true);
+        booked = start.from_initial
+                     ? stepper.set_walls(start.state)
+                     : heat_of(problem, start.state).total() - initial_heat;
         stepper.start(start.state, start.older);
-        booked = heat_before_layers(problem, start.state).total() - initial_heat;
         if(start.state.time > scene.start_time)
         {
           ++first_step;

@@ -74,6 +74,18 @@ namespace meltfront::particles::front_tracking
     slope_known = false;
   }
 
+  void LineSolver::set_wall(LineState &state, std::size_t side)
+  {
+    const LineWall &wall = problem.walls[side];
+    double &value = side == 0 ? state.temperature.front() : state.temperature.back();
+    if(wall.fixed())
+      value = wall.value_after(state.time);
+    else if(wall.kind == cases::BoundaryKind::heat_transfer)
+      value = collocation.exchanging_wall(
+          interval(problem, state, side == 0 ? 0 : state.n_intervals() - 1), side,
+          wall.value_after(state.time), state.temperature);
+  }
+
   void LineSolver::find_speeds(LineState &state,
                                const std::vector<EndSlopes> &slopes) const
   {

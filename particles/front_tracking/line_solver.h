@@ -37,6 +37,11 @@ namespace meltfront::particles::front_tracking
      */
     void restart(LineState state);
 
+    /** Give a wall (0: lower, 1: upper) of a state the temperature that it has from its
+     * time on: what is prescribed, or what an exchange with an ambient temperature leads
+     * to. */
+    void set_wall(LineState &state, std::size_t side);
+
     /** Add what was before the state that the solver was started from, newest first. */
     void add_older(LineState state)
     {

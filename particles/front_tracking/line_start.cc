@@ -230,11 +230,7 @@ namespace meltfront::particles::front_tracking
       }
     start.state = initial;
     start.how = "the initial state";
-    // A wall has its temperature from the first moment on.
-    for(std::size_t side = 0; side < 2; ++side)
-      if(problem.walls[side].fixed())
-        (side == 0 ? start.state.temperature.front() : start.state.temperature.back())
-            = problem.walls[side].value(time);
+    start.from_initial = true;
     return start;
   }
 } // namespace meltfront::particles::front_tracking

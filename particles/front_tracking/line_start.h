@@ -28,6 +28,7 @@ namespace meltfront::particles::front_tracking
     LineState state;
     std::vector<LineState> older; ///< newest first
     std::string how;              ///< in words
+    bool from_initial = false;    ///< its walls are yet to get their temperatures
   };
 
   /**

@@ -94,15 +94,18 @@ namespace meltfront::particles::front_tracking
   double LineStepper::begin_anew()
   {
     LineState now = state();
-    const double before = heat_of(problem, now).total();
-    for(const std::size_t side : {0, 1})
-      if(problem.walls[side].fixed())
-        (side == 0 ? now.temperature.front() : now.temperature.back())
-            = problem.walls[side].value_after(now.time);
-    const double after = heat_before_layers(problem, now).total();
+    const double heat = set_walls(now);
     restart(std::move(now));
     insert_where_called_for();
-    return after - before;
+    return heat;
+  }
+
+  double LineStepper::set_walls(LineState &changed)
+  {
+    const double before = heat_of(problem, changed).total();
+    for(std::size_t side = 0; side < 2; ++side)
+      solver.set_wall(changed, side);
+    return heat_before_layers(problem, changed).total() - before;
   }
 
   void LineStepper::insert_where_called_for()
@@ -123,6 +126,9 @@ namespace meltfront::particles::front_tracking
                       "second one starts at the {} wall",
                       method_name, changed.time, side == 0 ? "lower" : "upper"));
     const double thickness = insert_layer(problem, changed, side);
+    // A thin layer keeps a wall that exchanges heat near the melting temperature.
+    if(!problem.walls[side].fixed())
+      solver.set_wall(changed, side);
     const bool solid = changed.solid(side == 0 ? 0 : changed.n_intervals() - 1);
     note(changed.time,
          fmt::format("{} appeared at the {} wall in a layer of {:.3g} m", name_of(solid),

@@ -44,6 +44,10 @@ namespace meltfront::particles::front_tracking
      * @param older states before it, newest first, equally far apart */
     void start(LineState state, std::vector<LineState> older);
 
+    /** Give the walls of a state the temperatures that they have from its time on.
+     * @return heat content that this changed by the walls' nodes */
+    double set_walls(LineState &changed);
+
     /** Begin anew from the state at hand, at a time at which what walls prescribe jumps
      * or bends: without history, with the walls' temperatures from then on.
      * @return heat content that this changed by the walls' nodes */
