@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/initial_level.h>
 #include <cases/time_integral.h>
 #include <particles/core/arrangement.h>
 #include <particles/front_tracking/line_start.h>
@@ -70,14 +71,7 @@ namespace meltfront::particles::front_tracking
 
     bool solid_at(const cases::Scene &scene, double x)
     {
-      const cases::Position place = position_on_line(x);
-      if(scene.initial.front)
-        return (*scene.initial.front)(place, scene.start_time) < 0;
-      const double excess = scene.initial.temperature(place, scene.start_time)
-                            - scene.material.melting_temperature;
-      if(excess != 0)
-        return excess < 0;
-      return scene.initial.solid_fraction_at_melting >= 0.5;
+      return cases::initial_level(scene)(position_on_line(x), scene.start_time) < 0;
     }
 
     std::vector<double> find_fronts(const cases::Scene &scene, double lower, double upper,

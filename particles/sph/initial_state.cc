@@ -1,3 +1,4 @@
+#include <cases/initial_level.h>
 #include <particles/sph/initial_state.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -78,13 +79,12 @@ namespace meltfront::particles
     }
 
     /** Mean enthalpy of a cell of a slab, each phase integrated up to the front. */
-    double mean_along_line(const Discretisation &dis, double centre)
+    double mean_along_line(const Discretisation &dis, double centre,
+                           const cases::Field &level)
     {
       const cases::Scene &scene = dis.scene;
       const double time = scene.start_time;
-      const auto is_solid = [&](double x) {
-        return (*scene.initial.front)({x, 0, 0}, time) < 0;
-      };
+      const auto is_solid = [&](double x) { return level({x, 0, 0}, time) < 0; };
       const double lower = centre - 0.5 * dis.spacing, upper = centre + 0.5 * dis.spacing;
       double split = upper;
       if(is_solid(lower) != is_solid(upper))
@@ -110,15 +110,19 @@ namespace meltfront::particles
       return (heat(lower, split) + heat(split, upper)) / dis.spacing;
     }
 
-    /** The scene's own front decides on the phase; a cell of the plane or of space that
-     * it cuts is at the melting temperature. */
-    double from_front(const Discretisation &dis, const cases::Position &position)
+    /** A level set decides on the phase; a cell of the plane or of space that it cuts is
+     * at the melting temperature. */
+    double from_front(const Discretisation &dis, const cases::Position &position,
+                      const cases::Field &level)
     {
       const cases::Scene &scene = dis.scene;
-      const cases::Field &level = *scene.initial.front;
       const bool cut = cuts(dis, position, level);
       if(cut && dis.dimension == 1)
-        return mean_along_line(dis, position[0]);
+        return mean_along_line(dis, position[0], level);
+      if(!cut && !scene.initial.front)
+        return scene.material.enthalpy(
+            scene.initial.temperature(position, scene.start_time),
+            scene.initial.solid_fraction_at_melting);
       const double solid = cut ? negative_fraction(dis, position, level)
                                : double(level(position, scene.start_time) < 0);
       return scene.material.enthalpy(
@@ -131,16 +135,13 @@ namespace meltfront::particles
   std::vector<double> initial_enthalpy(const Discretisation &dis)
   {
     const cases::Scene &scene = dis.scene;
+    const cases::Field level = cases::initial_level(scene);
     std::vector<double> enthalpy(dis.particles.size());
     for(std::size_t i = 0; i < enthalpy.size(); ++i)
     {
       const cases::Position position = dis.particles.point(i);
       enthalpy[i] = scene.initial.exact ? from_exact(dis, position)
-                    : scene.initial.front
-                        ? from_front(dis, position)
-                        : scene.material.enthalpy(
-                            scene.initial.temperature(position, scene.start_time),
-                            scene.initial.solid_fraction_at_melting);
+                                        : from_front(dis, position, level);
     }
     return enthalpy;
   }

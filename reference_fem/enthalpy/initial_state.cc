@@ -1,4 +1,5 @@
 #include <cases/exact/heat_quadrature.h>
+#include <cases/initial_level.h>
 #include <reference_fem/enthalpy/initial_state.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -100,6 +101,23 @@ namespace meltfront::reference_fem
                           { return sign * exact->signed_distance(p, time); }};
     }
 
+    /** The same where the scene has none, but its temperature passes the melting one
+     * between two nodes; what is at it must be one phase. */
+    std::optional<cases::Field> temperature_front(const cases::Scene &scene,
+                                                  const Discretization &discretization)
+    {
+      const double at_melting = scene.initial.solid_fraction_at_melting;
+      if(!scene.changes_phase() || scene.alloy || (at_melting > 0 && at_melting < 1))
+        return {};
+      cases::Field level = cases::initial_level(scene);
+      bool solid = false, liquid = false;
+      for(const Position &p : discretization.positions)
+        (level(p, scene.start_time) < 0 ? solid : liquid) = true;
+      if(!solid || !liquid)
+        return {};
+      return level;
+    }
+
     std::vector<double> averages(const cases::Scene &scene, const Start &start,
                                  const Mesh &mesh, const Discretization &discretization)
     {
@@ -134,7 +152,9 @@ namespace meltfront::reference_fem
                                        const std::vector<char> &free)
   {
     const std::size_t n = discretization.volume.size();
-    const std::optional<cases::Field> front = initial_front(scene);
+    std::optional<cases::Field> front = initial_front(scene);
+    if(!front && !scene.initial.exact)
+      front = temperature_front(scene, discretization);
     std::vector<double> result
         = front ? averages(scene, Start(scene, *front), mesh, discretization)
                 : std::vector<double>(n);
