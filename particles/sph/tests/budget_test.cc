@@ -275,5 +275,33 @@ namespace meltfront::particles::testing
         }
       }
     }
+
+    // Solid up to 0.2529, which is in a cell of every resolution, with and without words
+    // about the front; the temperature has a kink there.
+    TEST(Start, CellsThatAFrontCutsHoldTheHeatOfBothSides)
+    {
+      constexpr double front = 0.2529;
+      const cases::Field excess{"", [](const cases::Position &p, double)
+                                { return p[0] - front; }};
+      for(const bool stated : {false, true})
+        for(const int n : {20, 32, 40, 52})
+        {
+          Problem problem;
+          const cases::Material material = unit_material();
+          problem.scene = slab(material, 1, 0, 1e-3, insulated(), insulated());
+          problem.scene.initial.temperature
+              = {"", [&](const cases::Position &p, double)
+                 {
+                   const double beyond = p[0] - front;
+                   return material.melting_temperature
+                          + (beyond < 0 ? 3 * beyond : 2 * beyond);
+                 }};
+          if(stated)
+            problem.scene.initial.front = excess;
+          const double expected = -3 * front * front / 2 + (1 - front) * (1 - front)
+                                  + material.latent_heat * (1 - front);
+          EXPECT_NEAR(run(*make_sph(), problem, n).heat.initial, expected, 1e-12) << n;
+        }
+    }
   } // namespace
 } // namespace meltfront::particles::testing

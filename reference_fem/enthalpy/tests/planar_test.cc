@@ -170,5 +170,26 @@ namespace meltfront::reference_fem::tests
         }
       }
     }
+
+    // Solid up to 0.2529, which is in a cell of every resolution; nobody says that a
+    // front is there but the temperature, with a kink.
+    TEST(PlanarFreezing, CellsInWhichTheStartPassesTheMeltingPointHoldTheHeatOfBothSides)
+    {
+      constexpr double front = 0.2529;
+      const Material material = normalised_material();
+      for(const int n : {20, 32, 40, 52})
+      {
+        Scene scene = slab(material, 1, 0, 0, 1e-3);
+        scene.initial.temperature = {"", [&](const Position &p, double)
+                                     {
+                                       const double beyond = p[0] - front;
+                                       return material.melting_temperature
+                                              + (beyond < 0 ? 3 * beyond : 2 * beyond);
+                                     }};
+        const double expected = -3 * front * front / 2 + (1 - front) * (1 - front)
+                                + material.latent_heat * (1 - front);
+        EXPECT_NEAR(run(scene, n, {}).heat.initial, expected, 1e-12) << n;
+      }
+    }
   } // namespace
 } // namespace meltfront::reference_fem::tests

@@ -174,9 +174,9 @@ namespace meltfront::verification
     switch(dimension)
     {
     case 1:
-      return {20, 32, 52, 84, 136};
+      return {20, 34, 54, 86, 138};
     case 2:
-      return {12, 20, 32, 52, 84};
+      return {12, 20, 34, 54, 86};
     default:
       return {6, 10, 16, 26};
     }
