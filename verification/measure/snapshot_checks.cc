@@ -40,6 +40,10 @@ namespace meltfront::verification
     /** Relative to what enters and leaves: sums over many steps. */
     constexpr double integral_of_round_off = 1e-6;
 
+    /** Spacings: sites in disorder sample a release at places that far from the middles
+     * of what they stand for, on either side. */
+    constexpr double spacings_of_sampling = 2;
+
     /** Spacings: at two walls and on both sides of a front. */
     constexpr double layers_unaccounted_for = 4;
 
@@ -107,9 +111,10 @@ namespace meltfront::verification
                             ? spacing / scene.domain.side()
                             : integral_of_round_off},
               {.name = "heat of sources",
-               .bound = sites_are_cut()      ? layer_of_walls(scene, spacing)
-                        : given.sources_vary ? spacing / scene.domain.side()
-                                             : integral_of_round_off},
+               .bound = sites_are_cut() ? layer_of_walls(scene, spacing)
+                        : given.sources_vary
+                            ? spacings_of_sampling * spacing / scene.domain.side()
+                            : integral_of_round_off},
               {.name = "front against phases"}}
   {
     principle_bounds = bounds_of(scene, capillary_shift);

@@ -46,6 +46,9 @@ namespace meltfront::verification
           if(!levels.empty() && levels.back().spacing == run->spacing)
             levels.pop_back();
           levels.push_back({run->spacing, found->second});
+          if(const auto misread = run->course.misreadings.find(quantity);
+             misread != run->course.misreadings.end())
+            levels.back().misreadings = misread->second;
         }
       return levels;
     }

@@ -69,7 +69,8 @@ namespace meltfront::verification
   {
     const std::size_t levels = coarse_to_fine.size();
     const Level &finest = coarse_to_fine.back();
-    const double floor = reading_error * scale;
+    const double floor = reading_error * scale
+                         + (finest.misreadings.empty() ? 0 : finest.misreadings[time]);
     Estimate estimate;
     estimate.value = finest.values[time];
     if(levels < 2)

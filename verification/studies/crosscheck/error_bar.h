@@ -11,6 +11,7 @@ namespace meltfront::verification
   {
     double spacing = 0; ///< h (m)
     std::vector<double> values;
+    std::vector<double> misreadings{}; ///< by how much each may be misread; empty: not
   };
 
   /** A value with what is known of its error. */
@@ -48,12 +49,13 @@ namespace meltfront::verification
    *
    *   bar = F max_ij a_ij h_1^p / (h_j^p - h_i^p) + floor,
    *
-   * the largest error of the finest level (1) of which any two tell: where errors fall in
-   * leaps, the finest may agree by chance. Of the finest three, the order p solves
-   * D_32/D_21 = r_21^p (r_32^p - 1)/(r_21^p - 1) for root mean squares over the whole
-   * course, bounded by lowest_order and highest_order. Levels whose
-   * differences do not shrink give three times their largest difference (`converging` is
-   * false). Two levels tell no order: p = lowest_order.
+   * with reading_error times the scale and what the finest level may be misread by as the
+   * floor: the largest error of the finest level (1) of which any two tell: where errors
+   * fall in leaps, the finest may agree by chance. Of the finest three, the order p
+   * solves D_32/D_21 = r_21^p (r_32^p - 1)/(r_21^p - 1) for root mean squares over the
+   * whole course, bounded by lowest_order and highest_order. Levels whose differences do
+   * not shrink give three times their largest difference (`converging` is false). Two
+   * levels tell no order: p = lowest_order.
    *
    * Levels should not double: a front that rests at x stands in its cell at the fraction
    * of n x, and doubling n leaves its distance from the cell's middle as it was.

@@ -1,4 +1,5 @@
 #include <verification/matrix/json_values.h>
+#include <verification/measure/scene_quadrature.h>
 #include <verification/studies/crosscheck/state_course.h>
 
 #include <fmt/format.h>
@@ -21,6 +22,9 @@ namespace meltfront::verification
       return scene.start_time
              + (scene.end_time - scene.start_time) * k / course_intervals;
     }
+
+    /** Spacings from a wall: a site nearer to it stands for what is at the wall. */
+    constexpr double reach_of_wall = 0.75;
 
     std::vector<double> inner_times(const cases::Scene &scene)
     {
@@ -89,6 +93,8 @@ namespace meltfront::verification
     json = {{"lowest", json_of(course.lowest)}, {"highest", json_of(course.highest)}};
     for(const auto &[name, values] : course.quantities)
       json["quantities"][name] = json_of(values);
+    for(const auto &[name, values] : course.misreadings)
+      json["misreadings"][name] = json_of(values);
   }
 
   void from_json(const nlohmann::json &json, StateCourse &course)
@@ -97,6 +103,9 @@ namespace meltfront::verification
     course.highest = number_in(json.at("highest"));
     for(const auto &[name, values] : json.at("quantities").items())
       course.quantities[name] = numbers_in(values);
+    if(json.contains("misreadings"))
+      for(const auto &[name, values] : json.at("misreadings").items())
+        course.misreadings[name] = numbers_in(values);
   }
 
   CourseObserver::CourseObserver(const cases::Scene &scene)
@@ -105,7 +114,13 @@ namespace meltfront::verification
     , marks(inner_times(scene))
     , lowest(infinity)
     , highest(-infinity)
+    , volume(volume_of(scene.domain))
   {
+  }
+
+  void CourseObserver::begin(const cases::RunDescription &description)
+  {
+    spacing = description.spacing;
   }
 
   bool CourseObserver::wants(long step, double time)
@@ -119,31 +134,66 @@ namespace meltfront::verification
     values[name].push_back(value);
   }
 
+  /** How far the temperature of a wall of given temperature is from that of a site beside
+   * it (K); 0 elsewhere. */
+  double CourseObserver::beyond_wall(const cases::Snapshot &snapshot, std::size_t site,
+                                     double x) const
+  {
+    using cases::Side;
+    const cases::Domain &domain = scene.domain;
+    const bool round = domain.round();
+    const std::pair<Side, double> walls[]
+        = {{round ? Side::inner : Side::x_min,
+            round ? domain.inner_radius : domain.lower[0]},
+           {round ? Side::outer : Side::x_max, round ? domain.radius : domain.upper[0]}};
+    const std::vector<Side> sides = scene.sides();
+    for(const auto &[side, place] : walls)
+    {
+      if(std::abs(x - place) > reach_of_wall * spacing
+         || std::ranges::find(sides, side) == sides.end()
+         || scene.boundary(side).kind != cases::BoundaryKind::fixed_temperature)
+        continue;
+      const cases::Position p{place, 0, 0};
+      return std::abs(scene.boundary(side).value(p, snapshot.time)
+                      - snapshot.temperature[site]);
+    }
+    return 0;
+  }
+
   void CourseObserver::add_means(const cases::Snapshot &snapshot,
                                  const std::string &coordinate,
                                  std::span<const double> positions, double lower,
                                  double upper)
   {
-    const int degree = scene.symmetry == cases::Symmetry::none ? 2 : 3;
-    std::array<double, most_degree + 1> weight{}, temperature{}, solid{};
+    const bool along_line = scene.symmetry != cases::Symmetry::none;
+    const int degree = along_line ? 3 : 2;
+    std::array<double, most_degree + 1> weight{}, temperature{}, solid{}, unread{};
     for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
     {
       const double x = std::clamp((positions[i] - lower) / (upper - lower), 0., 1.);
       const auto shares = bernstein(degree, x);
+      const double beyond = along_line && scene.changes_phase()
+                                ? beyond_wall(snapshot, i, positions[i])
+                                : 0;
       for(int k = 0; k <= degree; ++k)
       {
         const double w = snapshot.weights[i] * shares[k];
         weight[k] += w;
         temperature[k] += w * snapshot.temperature[i];
         solid[k] += w * snapshot.solid_fraction[i];
+        unread[k] += w / 2 * beyond;
       }
     }
     for(int k = 0; k <= degree; ++k)
     {
       const std::string where = fmt::format(" near {} = {}/{}", coordinate, k, degree);
       add("temperature" + where, temperature[k] / weight[k]);
-      if(scene.changes_phase())
-        add("solid fraction" + where, solid[k] / weight[k]);
+      misread["temperature" + where].push_back(unread[k] / weight[k]
+                                               + volume_misread * (highest - lowest));
+      if(!scene.changes_phase())
+        continue;
+      add("solid fraction" + where, solid[k] / weight[k]);
+      misread["solid fraction" + where].push_back(volume_misread);
     }
   }
 
@@ -156,6 +206,10 @@ namespace meltfront::verification
     lowest = std::min(lowest, least);
     highest = std::max(highest, most);
     const cases::Domain &domain = scene.domain;
+    double of_sites = 0;
+    for(const double weight : snapshot.weights)
+      of_sites += weight;
+    volume_misread = domain.round() ? std::abs(of_sites / volume - 1) : 0;
     if(scene.symmetry != cases::Symmetry::none)
     {
       const bool round = domain.round();
@@ -173,19 +227,23 @@ namespace meltfront::verification
     if(!scene.changes_phase())
       return;
     const cases::Material &material = scene.material;
-    double volume = 0, solid = 0, heat = 0;
+    double solid = 0, heat = 0;
     for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
     {
       const double w = snapshot.weights[i];
-      volume += w;
       solid += w * snapshot.solid_fraction[i];
       heat += w
               * heat_density(material, snapshot.temperature[i],
                              snapshot.solid_fraction[i]);
     }
-    add("solid fraction", solid / volume);
-    if(material.solid.density == material.liquid.density)
-      add("heat", heat / volume);
+    add("solid fraction", solid / of_sites);
+    misread["solid fraction"].push_back(volume_misread);
+    if(material.solid.density != material.liquid.density)
+      return;
+    add("heat", heat / of_sites);
+    misread["heat"].push_back(
+        volume_misread
+        * (heat_density(material, highest, 0) - heat_density(material, lowest, 1)));
   }
 
   StateCourse CourseObserver::course() const
@@ -198,6 +256,10 @@ namespace meltfront::verification
       for(int k = 0; k <= course_intervals; ++k)
         result.quantities[name].push_back(
             interpolated(times, series, time_of(scene, k), tolerance));
+    for(const auto &[name, series] : misread)
+      for(int k = 0; k <= course_intervals; ++k)
+        result.misreadings[name].push_back(
+            std::max(0., interpolated(times, series, time_of(scene, k), tolerance)));
     return result;
   }
 } // namespace meltfront::verification

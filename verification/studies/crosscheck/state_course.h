@@ -23,6 +23,8 @@ namespace meltfront::verification
   struct StateCourse
   {
     std::map<std::string, std::vector<double>> quantities;
+    /** By how much some may be misread; of the same times. */
+    std::map<std::string, std::vector<double>> misreadings;
     double lowest = 0, highest = 0; ///< temperature of all sites at all snapshots
   };
 
@@ -40,6 +42,12 @@ namespace meltfront::verification
    * w B(x), B Bernstein's polynomials of degree m (3 along a line, else 2) in each
    * coordinate, or in the radius of a scene that is symmetric about a point or an axis.
    *
+   * Along a coordinate, a site beside a wall of given temperature stands for matter up to
+   * the wall, where a layer of the other phase may be that no site shows: the mean
+   * temperature may be misread by half the site's weight times its distance (K) from the
+   * wall's temperature. Where the sites of a round domain have another volume than it,
+   * all quantities may be misread by the relative difference times their scale.
+   *
    * Without change of phase there are temperatures only. Values at the times of the
    * course are interpolated by cubics between the steps around them.
    */
@@ -48,12 +56,14 @@ namespace meltfront::verification
   public:
     explicit CourseObserver(const cases::Scene &scene);
 
+    void begin(const cases::RunDescription &description) override;
     bool wants(long step, double time) override;
     void observe(const cases::Snapshot &snapshot) override;
 
     StateCourse course() const;
 
   private:
+    double beyond_wall(const cases::Snapshot &snapshot, std::size_t site, double x) const;
     void add_means(const cases::Snapshot &snapshot, const std::string &coordinate,
                    std::span<const double> values, double lower, double upper);
     void add(const std::string &name, double value);
@@ -62,8 +72,12 @@ namespace meltfront::verification
     SiteCoordinates coordinates;
     MarkWatch marks;
     std::vector<double> times;
-    std::map<std::string, std::vector<double>> values; ///< one for each of the times
+    std::map<std::string, std::vector<double>> values;  ///< one for each of the times
+    std::map<std::string, std::vector<double>> misread; ///< the same
     double lowest, highest;
+    double spacing = 0;
+    double volume;             ///< of the domain
+    double volume_misread = 0; ///< relative, of the snapshot's sites
   };
 } // namespace meltfront::verification
 

@@ -90,6 +90,30 @@ namespace meltfront::verification
                   solid / (solid + liquid), 1e-12);
     }
 
+    // Half of the last cell may hold matter as cold as the wall, 2 K below the site.
+    TEST(CourseObserver, ASiteBesideAWallOfGivenTemperatureMayHideALayer)
+    {
+      cases::Scene scene
+          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+      scene.boundaries[static_cast<std::size_t>(cases::Side::x_max)] = {
+          cases::BoundaryKind::fixed_temperature,
+          {"", [](const cases::Position &, double t) { return (1 - 0.5 / 64) * t - 2; }}};
+      CourseObserver observer(scene);
+      cases::RunDescription description;
+      description.spacing = 1. / 64;
+      observer.begin(description);
+      for(int step = 0; step <= 24; ++step)
+      {
+        tests::State state = slab_at(step / 24.);
+        state.snapshot.step = step;
+        observer.observe(state.view(1, step / 24.));
+      }
+      const StateCourse course = observer.course();
+      const double share = std::pow(1 - 0.5 / 64, 3) / 64 / 0.25;
+      EXPECT_NEAR(course.misreadings.at("temperature near x = 3/3")[12], share, 1e-4);
+      EXPECT_LT(course.misreadings.at("temperature near x = 0/3")[12], 1e-6);
+    }
+
     TEST(CourseObserver, IsKeptAsJson)
     {
       cases::Scene scene
