@@ -19,6 +19,9 @@ namespace meltfront::particles::front_tracking
   {
     /** Steps may use up so much of the overshoot that is allowed. */
     constexpr double overshoot_of_step = 0.25;
+    /** A body at rest has bounds without a span: it has at least this share of the one
+     * that the melting temperature belongs to. */
+    constexpr double least_span = 1e-6;
 
     /** Of the heat at hand so much as layers hold, a spacing thick each, may get lost at
      * fronts and walls, beside what one such layer takes up at most. */
@@ -107,8 +110,12 @@ namespace meltfront::particles::front_tracking
             = temperature_span(bounds, initial, scene.material.melting_temperature);
         result.shortest_step = shortest_step_over_run * duration;
         result.bounds = bounds;
+        const double between = bounds.upper - bounds.lower;
         result.largest_overshoot
-            = overshoot_of_step * result.temperature_span
+            = overshoot_of_step
+              * (std::isfinite(between)
+                     ? std::max(between, least_span * result.temperature_span)
+                     : result.temperature_span)
               * cases::allowed_overshoot(overshoot_along_line, problem.spacing,
                                          scene.domain);
         return result;

@@ -267,8 +267,10 @@ namespace meltfront::reference_fem::fitted
     const RayScene &rays = setting.rays;
     const FittedProblem &old = *past.problem;
     if(inner_vanishes && old.physics().power)
-      throw cases::NumericalError("fem-fitted", 0, time, "the phase at the source",
-                                  "vanishes, which leaves no field to split off");
+      throw cases::Refusal(fmt::format(
+          "fem-fitted does not simulate a source whose own phase vanishes, which "
+          "leaves no field to split off: at t = {:.6g}",
+          time));
     const int kept = inner_vanishes ? 1 : 0;
     const unsigned int front = old.mesh().front_level();
     const unsigned int first = inner_vanishes ? front : 0;
