@@ -93,9 +93,6 @@ namespace meltfront::particles::front_tracking
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
     }
-    cases::check_temperature(
-        bounds, lowest, highest, method_name, step_number, checked.time,
-        cases::allowed_overshoot(overshoot_in_plane, nodes.spacing, scene.domain));
     for(const cases::PointSource &source : scene.sources)
       if(source.power(checked.time) > 0)
         throw cases::Refusal(
@@ -103,6 +100,9 @@ namespace meltfront::particles::front_tracking
                         "{:.6g} that at ({:.6g}, {:.6g}) heats it, and a second front "
                         "would start there",
                         checked.time, source.position[0], source.position[1]));
+    cases::check_temperature(
+        bounds, lowest, highest, method_name, step_number, checked.time,
+        cases::allowed_overshoot(overshoot_in_plane, nodes.spacing, scene.domain));
     for(const PlanePoint &place : heat.sinks.places)
       if(!(heat.front_index().signed_distance(place, nodes.spacing) < 0))
         throw cases::Refusal(fmt::format(

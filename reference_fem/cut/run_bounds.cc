@@ -105,9 +105,6 @@ namespace meltfront::reference_fem::cut
                      lowest = std::min(lowest, temperature);
                      highest = std::max(highest, temperature);
                    });
-    cases::check_temperature(
-        bounds, lowest, highest, method_name, step_number, checked.time,
-        cases::allowed_overshoot(cut::overshoot, checked.mesh->spacing, scene.domain));
     for(const cases::PointSource &source : scene.sources)
       if(source.power(checked.time) > 0)
         throw cases::Refusal(
@@ -115,6 +112,9 @@ namespace meltfront::reference_fem::cut
                         "{:.6g} that at ({:.6g}, {:.6g}) heats it, and a second front "
                         "would start there",
                         checked.time, source.position[0], source.position[1]));
+    cases::check_temperature(
+        bounds, lowest, highest, method_name, step_number, checked.time,
+        cases::allowed_overshoot(cut::overshoot, checked.mesh->spacing, scene.domain));
     for(const Point &place : heat.sinks.places)
       if(!heat.in_solid(checked, place))
         throw cases::Refusal(fmt::format(
