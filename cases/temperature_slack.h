@@ -8,10 +8,10 @@
 
 namespace meltfront::cases
 {
-  /** By how much temperatures may pass bounds because numbers are rounded, in thousands of
-   * steps and in systems that are solved for them: 1e-9 of the larger of those that are
-   * finite. Their span, to which other slacks are related, says
-   * nothing of it: a body at rest has none. */
+  /** By how much temperatures may pass bounds because numbers are rounded, in thousands
+   * of steps and in systems that are solved for them: 1e-9 of the larger of those that
+   * are finite. Their span, to which other slacks are related, says nothing of it: a body
+   * at rest has none. */
   inline double temperature_round_off(const TemperatureBounds &bounds)
   {
     double largest = 0;

@@ -16,8 +16,8 @@ namespace meltfront::particles::front_tracking
    * starts that jump do not overshoot along a line at n = 10, 20, 40. In the plane a body
    * that vanishes is a few spacings wide whatever these are: about the remains of a ring
    * that melts (ring-melting) 0.012 at n = 60 and 0.009 at n = 80 were seen, where
-   * bodies meet (cavity-two-sinks) 0.030 at n = 60, in thin ice about a small disk 0.05 at
-   * n = 12. */
+   * bodies meet (cavity-two-sinks) 0.030 at n = 60, in thin ice about a small disk 0.05
+   * at n = 12. */
   inline constexpr cases::Overshoot overshoot_along_line{0.01, 1},
       overshoot_in_plane{0.06, 0.5};
 
