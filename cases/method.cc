@@ -6,13 +6,6 @@
 
 namespace meltfront::cases
 {
-  namespace
-  {
-    /** Steps beyond these are refused. The shortest take some microseconds: so many are
-     * minutes of the smallest run, and weeks of one with ten thousand unknowns. */
-    constexpr double affordable_steps = 5e7;
-  } // namespace
-
   Cost Method::solve(const Scene &scene, const EffectSet &effects,
                      const Resolution &resolution, Observer &observer) const
   {
@@ -52,10 +45,10 @@ namespace meltfront::cases
       throw Refusal(fmt::format("{} is estimated to need {:.3g} GB of memory, and {:.3g} "
                                 "GB are allowed: take a smaller n or another --memory",
                                 method.name(), demand.bytes / 1e9, memory_limit / 1e9));
-    if(!(demand.steps <= affordable_steps))
+    if(!(demand.steps <= most_steps))
       throw Refusal(fmt::format("{} is estimated to take {:.3g} time steps, and at most "
                                 "{:.0e} are allowed: take fewer or longer steps, or a "
                                 "smaller n",
-                                method.name(), demand.steps, affordable_steps));
+                                method.name(), demand.steps, most_steps));
   }
 } // namespace meltfront::cases

@@ -37,8 +37,9 @@ namespace meltfront::cases
     double steps = 0; ///< time steps; 0: not known
   };
 
-  /** More steps than any run can take. */
-  inline constexpr double most_steps = 1e9;
+  /** Steps beyond these are refused. The shortest take some microseconds: so many are
+   * minutes of the smallest run, and weeks of one with ten thousand unknowns. */
+  inline constexpr double most_steps = 5e7;
 
   /** A parameter that a run used, as the report prints it. */
   struct Parameter

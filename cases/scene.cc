@@ -259,4 +259,15 @@ namespace meltfront::cases
                       "(maximum principle)",
                       highest, bounds.upper));
   }
+
+  void require_sinks(const Scene &scene, double time, const std::string &method)
+  {
+    for(const PointSource &source : scene.sources)
+      if(source.power(time) > 0)
+        throw Refusal(
+            fmt::format("{} takes sources that draw heat out of solid; at time {:.6g} "
+                        "that at ({:.6g}, {:.6g}) heats it, and a second front would "
+                        "start there",
+                        method, time, source.position[0], source.position[1]));
+  }
 } // namespace meltfront::cases

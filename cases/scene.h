@@ -249,6 +249,10 @@ namespace meltfront::cases
   void check_temperature(const TemperatureBounds &bounds, double lowest, double highest,
                          const std::string &method, long step, double time,
                          double tolerance = 1e-9);
+
+  /** Throw Refusal where a source gives off heat at a time, for methods that follow the
+   * front about what is solid and no second one about a source. */
+  void require_sinks(const Scene &scene, double time, const std::string &method);
 } // namespace meltfront::cases
 
 #endif

@@ -145,11 +145,14 @@ namespace meltfront::particles::front_tracking
     for(std::size_t j = 0; j < row.size(); ++j)
       values[j] = slope * row.slope[j] - diffusivity * row.second[j];
     values[point - row.first] += terms.leading;
-    const std::size_t node = first + point - offset;
-    right_side[point] = -terms.history[node];
-    if(problem.heat_release)
-      right_side[point]
-          += problem.heat_release(x, terms.time) / phase.volumetric_heat_capacity();
+    right_side[point] = -terms.history[first + point - offset];
+  }
+
+  void LineCollocation::add_release(const LineInterval &interval, double time)
+  {
+    const double capacity = problem.phase(interval.solid).volumetric_heat_capacity();
+    for(std::size_t p = 1; p + 1 < cloud.size(); ++p)
+      right_side[p] += problem.heat_release(cloud.position[0][p], time) / capacity;
   }
 
   void LineCollocation::add_wall_row(std::size_t point, int side,
@@ -194,10 +197,35 @@ namespace meltfront::particles::front_tracking
         right_side[p] = problem.material.melting_temperature;
       }
       else if(lower_end || upper_end)
-        add_wall_row(p, upper_end ? 1 : 0, interval, terms.time);
+      {
+        const int side = upper_end ? 1 : 0;
+        walls[static_cast<std::size_t>(problem.walls[side].kind)].measure(
+            [&] { add_wall_row(p, side, interval, terms.time); });
+      }
       else
         add_row(p, interval, terms);
       entries += static_cast<long>(row.size());
+    }
+    if(problem.heat_release)
+      release.measure([&] { add_release(interval, terms.time); });
+  }
+
+  const cases::EffectMeter *LineCollocation::meter(cases::Effect effect) const
+  {
+    const auto of_wall
+        = [&](BoundaryKind kind) { return &walls[static_cast<std::size_t>(kind)]; };
+    switch(effect)
+    {
+    case cases::Effect::heat_release:
+      return &release;
+    case cases::Effect::wall_temperature:
+      return of_wall(BoundaryKind::fixed_temperature);
+    case cases::Effect::wall_flux:
+      return of_wall(BoundaryKind::flux);
+    case cases::Effect::wall_transfer:
+      return of_wall(BoundaryKind::heat_transfer);
+    default:
+      return nullptr;
     }
   }
 

@@ -1,6 +1,7 @@
 #ifndef meltfront_particles_front_tracking_line_collocation_h
 #define meltfront_particles_front_tracking_line_collocation_h
 
+#include <cases/effect_meter.h>
 #include <particles/front_tracking/band_matrix.h>
 #include <particles/front_tracking/line_problem.h>
 #include <particles/front_tracking/line_stencils.h>
@@ -75,12 +76,17 @@ namespace meltfront::particles::front_tracking
       return entries;
     }
 
+    /** What walls of a kind and heat that is released have cost; null for an effect that
+     * is a factor of all rows. */
+    const cases::EffectMeter *meter(cases::Effect effect) const;
+
   private:
     void gather(const LineInterval &interval);
     const LineStencil &stencil(std::size_t point);
     void add_row(std::size_t point, const LineInterval &interval, const StepTerms &terms);
     void add_wall_row(std::size_t point, int side, const LineInterval &interval,
                       double time);
+    void add_release(const LineInterval &interval, double time);
     void make_rows(const LineInterval &interval, const StepTerms &terms);
     void fill_matrix();
     void interpolate_absorbed(const LineInterval &interval,
@@ -103,6 +109,8 @@ namespace meltfront::particles::front_tracking
     std::vector<double> right_side;
     BandMatrix matrix;
     long entries = 0;
+    cases::EffectMeter release;
+    std::array<cases::EffectMeter, cases::n_boundary_kinds> walls;
   };
 
   /** Nodes and fronts that lie nearer to each other than this coincide (over the

@@ -309,11 +309,9 @@ namespace meltfront::particles::front_tracking
         result.solver_iterations = solver.counters().evaluations;
         result.most_iterations = solver.counters().most_evaluations;
         result.capped_steps = stepper.shortened();
-        // All effects are terms of the same rows: none has memory or time of its own.
         for(const cases::EffectDecision &decision : effects.decisions())
           if(decision.on)
-            result.effects.push_back(
-                {decision.effect, solver.counters().evaluations, 0, 0});
+            result.effects.push_back(solver.cost(decision.effect));
         return result;
       }
 

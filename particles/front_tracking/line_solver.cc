@@ -284,9 +284,16 @@ namespace meltfront::particles::front_tracking
 
   StepOutcome LineSolver::iterate(Trial &trial)
   {
-    const double tolerance = front_tolerance * problem.spacing;
-    bool closing = limit(trial.state.fronts);
+    const bool closing = limit(trial.state.fronts);
     evaluate(trial);
+    return trial.state.fronts.empty()
+               ? find_fronts(trial, closing)
+               : front_meter.measure([&] { return find_fronts(trial, closing); });
+  }
+
+  StepOutcome LineSolver::find_fronts(Trial &trial, bool closing)
+  {
+    const double tolerance = front_tolerance * problem.spacing;
     if(!slope_known && !trial.state.fronts.empty())
       find_slope(trial);
     Bracket bracket;
@@ -345,5 +352,17 @@ namespace meltfront::particles::front_tracking
     else
       slope_known = false;
     return outcome;
+  }
+
+  cases::EffectCost LineSolver::cost(cases::Effect effect) const
+  {
+    if(effect == cases::Effect::phase_change)
+    {
+      const std::size_t n = state().fronts.size();
+      return front_meter.cost(effect, (slope.size() + 2 * n) * sizeof(double));
+    }
+    if(const cases::EffectMeter *meter = collocation.meter(effect))
+      return meter->cost(effect, 0);
+    return {effect, counted.evaluations, 0, 0};
   }
 } // namespace meltfront::particles::front_tracking

@@ -87,6 +87,11 @@ namespace meltfront::particles::front_tracking
       return collocation.work();
     }
 
+    /** What an effect has cost. Phase change costs what is solved for the fronts once the
+     * phases have been solved for where they are first thought to be; what is a factor of
+     * all rows has neither memory nor time of its own. */
+    cases::EffectCost cost(cases::Effect effect) const;
+
     /** Distance of two neighbouring ends below which a phase does not get (m). */
     double least_thickness() const;
 
@@ -111,6 +116,7 @@ namespace meltfront::particles::front_tracking
                       const std::vector<double> &before,
                       const std::vector<double> &after);
     StepOutcome iterate(Trial &trial);
+    StepOutcome find_fronts(Trial &trial, bool closing);
 
     const LineProblem &problem;
     LineCollocation collocation;
@@ -122,6 +128,7 @@ namespace meltfront::particles::front_tracking
     std::vector<double> slope;
     bool slope_known = false;
     LineCounters counted;
+    cases::EffectMeter front_meter;
   };
 } // namespace meltfront::particles::front_tracking
 

@@ -93,13 +93,7 @@ namespace meltfront::particles::front_tracking
       lowest = std::min(lowest, value);
       highest = std::max(highest, value);
     }
-    for(const cases::PointSource &source : scene.sources)
-      if(source.power(checked.time) > 0)
-        throw cases::Refusal(
-            fmt::format("rkpm-tracked takes sources that draw heat out of solid; at time "
-                        "{:.6g} that at ({:.6g}, {:.6g}) heats it, and a second front "
-                        "would start there",
-                        checked.time, source.position[0], source.position[1]));
+    cases::require_sinks(scene, checked.time, method_name);
     cases::check_temperature(
         bounds, lowest, highest, method_name, step_number, checked.time,
         cases::allowed_overshoot(overshoot_in_plane, nodes.spacing, scene.domain));

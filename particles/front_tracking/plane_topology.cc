@@ -284,7 +284,7 @@ namespace meltfront::particles::front_tracking
                                              bool &solid_beyond,
                                              const TopologySettings &settings)
   {
-    std::vector<TopologyEvent> events = remove_vanished(front, nodes, settings);
+    std::vector<TopologyEvent> events;
     const bool all_beyond
         = std::ranges::all_of(front.position, [&](const PlanePoint &place)
                               { return nodes.wall_distance(place) < 0; });
@@ -294,6 +294,8 @@ namespace meltfront::particles::front_tracking
       const bool solid = index.solid(nodes.lattice.place(nodes.lattice.first_inside()));
       events.push_back(fill(front, solid, solid_beyond));
     }
+    else
+      events = remove_vanished(front, nodes, settings);
     if(front.size() > 0)
       for(TopologyEvent &event :
           follow_level_set(front, nodes, marked, solid_beyond, settings))

@@ -269,7 +269,7 @@ namespace meltfront::particles::greenspan
     cost.work = cost.steps * static_cast<long>(bar.particles().size());
     for(const cases::EffectDecision &decision : effects.decisions())
       if(decision.on)
-        cost.effects.push_back({decision.effect, cost.steps, 0, 0});
+        cost.effects.push_back(bar.particles().cost(decision.effect));
     return cost;
   }
 } // namespace meltfront::particles::greenspan

@@ -221,7 +221,7 @@ namespace meltfront::particles
         result.work = experiment.steps * static_cast<long>(motion.size());
         for(const cases::EffectDecision &decision : effects.decisions())
           if(decision.on)
-            result.effects.push_back({decision.effect, experiment.steps, 0, 0});
+            result.effects.push_back(motion.cost(decision.effect));
         return result;
       }
 

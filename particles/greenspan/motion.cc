@@ -228,7 +228,8 @@ namespace meltfront::particles::greenspan
     push(given.time_step);
     if(given.thermostat)
       exchange_with_bath();
-    exchange_with_zones();
+    if(!given.zones.empty())
+      zone_meter.measure([this] { exchange_with_zones(); });
   }
 
   void Motion::set_thermostat(const std::optional<Thermostat> &thermostat)

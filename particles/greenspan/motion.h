@@ -1,6 +1,7 @@
 #ifndef meltfront_particles_greenspan_motion_h
 #define meltfront_particles_greenspan_motion_h
 
+#include <cases/effect_meter.h>
 #include <particles/greenspan/force_sweep.h>
 #include <particles/greenspan/motion_parameters.h>
 #include <particles/greenspan/particle_state.h>
@@ -126,6 +127,11 @@ namespace meltfront::particles::greenspan
      */
     std::array<double, 3> virial() const;
 
+    /** What an effect has cost so far: sweeps over the base and the heat source, and
+     * baths that hold walls. What is a term of another sweep, as gravity is, has neither
+     * memory nor time of its own. */
+    cases::EffectCost cost(cases::Effect effect) const;
+
     /** How often the lists of neighbours were made. */
     long list_builds() const
     {
@@ -178,6 +184,8 @@ namespace meltfront::particles::greenspan
     std::vector<SpeedSums> block_speeds; ///< of the last step
     double furthest_in_a_step = 0;       ///< allowed
     double all_bonds = 0; ///< work that breaks all bonds of a perfect crystal
+    /** Of the first block, which one thread sweeps, or of all particles for baths. */
+    cases::EffectMeter base_meter, source_meter, zone_meter;
   };
 } // namespace meltfront::particles::greenspan
 

@@ -109,14 +109,38 @@ namespace meltfront::particles::greenspan
     block_speeds[block] = dimension == 2
                               ? drift_block<2>(position, velocity, dt, begin, end)
                               : drift_block<3>(position, velocity, dt, begin, end);
+    const auto measured = [block](cases::EffectMeter &meter, const auto &sweep)
+    { block == 0 ? meter.measure(sweep) : sweep(); };
     if(given.base)
-      reflect(begin, end);
+      measured(base_meter, [&] { reflect(begin, end); });
     if(given.wall)
       reflect_at_wall(begin, end);
     if(given.source)
-      heat(begin, end);
+      measured(source_meter, [&] { heat(begin, end); });
     if(given.temperatures)
       add_temperatures(begin, end);
+  }
+
+  cases::EffectCost Motion::cost(cases::Effect effect) const
+  {
+    const auto of_all = [&](const cases::EffectMeter &meter)
+    {
+      cases::EffectCost result = meter.cost(effect, 0);
+      result.seconds
+          *= std::max(1., static_cast<double>(size()) / block_size / given.threads);
+      return result;
+    };
+    switch(effect)
+    {
+    case cases::Effect::base:
+      return of_all(base_meter);
+    case cases::Effect::point_heating:
+      return of_all(source_meter);
+    case cases::Effect::wall_temperature:
+      return zone_meter.cost(effect, heat_of_zones.size() * sizeof(double));
+    default:
+      return {effect, steps_taken, 0, 0};
+    }
   }
 
   void Motion::check_speeds()

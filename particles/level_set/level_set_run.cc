@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/method.h>
 #include <particles/level_set/advection.h>
 #include <particles/level_set/level_set_run.h>
 #include <particles/level_set/reinitialisation.h>
@@ -10,7 +11,6 @@ namespace meltfront::particles::level_set
   namespace
   {
     constexpr int sampled_times = 17;
-    constexpr double most_steps = 1e9;
 
     void require_parameters(const TransportParameters &parameters)
     {
@@ -87,11 +87,11 @@ namespace meltfront::particles::level_set
                         / (parameters.courant_number * grid.spacing()) / parts
                     - 1e-9);
     const double steps = parts * std::max(per_part, 1.);
-    if(!(steps <= most_steps))
+    if(!(steps <= cases::most_steps))
       throw cases::InputError(
           fmt::format("the velocity ({}) would need {:.3g} steps: at most {:.0e} are "
                       "taken",
-                      velocity.description(), steps, most_steps));
+                      velocity.description(), steps, cases::most_steps));
     return {static_cast<long>(steps), parameters.end_time / steps};
   }
 

@@ -2,6 +2,7 @@
 #define meltfront_particles_scattered_linear_choices_h
 
 #include <cases/method.h>
+#include <particles/scattered/linear_problem.h>
 
 #include <algorithm>
 #include <string>
@@ -14,6 +15,14 @@ namespace meltfront::particles
 
   /** The steps that are asked for, or those by default, of which a run takes no more. */
   long linear_steps(const cases::Resolution &resolution);
+
+  /** As many steps as a run may have, of at least s^2 / (2 d a) each, with s^2 the
+   * largest mean square distance over which a row of the mass matrix spreads what a site
+   * stores, a the diffusivity, d the dimension: in shorter ones heat moves less far than
+   * that, and temperatures beside a wall that jumps overshoot whatever the spacing
+   * (Vermeer and Verruijt 1981; linear elements: h^2 / (6 a)). */
+  long most_monotone_steps(const cases::Scene &scene, const LinearProblem &problem,
+                           const LinearSites &sites);
 
   /** The member of an enumeration that has a name, which is one of these. */
   template <typename Enumeration>

@@ -2,6 +2,8 @@
 #include <particles/scattered/linear_choices.h>
 #include <particles/scattered/linear_problem.h>
 
+#include <cmath>
+
 namespace meltfront::particles
 {
   const std::vector<std::string> &linear_scheme_names()
@@ -15,6 +17,32 @@ namespace meltfront::particles
   {
     const long wanted = resolution.options.get_integer("steps");
     return wanted > 0 ? wanted : std::max(50L, 4L * resolution.n);
+  }
+
+  long most_monotone_steps(const cases::Scene &scene, const LinearProblem &problem,
+                           const LinearSites &sites)
+  {
+    const CompressedRows &mass = problem.mass;
+    double largest = 0;
+    for(std::size_t i = 0; i < mass.rows(); ++i)
+    {
+      double sum = 0, second = 0;
+      for(std::size_t k = mass.offsets[i]; k < mass.offsets[i + 1]; ++k)
+      {
+        const std::size_t j = mass.columns[k];
+        double square = 0;
+        for(int d = 0; d < sites.dimension; ++d)
+          square += std::pow(sites.positions[d][j] - sites.positions[d][i], 2);
+        sum += mass.coefficients[k];
+        second += mass.coefficients[k] * square;
+      }
+      if(sum > 0)
+        largest = std::max(largest, second / sum);
+    }
+    const double paths = (scene.end_time - scene.start_time) * 2 * sites.dimension
+                         * scene.material.solid.diffusivity() / largest;
+    constexpr double any_number = 1e9;
+    return std::lround(std::floor(std::min(paths, any_number)));
   }
 
   std::vector<cases::OptionDeclaration> linear_options()

@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <cases/overshoot.h>
 #include <cases/stopwatch.h>
+#include <cases/time_integral.h>
 #include <particles/scattered/linear_choices.h>
 #include <particles/scattered/linear_problem.h>
 
@@ -36,6 +37,7 @@ namespace meltfront::particles
                                       resolution.options.get_string("time_scheme")))
         , threads(resolution.threads)
         , bounds(cases::temperature_bounds(scene))
+        , breakpoints(cases::breakpoints_of(scene))
         , unknowns(n)
         , load(n)
         , source(n)
@@ -49,7 +51,8 @@ namespace meltfront::particles
         solver_parameters.dimension = sites.dimension;
         steps = linear_steps(resolution);
         if(options.get_integer("steps") == 0)
-          steps = std::min(steps, std::max(fewest_steps, most_monotone_steps()));
+          steps = std::min(
+              steps, std::max(fewest_steps, most_monotone_steps(scene, problem, sites)));
         if(!problem.reconstruction.columns.empty())
           temperature.resize(n);
       }
@@ -119,35 +122,6 @@ namespace meltfront::particles
         initial_heat = stored_heat();
       }
 
-      /** As many steps as the run may have, of at least s^2 / (2 d a) each, with s^2 the
-       * largest mean square distance over which a row of the mass matrix spreads what a
-       * site stores, a the diffusivity: in shorter ones heat moves less far than that,
-       * and temperatures beside a wall that jumps overshoot whatever the spacing (Vermeer
-       * and Verruijt 1981; linear elements: h^2 / (6 a)). */
-      long most_monotone_steps() const
-      {
-        double largest = 0;
-        for(std::size_t i = 0; i < n; ++i)
-        {
-          double sum = 0, second = 0;
-          for(std::size_t k = problem.mass.offsets[i]; k < problem.mass.offsets[i + 1];
-              ++k)
-          {
-            const std::size_t j = problem.mass.columns[k];
-            double square = 0;
-            for(int d = 0; d < sites.dimension; ++d)
-              square += std::pow(sites.positions[d][j] - sites.positions[d][i], 2);
-            sum += problem.mass.coefficients[k];
-            second += problem.mass.coefficients[k] * square;
-          }
-          if(sum > 0)
-            largest = std::max(largest, second / sum);
-        }
-        const double paths = (scene.end_time - scene.start_time) * 2 * sites.dimension
-                             * scene.material.solid.diffusivity() / largest;
-        return paths < double(steps) ? std::lround(std::floor(paths)) : steps;
-      }
-
       cases::Position position(std::size_t site) const
       {
         cases::Position p{};
@@ -199,16 +173,17 @@ namespace meltfront::particles
 
       void advance(LinearSolver &solver, long k, double end, double length)
       {
-        if(scheme == LinearScheme::bdf2 && k == 1)
+        const bool anew = k == 1 || looks_back_over_breakpoint(end, length);
+        if(scheme == LinearScheme::bdf2 && anew)
         {
-          start_bdf2(end, length);
+          start_bdf2(k, end, length);
           return;
         }
         if(scheme == LinearScheme::crank_nicolson)
         {
-          // Two half steps of backward Euler damp what a discontinuous start excites
-          // (Rannacher 1984); their matrix is the same.
-          if(k == 1)
+          // Two half steps of backward Euler damp what a jump excites (Rannacher 1984);
+          // their matrix is the same.
+          if(anew)
             for(const double time : {end - length / 2, end})
               take_euler_step(solver, k, time, length / 2);
           else
@@ -219,6 +194,14 @@ namespace meltfront::particles
           take_euler_step(solver, k, end, length);
         else
           take_bdf2_step(solver, k, end, length);
+      }
+
+      /** Whether what the scene prescribes jumps or bends in a step or the one before: a
+       * formula that continues the means of both would overshoot by half of the jump. */
+      bool looks_back_over_breakpoint(double end, double length) const
+      {
+        const auto next = std::ranges::upper_bound(breakpoints, end - 2 * length);
+        return next != breakpoints.end() && *next < end;
       }
 
       /** The step to a time; the schemes of second order know the one before. */
@@ -268,13 +251,16 @@ namespace meltfront::particles
       }
 
       /** A step of backward Euler, with a matrix of its own. */
-      void start_bdf2(double end, double length)
+      void start_bdf2(long k, double end, double length)
       {
-        LinearSolver solver
-            = make_solver(sum_of(1 / length, problem.mass, -1, problem.operator_rows), 1);
+        if(!starting)
+          starting.emplace(make_solver(
+              sum_of(1 / length, problem.mass, -1, problem.operator_rows), k));
         before = unknowns;
-        take_euler_step(solver, 1, end, length);
-        booked_before = cases::HeatBudget();
+        booked_before = booked;
+        take_euler_step(*starting, k, end, length);
+        if(breakpoints.empty())
+          starting.reset();
       }
 
       void take_bdf2_step(LinearSolver &solver, long k, double end, double length)
@@ -440,6 +426,8 @@ namespace meltfront::particles
       LinearScheme scheme;
       int threads;
       cases::TemperatureBounds bounds;
+      std::vector<double> breakpoints;      ///< ascending (s)
+      std::optional<LinearSolver> starting; ///< of backward Euler, where BDF2 begins
       LinearSolverParameters solver_parameters;
       long steps = 0;
       std::vector<double> unknowns, before, previous, load, source;

@@ -21,6 +21,12 @@ namespace meltfront::particles
     /** Unknowns beyond which the preconditioner must not weaken with their number. */
     constexpr std::size_t multigrid_from = 100'000;
 
+    /** Where iterations fail: incomplete factors with so many times the entries, down to
+     * so much smaller ones; then whole ones of so many times the unknowns for which they
+     * are cheaper. */
+    constexpr double stronger_fill = 4, stronger_drop = 1e-2;
+    constexpr std::size_t direct_at_need = 5;
+
     /** One over the largest entry of each row; of a row of zeros, which makes the matrix
      * singular, one. */
     std::vector<double> row_scales(const CompressedRows &matrix)
@@ -69,6 +75,8 @@ namespace meltfront::particles
 
   struct LinearSolver::Implementation
   {
+    using Outcome = LinearSolver::Outcome;
+
     Implementation(const CompressedRows &given, const LinearSolverParameters &parameters)
       : method(chosen_method(given.rows(), parameters))
       , tolerance(parameters.tolerance)
@@ -93,13 +101,64 @@ namespace meltfront::particles
         direct.emplace(matrix);
       else
         iterative.emplace(matrix, method, parameters);
+      if(parameters.method == LinearMethod::automatic && method != LinearMethod::direct)
+        stronger = stronger_than(parameters);
       load.resize(matrix.rows());
       product.resize(matrix.rows());
       setup = watch.elapsed().wall;
     }
 
+    Outcome solve_once(std::span<double> x)
+    {
+      Outcome outcome;
+      if(direct)
+        outcome.converged = direct->solve(load, x);
+      else
+        outcome = iterative->solve(load, x);
+      matrix.multiply(x, product, 1);
+      for(std::size_t i = 0; i < load.size(); ++i)
+        product[i] -= load[i];
+      outcome.residual = norm(product) / norm(load);
+      // What Krylov methods carry along may part from the residual itself.
+      constexpr double slack = 100;
+      if(!std::isfinite(outcome.residual)
+         || (iterative && outcome.residual > slack * tolerance))
+        outcome.converged = false;
+      return outcome;
+    }
+
+    /** Take the next of the stronger solvers. */
+    void strengthen()
+    {
+      const cases::Stopwatch watch;
+      const LinearSolverParameters parameters = stronger.front();
+      stronger.erase(stronger.begin());
+      method = parameters.method;
+      iterative.reset();
+      if(method == LinearMethod::direct)
+        direct.emplace(matrix);
+      else
+        iterative.emplace(matrix, method, parameters);
+      setup += watch.elapsed().wall;
+    }
+
+    std::vector<LinearSolverParameters>
+    stronger_than(const LinearSolverParameters &parameters) const
+    {
+      std::vector<LinearSolverParameters> result(2, parameters);
+      result[0].method = LinearMethod::gmres_ilut;
+      result[0].ilut_fill *= stronger_fill;
+      result[0].drop_tolerance *= stronger_drop;
+      result[1].method = LinearMethod::direct;
+      if(matrix.rows()
+         > direct_at_need * direct_up_to[std::clamp(parameters.dimension, 1, 3)])
+        result.pop_back();
+      return result;
+    }
+
     LinearMethod method;
     double tolerance;
+    std::vector<LinearSolverParameters> stronger; ///< to be tried where one fails
     CompressedRows matrix;
     std::vector<double> scales; ///< of rows; empty: none
     std::optional<DirectSolver> direct;
@@ -130,20 +189,16 @@ namespace meltfront::particles
       std::ranges::fill(x, 0.);
       return {true, 0, 0.};
     }
-    Outcome outcome;
-    if(impl.direct)
-      outcome.converged = impl.direct->solve(impl.load, x);
-    else
-      outcome = impl.iterative->solve(impl.load, x);
-    impl.matrix.multiply(x, impl.product, 1);
-    for(std::size_t i = 0; i < impl.load.size(); ++i)
-      impl.product[i] -= impl.load[i];
-    outcome.residual = norm(impl.product) / size;
-    // What Krylov methods carry along may part from the residual itself.
-    constexpr double slack = 100;
-    if(!std::isfinite(outcome.residual)
-       || (impl.iterative && outcome.residual > slack * impl.tolerance))
-      outcome.converged = false;
+    const std::vector<double> guess(x.begin(), x.end());
+    Outcome outcome = impl.solve_once(x);
+    while(!outcome.converged && !impl.stronger.empty())
+    {
+      impl.strengthen();
+      std::ranges::copy(guess, x.begin());
+      const int before = outcome.iterations;
+      outcome = impl.solve_once(x);
+      outcome.iterations += before;
+    }
     return outcome;
   }
 

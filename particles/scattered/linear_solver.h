@@ -13,7 +13,8 @@ namespace meltfront::particles
   /** How a sparse linear system is solved. */
   enum class LinearMethod
   {
-    automatic,      ///< direct for small systems, multigrid for large ones
+    automatic,      ///< direct for small systems, multigrid for large ones; where
+                    ///< iterations fail, stronger factors
     direct,         ///< UMFPACK of SuiteSparse (Davis 2004)
     gmres_ilut,     ///< GMRES, incomplete LU factors with a threshold (Saad 1994)
     cg_jacobi,      ///< conjugate gradients with the diagonal, symmetric matrices only
@@ -64,7 +65,7 @@ namespace meltfront::particles
     /** x is the first guess of iterative methods. */
     Outcome solve(std::span<const double> right_hand_side, std::span<double> x);
 
-    LinearMethod method() const; ///< that `automatic` chose
+    LinearMethod method() const; ///< that `automatic` has come to
 
     /** Estimate of the reciprocal condition number that the direct method gives, over the
      * scaled rows; NaN of the others. Near 1e-16: singular. */

@@ -105,13 +105,7 @@ namespace meltfront::reference_fem::cut
                      lowest = std::min(lowest, temperature);
                      highest = std::max(highest, temperature);
                    });
-    for(const cases::PointSource &source : scene.sources)
-      if(source.power(checked.time) > 0)
-        throw cases::Refusal(
-            fmt::format("fem-cut takes sources that draw heat out of solid; at time "
-                        "{:.6g} that at ({:.6g}, {:.6g}) heats it, and a second front "
-                        "would start there",
-                        checked.time, source.position[0], source.position[1]));
+    cases::require_sinks(scene, checked.time, method_name);
     cases::check_temperature(
         bounds, lowest, highest, method_name, step_number, checked.time,
         cases::allowed_overshoot(cut::overshoot, checked.mesh->spacing, scene.domain));

@@ -106,6 +106,28 @@ namespace
     EXPECT_LT(record.frames.back().hottest, 0);
   }
 
+  /** The last front leaves through the hole, where it is a small curve. */
+  TEST(PlaneEvents, FreezesUpToAHole)
+  {
+    cases::Scene scene = insulated_box(
+        {1, 1, 0}, [](const auto &p) { return 0.43 - around(p); },
+        [](const auto &p) { return 1.335 * std::max(0.43 - around(p), 0.); }, 0.25);
+    scene.domain.shape = cases::DomainShape::shell;
+    scene.domain.inner_radius = 0.29;
+    scene.domain.radius = 1;
+    cases::Boundary &outer = scene.boundary(cases::Side::outer);
+    outer.kind = cases::BoundaryKind::fixed_temperature;
+    outer.value = {"", [](const auto &, double) { return -0.65; }};
+    const PlaneRecord record = run_plane(scene, 34);
+    const PlaneRecord::Frame &end = record.frames.back();
+    EXPECT_EQ(end.front_points, 0u);
+    EXPECT_NEAR(end.solid_area / (std::numbers::pi * (1 - 0.29 * 0.29)), 1, 1e-12);
+    EXPECT_LT(end.defect, 5e-2);
+    EXPECT_LT(end.hottest, 0);
+    ASSERT_FALSE(record.notes.empty());
+    EXPECT_NE(record.notes.back().find("all is solid"), std::string::npos);
+  }
+
   TEST(PlaneEvents, DisksOfIceMerge)
   {
     const PlaneRecord record = run_plane(merging_disks(0.36), 40);

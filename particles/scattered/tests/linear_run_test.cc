@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <particles/scattered/given_values.h>
 #include <particles/scattered/linear_problem.h>
 
 #include <gtest/gtest.h>
@@ -157,6 +158,41 @@ TEST(LinearRun, HeatIsBooked)
     const Recorder recorder = slab.run(scheme, 37);
     EXPECT_LT(recorder.worst_defect, 1e-13) << scheme;
     EXPECT_GT(recorder.heat.boundary + recorder.heat.sources, 0.5);
+  }
+}
+
+/** An ambient temperature that falls from 1 to 0 within a step; the walls exchange heat
+ * as fast as a cell does. */
+TEST(LinearRun, WhatJumpsWithinAStepIsNotContinued)
+{
+  for(const char *scheme : {"backward-euler", "crank-nicolson", "bdf2"})
+  {
+    Slab slab;
+    slab.scene.end_time = 0.2;
+    cases::Field ambient = cases::Field::uniform(0);
+    ambient = {"", [](const cases::Position &, double t) { return t < 0.1 ? 1. : 0.; }};
+    ambient.breakpoints = {0.1};
+    for(const std::size_t side : {0, 1})
+    {
+      slab.scene.boundaries[side]
+          = cases::Boundary{cases::BoundaryKind::heat_transfer, ambient};
+      slab.scene.boundaries[side]->heat_transfer_coefficient = 2 / spacing;
+    }
+    slab.scene.initial.temperature = cases::Field::uniform(1);
+    const GivenValues given(slab.scene);
+    const auto mean = [&](const LinearStep &step)
+    { return given.wall(*slab.scene.boundaries[0], {}, step); };
+    slab.problem.source = [&](const LinearStep &step, std::span<double> source)
+    {
+      std::ranges::fill(source, 0.);
+      source.front() = source.back() = 2 / spacing * mean(step);
+    };
+    slab.problem.inflow = [&](const LinearStep &step, std::span<const double> u) {
+      return HeatInflow{2 / spacing * (2 * mean(step) - u.front() - u.back()), 0};
+    };
+    const Recorder recorder = slab.run(scheme, 37); // refuses what is below zero
+    EXPECT_GT(*std::ranges::min_element(recorder.temperature), 0) << scheme;
+    EXPECT_LT(recorder.worst_defect, 1e-13) << scheme;
   }
 }
 

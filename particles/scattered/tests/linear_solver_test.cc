@@ -141,6 +141,29 @@ TEST(LinearSolver, AutomaticGoesBySizeAndSymmetry)
   EXPECT_EQ(LinearSolver(five_points(80, 0), parameters).method(), LinearMethod::direct);
 }
 
+/** One iteration does not do, whatever the preconditioner. */
+TEST(LinearSolver, AutomaticGetsStrongerWhereIterationsFail)
+{
+  const CompressedRows matrix = five_points(80, 1);
+  const std::vector<double> exact = wanted(matrix.rows());
+  std::vector<double> load(matrix.rows());
+  matrix.multiply(exact, load, 1);
+  LinearSolverParameters parameters;
+  parameters.dimension = 3;
+  parameters.most_iterations = 1;
+  for(const bool automatic : {false, true})
+  {
+    parameters.method = automatic ? LinearMethod::automatic : LinearMethod::gmres_ilut;
+    LinearSolver solver(matrix, parameters);
+    std::vector<double> x(matrix.rows());
+    EXPECT_EQ(solver.solve(load, x).converged, automatic);
+    EXPECT_EQ(solver.method(),
+              automatic ? LinearMethod::direct : LinearMethod::gmres_ilut);
+    for(std::size_t i = 0; automatic && i < exact.size(); ++i)
+      ASSERT_NEAR(x[i], exact[i], 1e-9);
+  }
+}
+
 TEST(LinearSolver, RowsOfAnyScaleAreSolvedAlike)
 {
   CompressedRows matrix = five_points(10, 2);

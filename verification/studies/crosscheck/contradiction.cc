@@ -77,6 +77,25 @@ namespace meltfront::verification
                                        material.liquid.specific_heat_capacity);
       return material.solid.density * (capacity * span + material.latent_heat);
     }
+
+    /** What a mean at the melting temperature hides (K): the temperature that latent heat
+     * is worth by which the solid fraction at that place may be off. */
+    double hidden_by_melting(const std::vector<const LevelRun *> &ladder,
+                             const std::string &quantity, std::size_t time,
+                             const Estimate &mean, const cases::Material &material)
+    {
+      const std::string temperature = "temperature";
+      if(!quantity.starts_with(temperature)
+         || std::abs(mean.value - material.melting_temperature) > mean.bar)
+        return 0;
+      const std::vector<Level> levels
+          = levels_of(ladder, "solid fraction" + quantity.substr(temperature.size()));
+      if(levels.size() < 2 || !std::isfinite(levels.back().values[time]))
+        return 0;
+      return estimate_at(levels, time, 1).bar * material.latent_heat
+             / std::min(material.solid.specific_heat_capacity,
+                        material.liquid.specific_heat_capacity);
+    }
   } // namespace
 
   std::vector<std::size_t> contradicting(const std::vector<Statement> &statements)
@@ -140,8 +159,11 @@ namespace meltfront::verification
         for(const auto &[method, ladder] : ladders)
           if(const std::vector<Level> levels = levels_of(ladder, quantity);
              levels.size() > 1 && std::isfinite(levels.back().values[time]))
-            comparison.statements.push_back(
-                {method, estimate_at(levels, time, comparison.scale)});
+          {
+            Estimate estimate = estimate_at(levels, time, comparison.scale);
+            estimate.bar += hidden_by_melting(ladder, quantity, time, estimate, material);
+            comparison.statements.push_back({method, estimate});
+          }
         if(comparison.statements.size() > 1)
           result.push_back(std::move(comparison));
       }

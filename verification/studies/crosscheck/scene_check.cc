@@ -28,6 +28,10 @@ namespace meltfront::verification
       return {std::move(effects), std::move(scene)};
     }
 
+    /** Time that is refined by at least this share of what space is needs no help: a
+     * least number of steps of the coarsest run accounts for the rest. */
+    constexpr double refined_alike = 0.9;
+
     /** The steps that refine time with space, where a method does not by itself; else 0.
      */
     long steps_to_give(const SimulatedScene &of, const cases::Method &method, int n,
@@ -44,7 +48,7 @@ namespace meltfront::verification
       try
       {
         const double own = steps(n), wanted = std::ceil(steps(coarsest) * n / coarsest);
-        return own > 0 && own < wanted ? std::lround(wanted) : 0;
+        return own > 0 && own < refined_alike * wanted ? std::lround(wanted) : 0;
       }
       catch(const std::runtime_error &)
       {

@@ -134,10 +134,8 @@ namespace meltfront::verification
     values[name].push_back(value);
   }
 
-  /** How far the temperature of a wall of given temperature is from that of a site beside
-   * it (K); 0 elsewhere. */
-  double CourseObserver::beyond_wall(const cases::Snapshot &snapshot, std::size_t site,
-                                     double x) const
+  /** The temperature of a wall that is given one, beside a site. */
+  std::optional<double> CourseObserver::wall_beside(double time, double x) const
   {
     using cases::Side;
     const cases::Domain &domain = scene.domain;
@@ -153,11 +151,41 @@ namespace meltfront::verification
          || std::ranges::find(sides, side) == sides.end()
          || scene.boundary(side).kind != cases::BoundaryKind::fixed_temperature)
         continue;
-      const cases::Position p{place, 0, 0};
-      return std::abs(scene.boundary(side).value(p, snapshot.time)
-                      - snapshot.temperature[site]);
+      return scene.boundary(side).value({place, 0, 0}, time);
     }
-    return 0;
+    return {};
+  }
+
+  /** By how much the temperature of matter between a wall and a site beside it may differ
+   * from the site's (K): in a site of both phases from that of the wall to melting. */
+  double CourseObserver::beyond_site(const cases::Snapshot &snapshot, std::size_t site,
+                                     double wall) const
+  {
+    const double solid = snapshot.solid_fraction[site];
+    const double to_site = std::abs(wall - snapshot.temperature[site]);
+    return solid > 0 && solid < 1
+               ? std::max(to_site, std::abs(wall - scene.material.melting_temperature))
+               : to_site;
+  }
+
+  /** Heat of what lies between walls of given temperature and sites beside them, that is
+   * of the phase which belongs to the wall's temperature. */
+  double CourseObserver::heat_unseen(const cases::Snapshot &snapshot,
+                                     std::span<const double> positions) const
+  {
+    const cases::Material &material = scene.material;
+    double heat = 0;
+    for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
+      if(const auto wall = wall_beside(snapshot.time, positions[i]))
+      {
+        const bool solid = *wall < material.melting_temperature;
+        const double share
+            = solid ? snapshot.solid_fraction[i] : 1 - snapshot.solid_fraction[i];
+        heat += snapshot.weights[i] * share
+                * (solid ? material.solid : material.liquid).volumetric_heat_capacity()
+                * beyond_site(snapshot, i, *wall) / 2;
+      }
+    return heat;
   }
 
   void CourseObserver::add_means(const cases::Snapshot &snapshot,
@@ -172,9 +200,10 @@ namespace meltfront::verification
     {
       const double x = std::clamp((positions[i] - lower) / (upper - lower), 0., 1.);
       const auto shares = bernstein(degree, x);
-      const double beyond = along_line && scene.changes_phase()
-                                ? beyond_wall(snapshot, i, positions[i])
-                                : 0;
+      double beyond = 0;
+      if(along_line && scene.changes_phase())
+        if(const auto wall = wall_beside(snapshot.time, positions[i]))
+          beyond = beyond_site(snapshot, i, *wall);
       for(int k = 0; k <= degree; ++k)
       {
         const double w = snapshot.weights[i] * shares[k];
@@ -210,14 +239,17 @@ namespace meltfront::verification
     for(const double weight : snapshot.weights)
       of_sites += weight;
     volume_misread = domain.round() ? std::abs(of_sites / volume - 1) : 0;
+    double unseen = 0;
     if(scene.symmetry != cases::Symmetry::none)
     {
       const bool round = domain.round();
       const double lower = round ? domain.inner_radius : domain.lower[0];
-      add_means(
-          snapshot, round ? "r" : "x",
-          middles_of(scene.symmetry, coordinates.of(snapshot), snapshot.weights, lower),
-          lower, round ? domain.radius : domain.upper[0]);
+      const std::vector<double> middles
+          = middles_of(scene.symmetry, coordinates.of(snapshot), snapshot.weights, lower);
+      add_means(snapshot, round ? "r" : "x", middles, lower,
+                round ? domain.radius : domain.upper[0]);
+      if(scene.changes_phase())
+        unseen = heat_unseen(snapshot, middles);
     }
     else
       for(int d = 0; d < snapshot.dimension; ++d)
@@ -242,8 +274,9 @@ namespace meltfront::verification
       return;
     add("heat", heat / of_sites);
     misread["heat"].push_back(
-        volume_misread
-        * (heat_density(material, highest, 0) - heat_density(material, lowest, 1)));
+        unseen / of_sites
+        + volume_misread
+              * (heat_density(material, highest, 0) - heat_density(material, lowest, 1)));
   }
 
   StateCourse CourseObserver::course() const

@@ -9,6 +9,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,8 +47,10 @@ namespace meltfront::verification
    * Along a coordinate, a site beside a wall of given temperature stands for matter up to
    * the wall, where a layer of the other phase may be that no site shows: the mean
    * temperature may be misread by half the site's weight times its distance (K) from the
-   * wall's temperature. Where the sites of a round domain have another volume than it,
-   * all quantities may be misread by the relative difference times their scale.
+   * wall's temperature, of a site of both phases that of melting if that is larger, the
+   * heat by what the wall's phase at the site takes up over half that distance. Where the
+   * sites of a round domain have another volume than it, all quantities may be misread by
+   * the relative difference times their scale.
    *
    * Without change of phase there are temperatures only. Values at the times of the
    * course are interpolated by cubics between the steps around them.
@@ -63,7 +67,11 @@ namespace meltfront::verification
     StateCourse course() const;
 
   private:
-    double beyond_wall(const cases::Snapshot &snapshot, std::size_t site, double x) const;
+    std::optional<double> wall_beside(double time, double x) const;
+    double beyond_site(const cases::Snapshot &snapshot, std::size_t site,
+                       double wall) const;
+    double heat_unseen(const cases::Snapshot &snapshot,
+                       std::span<const double> positions) const;
     void add_means(const cases::Snapshot &snapshot, const std::string &coordinate,
                    std::span<const double> values, double lower, double upper);
     void add(const std::string &name, double value);

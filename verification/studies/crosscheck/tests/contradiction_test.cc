@@ -77,6 +77,29 @@ namespace meltfront::verification
       EXPECT_FALSE(worst_contradiction(comparisons(runs, cases::Material())));
     }
 
+    /** What is all but solid is at the melting temperature until its last liquid is gone,
+     * however wrong the time of that. */
+    TEST(WorstContradiction, MeltingHidesAnErrorOfTheSolidFraction)
+    {
+      const auto contradiction = [](double error_of_solid)
+      {
+        std::vector<LevelRun> runs;
+        add_ladder("late", 0, 1, 0, runs);
+        add_ladder("right", 0, 1, 0, runs);
+        for(LevelRun &run : runs)
+        {
+          const bool late = run.method == "late";
+          run.course.quantities["temperature near x = 0/3"]
+              = std::vector<double>(course_intervals + 1, late ? 0 : -0.002);
+          run.course.quantities["solid fraction near x = 0/3"] = std::vector<double>(
+              course_intervals + 1, late ? 1 - error_of_solid * run.spacing : 1);
+        }
+        return worst_contradiction(comparisons(runs, cases::Material()));
+      };
+      EXPECT_TRUE(contradiction(0));
+      EXPECT_FALSE(contradiction(0.05));
+    }
+
     TEST(WorstContradiction, ALieThatConvergesIsFound)
     {
       std::vector<LevelRun> runs;

@@ -114,6 +114,34 @@ namespace meltfront::verification
       EXPECT_LT(course.misreadings.at("temperature near x = 0/3")[12], 1e-6);
     }
 
+    // Solid beside a wall 3 K below melting, seen by a site that is hardly below it.
+    TEST(CourseObserver, ASiteBesideAWallOfGivenTemperatureMayHideHeat)
+    {
+      cases::Scene scene
+          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+      scene.boundaries[static_cast<std::size_t>(cases::Side::x_min)]
+          = {cases::BoundaryKind::fixed_temperature,
+             {"", [](const cases::Position &, double) { return -3.; }}};
+      CourseObserver observer(scene);
+      cases::RunDescription description;
+      description.spacing = 1. / 64;
+      observer.begin(description);
+      for(int step = 0; step <= 24; ++step)
+      {
+        tests::State state = slab_at(step / 24.);
+        state.snapshot.step = step;
+        if(step == 6) // both phases, at the wall's temperature: a layer of either
+        {
+          state.temperature[0] = -3;
+          state.solid_fraction[0] = 0.5;
+        }
+        observer.observe(state.view(1, step / 24.));
+      }
+      const std::vector<double> misread = observer.course().misreadings.at("heat");
+      EXPECT_NEAR(misread[12], (3 + 0.5 * 0.5 / 64) / 2 / 64, 1e-12);
+      EXPECT_NEAR(misread[6], 0.5 * 3. / 2 / 64, 1e-12);
+    }
+
     TEST(CourseObserver, IsKeptAsJson)
     {
       cases::Scene scene
