@@ -3,6 +3,7 @@
 #include <cases/stopwatch.h>
 #include <cases/time_integral.h>
 #include <particles/scattered/linear_choices.h>
+#include <particles/scattered/linear_growth.h>
 #include <particles/scattered/linear_problem.h>
 
 #include <fmt/format.h>
@@ -71,6 +72,8 @@ namespace meltfront::particles
         steps = 1;
         LinearSolver solver
             = make_solver(sum_of(-1, problem.operator_rows, 0, problem.operator_rows), 1);
+        if(scene.inclusion)
+          require_steady_rows(scene, problem, solver_parameters, description.method);
         const cases::Stopwatch::Seconds setup = watch.elapsed();
         problem.source(steady_step(scene.end_time), load);
         solve(solver, 1, scene.end_time);
@@ -85,6 +88,9 @@ namespace meltfront::particles
         const double length = (scene.end_time - scene.start_time) / double(steps);
         start();
         LinearSolver solver = make_solver(system(length), 0);
+        if(scene.inclusion)
+          require_stable_steps(problem, solver, rate_of(length), steps,
+                               description.method);
         const cases::Stopwatch::Seconds setup = watch.elapsed();
         observer.begin(describe(solver, length));
         observe(observer, 0, scene.start_time);
@@ -134,10 +140,14 @@ namespace meltfront::particles
        * it, times two where time does not count (walls). */
       CompressedRows system(double length) const
       {
-        const double rate = scheme == LinearScheme::backward_euler   ? 1 / length
-                            : scheme == LinearScheme::crank_nicolson ? 2 / length
-                                                                     : 1.5 / length;
-        return sum_of(rate, problem.mass, -1, problem.operator_rows);
+        return sum_of(rate_of(length), problem.mass, -1, problem.operator_rows);
+      }
+
+      double rate_of(double length) const
+      {
+        return scheme == LinearScheme::backward_euler   ? 1 / length
+               : scheme == LinearScheme::crank_nicolson ? 2 / length
+                                                        : 1.5 / length;
       }
 
       LinearSolver make_solver(const CompressedRows &matrix, long at_step)

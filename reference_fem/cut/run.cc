@@ -148,7 +148,10 @@ namespace meltfront::reference_fem::cut
       scale = std::max({scale, std::abs(given - melting), std::abs(was - melting)});
     }
     if(largest > least_jump * scale)
+    {
       damped_steps = damping_steps;
+      wall_jump = largest;
+    }
   }
 
   /**
@@ -345,6 +348,8 @@ namespace meltfront::reference_fem::cut
     }
     ++step_number;
     check(state);
+    if(damped_steps == 0)
+      wall_jump = 0;
     follow_front();
   }
 

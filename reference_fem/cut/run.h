@@ -78,6 +78,7 @@ namespace meltfront::reference_fem::cut
     double last_step = 0;
     bool fresh = true;    ///< no step was made since the start or a breakpoint
     int damped_steps = 0; ///< still to be made, after a jump of the data
+    double wall_jump = 0; ///< largest of a held temperature, while steps are damped (K)
     long step_number = 0, halved_steps = 0, capped_steps = 0, euler_steps = 0, meshes = 1;
     double boundary_heat = 0, initial_heat = 0;
 

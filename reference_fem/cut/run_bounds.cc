@@ -106,9 +106,22 @@ namespace meltfront::reference_fem::cut
                      highest = std::max(highest, temperature);
                    });
     cases::require_sinks(scene, checked.time, method_name);
-    cases::check_temperature(
-        bounds, lowest, highest, method_name, step_number, checked.time,
-        cases::allowed_overshoot(cut::overshoot, checked.mesh->spacing, scene.domain));
+    try
+    {
+      cases::check_temperature(
+          bounds, lowest, highest, method_name, step_number, checked.time,
+          cases::allowed_overshoot(cut::overshoot, checked.mesh->spacing, scene.domain));
+    }
+    catch(const cases::NumericalError &error)
+    {
+      if(wall_jump == 0 || !std::isfinite(lowest))
+        throw;
+      throw cases::Refusal(fmt::format(
+          "{}; walls are held weakly, and the jump of one by {:.3g} K overshoots while "
+          "its layer is thinner than a cell: let it change in some time, or take other "
+          "cells",
+          error.what(), wall_jump));
+    }
     for(const Point &place : heat.sinks.places)
       if(!heat.in_solid(checked, place))
         throw cases::Refusal(fmt::format(

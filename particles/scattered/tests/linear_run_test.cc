@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <particles/scattered/given_values.h>
+#include <particles/scattered/linear_growth.h>
 #include <particles/scattered/linear_problem.h>
 
 #include <gtest/gtest.h>
@@ -240,6 +241,36 @@ TEST(LinearRun, ASingularMatrixStopsTheRun)
   rows.coefficients.front() = -1 / spacing;
   rows.coefficients.back() = -1 / spacing;
   EXPECT_THROW(slab.run("bdf2", 0), cases::NumericalError);
+}
+
+/** The slowest sine decays like 1/(1 + lambda/rate); with the operator's sign turned the
+ * fastest grows. */
+TEST(LinearRun, GrowthOfTheRowsIsFound)
+{
+  const Slab slab;
+  const CompressedRows &mass = slab.problem.mass;
+  const double slowest
+      = 4 / (spacing * spacing) * std::pow(std::sin(pi * spacing / 2), 2);
+  const auto growth = [&](double sign, double rate)
+  {
+    LinearSolver solver(sum_of(rate, mass, -sign, slab.problem.operator_rows), {});
+    return growth_per_step(solver, mass, rate);
+  };
+  EXPECT_NEAR(growth(1, 2 * slowest), 2. / 3, 1e-6);
+  const double fastest = 4 / (spacing * spacing);
+  EXPECT_NEAR(growth(-1, 1.01 * fastest), 101, 0.1);
+}
+
+/** The same rows without an inclusion fail where they leave the bounds, below. */
+TEST(LinearRun, AnInclusionWithoutStableRowsIsRefused)
+{
+  Slab slab;
+  slab.scene.end_time = 0.1;
+  for(double &value : slab.problem.operator_rows.coefficients)
+    value = -value;
+  slab.problem.symmetric = false;
+  slab.scene.inclusion.emplace();
+  EXPECT_THROW(slab.run("backward-euler", 50), cases::Refusal);
 }
 
 TEST(LinearRun, WhatLeavesItsBoundsIsNoResult)
