@@ -76,6 +76,13 @@ namespace meltfront::particles::front_tracking
 
   void LineStepper::restart(LineState state)
   {
+    if(problem.axis && !state.fronts.empty() && problem.displacement(state.solid(0)) != 0)
+      throw cases::Refusal(fmt::format(
+          "{}: the {}, which moves where the densities differ, lies at the centre at t = "
+          "{:.6g} and could only go through it; the phase there has to be at rest "
+          "(option "
+          "displaced)",
+          method_name, name_of(state.solid(0)), state.time));
     solver.restart(std::move(state));
     next_step = rules.first_step;
   }

@@ -209,6 +209,21 @@ namespace meltfront::particles::front_tracking
       EXPECT_THROW(run(two_fronts, 20), cases::Refusal);
     }
 
+    TEST(RkpmTracked, WhatGivesWayMustNotLieAtTheCentre)
+    {
+      cases::Scene core = slab(bar_material(), 0, 0.01);
+      core.symmetry = cases::Symmetry::cylindrical;
+      core.domain.shape = cases::DomainShape::ball;
+      core.domain.dimension = 2;
+      core.domain.radius = 1;
+      core.material.solid.density = 0.9;
+      core.initial.temperature = cases::Field::uniform(440);
+      set(core, Side::outer,
+          {BoundaryKind::fixed_temperature, cases::Field::uniform(400)});
+      EXPECT_THROW(run(core, 20), cases::Refusal);
+      EXPECT_NO_THROW(run(core, 20, {{"displaced", "solid"}}));
+    }
+
     // Within a planned step of 0.1 s, and over the end of one.
     TEST(RkpmTracked, APulseOfFluxBringsItsEnergy)
     {
