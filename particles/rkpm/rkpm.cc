@@ -29,6 +29,17 @@ namespace meltfront::particles
         return policy.summary;
       }
 
+      bool takes_inclusions() const
+      {
+        return policy.variant == rkpm::Variant::fixed_point
+               || policy.variant == rkpm::Variant::derivative_free;
+      }
+
+      cases::Overshoot overshoot() const
+      {
+        return takes_inclusions() ? rkpm::overshoot_at_inclusions : rkpm::overshoot;
+      }
+
       std::vector<cases::Capabilities> capabilities() const override
       {
         using cases::BoundaryKind, cases::DomainShape, cases::Effect;
@@ -40,8 +51,7 @@ namespace meltfront::particles
         // Where the kernel is differentiated, or each neighbour has a dilation of its
         // own, supports that are cut at a jump make single rows large: a steady slab was
         // wrong by up to a fifth of its span at some n, and right at the next.
-        if(policy.variant == rkpm::Variant::fixed_point
-           || policy.variant == rkpm::Variant::derivative_free)
+        if(takes_inclusions())
           effects.push_back(Effect::inclusion);
         return {{.form = {},
                  .problems = {cases::ProblemKind::stefan, cases::ProblemKind::poisson},
@@ -50,7 +60,7 @@ namespace meltfront::particles
                  = {{DomainShape::slab, {1}, walls}, {DomainShape::box, {2, 3}, walls}},
                  .front_origins = {cases::FrontOrigin::none},
                  .most_threads = cases::any_number_of_threads,
-                 .overshoot = rkpm::overshoot}};
+                 .overshoot = overshoot()}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -91,7 +101,7 @@ namespace meltfront::particles
                                         resolution.threads);
         LinearDescription description;
         description.method = policy.name;
-        description.overshoot = rkpm::overshoot;
+        description.overshoot = overshoot();
         description.run.dimension = scene.domain.dimension;
         description.run.spacing = nodes.spacing;
         description.run.smoothing_length = problem.mean_dilation();

@@ -46,6 +46,11 @@ namespace meltfront::particles::rkpm
    * 0.012, 0.0072, 0.0047 at n = 12, 20, 34, 54. */
   inline constexpr cases::Overshoot overshoot{0.015, 1};
 
+  /** Of variants that take inclusions: nodes on their surface take the fluxes of both
+   * sides from slopes of second order, (4 T_1 - T_2)/3 for lack of T_0, and overshoot by
+   * up to 0.025 at n = 34 where heat comes in from a wall. */
+  inline constexpr cases::Overshoot overshoot_at_inclusions{0.05, 1};
+
   std::vector<cases::OptionDeclaration> rkpm_options(const RkpmPolicy &policy);
 
   /** The options of a run in some dimension. */

@@ -21,7 +21,8 @@ namespace meltfront::reference_fem::cut
   /** Their values. */
   struct RunOptions
   {
-    explicit RunOptions(const cases::Options &options);
+    /** @param n cells along the domain's side, for the number of steps by default */
+    RunOptions(const cases::Options &options, int n);
 
     int degree, level_set_degree;
     int refinement;

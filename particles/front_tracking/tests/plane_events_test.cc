@@ -115,9 +115,8 @@ namespace
     scene.domain.shape = cases::DomainShape::shell;
     scene.domain.inner_radius = 0.29;
     scene.domain.radius = 1;
-    cases::Boundary &outer = scene.boundary(cases::Side::outer);
-    outer.kind = cases::BoundaryKind::fixed_temperature;
-    outer.value = {"", [](const auto &, double) { return -0.65; }};
+    scene.boundaries[static_cast<std::size_t>(cases::Side::outer)]
+        = {cases::BoundaryKind::fixed_temperature, cases::Field::uniform(-0.65)};
     const PlaneRecord record = run_plane(scene, 34);
     const PlaneRecord::Frame &end = record.frames.back();
     EXPECT_EQ(end.front_points, 0u);

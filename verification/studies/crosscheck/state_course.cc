@@ -156,73 +156,63 @@ namespace meltfront::verification
     return {};
   }
 
-  /** By how much the temperature of matter between a wall and a site beside it may differ
-   * from the site's (K): in a site of both phases from that of the wall to melting. */
-  double CourseObserver::beyond_site(const cases::Snapshot &snapshot, std::size_t site,
-                                     double wall) const
-  {
-    const double solid = snapshot.solid_fraction[site];
-    const double to_site = std::abs(wall - snapshot.temperature[site]);
-    return solid > 0 && solid < 1
-               ? std::max(to_site, std::abs(wall - scene.material.melting_temperature))
-               : to_site;
-  }
-
-  /** Heat of what lies between walls of given temperature and sites beside them, that is
-   * of the phase which belongs to the wall's temperature. */
-  double CourseObserver::heat_unseen(const cases::Snapshot &snapshot,
-                                     std::span<const double> positions) const
+  CourseObserver::Hidden CourseObserver::hidden_at(const cases::Snapshot &snapshot,
+                                                   std::size_t site, double x) const
   {
     const cases::Material &material = scene.material;
-    double heat = 0;
-    for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
-      if(const auto wall = wall_beside(snapshot.time, positions[i]))
-      {
-        const bool solid = *wall < material.melting_temperature;
-        const double share
-            = solid ? snapshot.solid_fraction[i] : 1 - snapshot.solid_fraction[i];
-        heat += snapshot.weights[i] * share
-                * (solid ? material.solid : material.liquid).volumetric_heat_capacity()
-                * beyond_site(snapshot, i, *wall) / 2;
-      }
-    return heat;
+    const auto wall = wall_beside(snapshot.time, x);
+    if(!wall || *wall == material.melting_temperature)
+      return {};
+    const bool solid = *wall < material.melting_temperature;
+    const cases::PhaseProperties &phase = solid ? material.solid : material.liquid;
+    const double share
+        = solid ? snapshot.solid_fraction[site] : 1 - snapshot.solid_fraction[site];
+    double beyond = std::abs(*wall - snapshot.temperature[site]);
+    if(share > 0 && share < 1)
+      beyond = std::max(beyond, std::abs(*wall - material.melting_temperature));
+    const double layer = share == 0 ? 0.5 : 0;
+    return {beyond / 2, layer,
+            share * phase.volumetric_heat_capacity() * beyond / 2
+                + layer * phase.density * material.latent_heat};
   }
 
   void CourseObserver::add_means(const cases::Snapshot &snapshot,
                                  const std::string &coordinate,
                                  std::span<const double> positions, double lower,
-                                 double upper)
+                                 double upper, std::span<const Hidden> hidden)
   {
     const bool along_line = scene.symmetry != cases::Symmetry::none;
     const int degree = along_line ? 3 : 2;
-    std::array<double, most_degree + 1> weight{}, temperature{}, solid{}, unread{};
+    std::array<double, most_degree + 1> weight{}, temperature{}, solid{},
+        hidden_temperature{}, hidden_solid{};
     for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
     {
       const double x = std::clamp((positions[i] - lower) / (upper - lower), 0., 1.);
       const auto shares = bernstein(degree, x);
-      double beyond = 0;
-      if(along_line && scene.changes_phase())
-        if(const auto wall = wall_beside(snapshot.time, positions[i]))
-          beyond = beyond_site(snapshot, i, *wall);
       for(int k = 0; k <= degree; ++k)
       {
         const double w = snapshot.weights[i] * shares[k];
         weight[k] += w;
         temperature[k] += w * snapshot.temperature[i];
         solid[k] += w * snapshot.solid_fraction[i];
-        unread[k] += w / 2 * beyond;
+        if(!hidden.empty())
+        {
+          hidden_temperature[k] += w * hidden[i].temperature;
+          hidden_solid[k] += w * hidden[i].solid;
+        }
       }
     }
     for(int k = 0; k <= degree; ++k)
     {
       const std::string where = fmt::format(" near {} = {}/{}", coordinate, k, degree);
       add("temperature" + where, temperature[k] / weight[k]);
-      misread["temperature" + where].push_back(unread[k] / weight[k]
+      misread["temperature" + where].push_back(hidden_temperature[k] / weight[k]
                                                + volume_misread * (highest - lowest));
       if(!scene.changes_phase())
         continue;
       add("solid fraction" + where, solid[k] / weight[k]);
-      misread["solid fraction" + where].push_back(volume_misread);
+      misread["solid fraction" + where].push_back(hidden_solid[k] / weight[k]
+                                                  + volume_misread);
     }
   }
 
@@ -239,27 +229,27 @@ namespace meltfront::verification
     for(const double weight : snapshot.weights)
       of_sites += weight;
     volume_misread = domain.round() ? std::abs(of_sites / volume - 1) : 0;
-    double unseen = 0;
+    std::vector<Hidden> hidden;
     if(scene.symmetry != cases::Symmetry::none)
     {
       const bool round = domain.round();
       const double lower = round ? domain.inner_radius : domain.lower[0];
       const std::vector<double> middles
           = middles_of(scene.symmetry, coordinates.of(snapshot), snapshot.weights, lower);
+      for(std::size_t i = 0; scene.changes_phase() && i < middles.size(); ++i)
+        hidden.push_back(hidden_at(snapshot, i, middles[i]));
       add_means(snapshot, round ? "r" : "x", middles, lower,
-                round ? domain.radius : domain.upper[0]);
-      if(scene.changes_phase())
-        unseen = heat_unseen(snapshot, middles);
+                round ? domain.radius : domain.upper[0], hidden);
     }
     else
       for(int d = 0; d < snapshot.dimension; ++d)
         add_means(snapshot, std::string(1, "xyz"[d]), snapshot.positions[d],
                   domain.round() ? -domain.radius : domain.lower[d],
-                  domain.round() ? domain.radius : domain.upper[d]);
+                  domain.round() ? domain.radius : domain.upper[d], hidden);
     if(!scene.changes_phase())
       return;
     const cases::Material &material = scene.material;
-    double solid = 0, heat = 0;
+    double solid = 0, heat = 0, hidden_solid = 0, hidden_heat = 0;
     for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
     {
       const double w = snapshot.weights[i];
@@ -267,14 +257,19 @@ namespace meltfront::verification
       heat += w
               * heat_density(material, snapshot.temperature[i],
                              snapshot.solid_fraction[i]);
+      if(!hidden.empty())
+      {
+        hidden_solid += w * hidden[i].solid;
+        hidden_heat += w * hidden[i].heat;
+      }
     }
     add("solid fraction", solid / of_sites);
-    misread["solid fraction"].push_back(volume_misread);
+    misread["solid fraction"].push_back(hidden_solid / of_sites + volume_misread);
     if(material.solid.density != material.liquid.density)
       return;
     add("heat", heat / of_sites);
     misread["heat"].push_back(
-        unseen / of_sites
+        hidden_heat / of_sites
         + volume_misread
               * (heat_density(material, highest, 0) - heat_density(material, lowest, 1)));
   }

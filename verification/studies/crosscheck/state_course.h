@@ -47,10 +47,10 @@ namespace meltfront::verification
    * Along a coordinate, a site beside a wall of given temperature stands for matter up to
    * the wall, where a layer of the other phase may be that no site shows: the mean
    * temperature may be misread by half the site's weight times its distance (K) from the
-   * wall's temperature, of a site of both phases that of melting if that is larger, the
-   * heat by what the wall's phase at the site takes up over half that distance. Where the
-   * sites of a round domain have another volume than it, all quantities may be misread by
-   * the relative difference times their scale.
+   * wall's temperature, of a site of both phases that of melting if that is larger; the
+   * solid fraction, of a site that shows nothing of the wall's phase, by half its weight;
+   * the heat by both. Where the sites of a round domain have another volume than it, all
+   * quantities may be misread by the relative difference times their scale.
    *
    * Without change of phase there are temperatures only. Values at the times of the
    * course are interpolated by cubics between the steps around them.
@@ -67,13 +67,19 @@ namespace meltfront::verification
     StateCourse course() const;
 
   private:
+    /** What a site beside a wall of given temperature does not tell, per volume. */
+    struct Hidden
+    {
+      double temperature = 0; ///< K
+      double solid = 0;       ///< solid fraction
+      double heat = 0;        ///< J/m^3
+    };
+
     std::optional<double> wall_beside(double time, double x) const;
-    double beyond_site(const cases::Snapshot &snapshot, std::size_t site,
-                       double wall) const;
-    double heat_unseen(const cases::Snapshot &snapshot,
-                       std::span<const double> positions) const;
+    Hidden hidden_at(const cases::Snapshot &snapshot, std::size_t site, double x) const;
     void add_means(const cases::Snapshot &snapshot, const std::string &coordinate,
-                   std::span<const double> values, double lower, double upper);
+                   std::span<const double> values, double lower, double upper,
+                   std::span<const Hidden> hidden);
     void add(const std::string &name, double value);
 
     cases::Scene scene;

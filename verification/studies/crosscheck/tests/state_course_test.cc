@@ -140,6 +140,9 @@ namespace meltfront::verification
       const std::vector<double> misread = observer.course().misreadings.at("heat");
       EXPECT_NEAR(misread[12], (3 + 0.5 * 0.5 / 64) / 2 / 64, 1e-12);
       EXPECT_NEAR(misread[6], 0.5 * 3. / 2 / 64, 1e-12);
+      // At the start all is liquid: half of the first cell may be solid.
+      EXPECT_NEAR(misread[0], 0.5 / 64, 1e-12);
+      EXPECT_NEAR(observer.course().misreadings.at("solid fraction")[0], 0.5 / 64, 1e-12);
     }
 
     TEST(CourseObserver, IsKeptAsJson)
