@@ -53,7 +53,7 @@ namespace meltfront::reference_fem
       {
         // Of three states on a mesh, geometry and factors, as measured.
         constexpr double per_cell = 3000;
-        const cut::RunOptions options(resolution.options, resolution.n);
+        const cut::RunOptions options(resolution.options);
         const double n = resolution.n;
         double cells = cases::lattice_points(scene.domain, cut::dim, n);
         if(options.refinement > 0)

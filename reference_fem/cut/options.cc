@@ -1,7 +1,5 @@
 #include <reference_fem/cut/options.h>
 
-#include <algorithm>
-
 namespace meltfront::reference_fem::cut
 {
   std::vector<cases::OptionDeclaration> cut_options()
@@ -19,10 +17,8 @@ namespace meltfront::reference_fem::cut
          "Cells of each further size between the finest and the coarsest.", 1, 1e3},
         {"step_factor", "1", 0.25,
          "Cells that the front may cross in a time step, at its fastest.", 1e-4, 0.5},
-        {"fewest_steps", "1", 0L,
-         "Time steps over the run are at least so many; 0: three times n, and 100 at "
-         "least.",
-         0, 1e9},
+        {"fewest_steps", "1", 100L, "Time steps over the run are at least so many.", 1,
+         1e9},
         {"solves", "1", 2L,
          "Solves per step: the first on the front predicted from past speeds, each "
          "further one on the front corrected by the speed found.",
@@ -37,26 +33,13 @@ namespace meltfront::reference_fem::cut
          1e-4, 1e2}};
   }
 
-  namespace
-  {
-    /** Steps get shorter with the cells also where no front crosses them: errors of time
-     * would else be those of any n. */
-    constexpr long steps_per_cell = 3, fewest_by_default = 100;
-
-    long fewest_steps_of(const cases::Options &options, int n)
-    {
-      const long wanted = options.get_integer("fewest_steps");
-      return wanted > 0 ? wanted : std::max(fewest_by_default, steps_per_cell * n);
-    }
-  } // namespace
-
-  RunOptions::RunOptions(const cases::Options &options, int n)
+  RunOptions::RunOptions(const cases::Options &options)
     : degree(static_cast<int>(options.get_integer("degree")))
     , level_set_degree(static_cast<int>(options.get_integer("level_set_degree")))
     , refinement(static_cast<int>(options.get_integer("refinement")))
     , widths{options.get_double("band"), options.get_double("grading")}
     , step_factor(options.get_double("step_factor"))
-    , fewest_steps(fewest_steps_of(options, n))
+    , fewest_steps(options.get_integer("fewest_steps"))
     , solves(static_cast<int>(options.get_integer("solves")))
     , smoothing(options.get_double("smoothing"))
     , seed_cells(options.get_double("seed_cells"))

@@ -21,8 +21,7 @@ namespace meltfront::reference_fem::cut
   /** Their values. */
   struct RunOptions
   {
-    /** @param n cells along the domain's side, for the number of steps by default */
-    RunOptions(const cases::Options &options, int n);
+    explicit RunOptions(const cases::Options &options);
 
     int degree, level_set_degree;
     int refinement;

@@ -58,7 +58,7 @@ namespace meltfront::reference_fem::cut
     : scene(scene)
     , effects(effects)
     , resolution(resolution)
-    , options(resolution.options, resolution.n)
+    , options(resolution.options)
     , finest_rim(options.refinement > 0 && scene.domain.round()
                      ? make_mesh(divided_at_rim(scene.domain), nullptr)
                      : nullptr)

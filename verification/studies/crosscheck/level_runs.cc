@@ -47,7 +47,8 @@ namespace meltfront::verification
       cases::Resolution resolution{plan.n,
                                    cases::Options(plan.method->option_declarations())};
       if(plan.steps > 0)
-        resolution.options.set("steps", std::to_string(plan.steps));
+        resolution.options.set(steps_option(resolution.options),
+                               std::to_string(plan.steps));
       RepeatPolicy once;
       once.most = 1;
       const RunRecord record = run_one(c, *plan.method, resolution, plan.method->name(),
@@ -187,6 +188,15 @@ namespace meltfront::verification
     run.spacing = number_in(json.at("spacing"));
     if(run.status == RunStatus::finished)
       run.course = json.at("course");
+  }
+
+  std::string steps_option(const cases::Options &options)
+  {
+    for(const char *key : {"steps", "fewest_steps"})
+      if(std::ranges::find(options.declarations(), key, &cases::OptionDeclaration::key)
+         != options.declarations().end())
+        return key;
+    return {};
   }
 
   std::vector<LevelRun> make_level_runs(const cases::Case &c,

@@ -33,8 +33,12 @@ namespace meltfront::verification
   {
     const cases::Method *method;
     int n;
-    long steps = 0; ///< of its option `steps`; 0: as many as it takes by itself
+    long steps = 0; ///< of its steps_option(); 0: as many as it takes by itself
   };
+
+  /** The option by which a method is told its number of steps, `steps`, or the least
+   * number, `fewest_steps`; empty where it has neither. */
+  std::string steps_option(const cases::Options &options);
 
   /** How runs are made. */
   struct LevelLimits

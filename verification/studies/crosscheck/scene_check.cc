@@ -38,9 +38,7 @@ namespace meltfront::verification
                        int coarsest)
     {
       const cases::Options defaults(method.option_declarations());
-      if(std::ranges::find(defaults.declarations(), "steps",
-                           &cases::OptionDeclaration::key)
-         == defaults.declarations().end())
+      if(steps_option(defaults).empty())
         return 0;
       const auto steps = [&](int at) {
         return method.demand(of.scene, of.effects, {at, defaults}).steps;
