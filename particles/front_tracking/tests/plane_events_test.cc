@@ -115,6 +115,7 @@ namespace
     scene.domain.shape = cases::DomainShape::shell;
     scene.domain.inner_radius = 0.29;
     scene.domain.radius = 1;
+    scene.boundaries[static_cast<std::size_t>(cases::Side::inner)] = cases::Boundary();
     scene.boundaries[static_cast<std::size_t>(cases::Side::outer)]
         = {cases::BoundaryKind::fixed_temperature, cases::Field::uniform(-0.65)};
     const PlaneRecord record = run_plane(scene, 34);
