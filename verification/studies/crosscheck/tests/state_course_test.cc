@@ -90,25 +90,38 @@ namespace meltfront::verification
                   solid / (solid + liquid), 1e-12);
     }
 
-    // Half of the last cell may hold matter as cold as the wall, 2 K below the site.
-    TEST(CourseObserver, ASiteBesideAWallOfGivenTemperatureMayHideALayer)
+    /** Of the slab at the times of the course, with a wall of given temperature. */
+    template <typename Change>
+    StateCourse course_beside(cases::Side side, double (*temperature)(double time),
+                              const Change &change)
     {
       cases::Scene scene
           = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
-      scene.boundaries[static_cast<std::size_t>(cases::Side::x_max)] = {
-          cases::BoundaryKind::fixed_temperature,
-          {"", [](const cases::Position &, double t) { return (1 - 0.5 / 64) * t - 2; }}};
+      scene.boundaries[static_cast<std::size_t>(side)]
+          = {cases::BoundaryKind::fixed_temperature,
+             {"", [temperature](const cases::Position &, double time)
+              { return temperature(time); }}};
       CourseObserver observer(scene);
       cases::RunDescription description;
       description.spacing = 1. / 64;
       observer.begin(description);
-      for(int step = 0; step <= 24; ++step)
+      for(int step = 0; step <= course_intervals; ++step)
       {
-        tests::State state = slab_at(step / 24.);
+        const double time = step / double(course_intervals);
+        tests::State state = slab_at(time);
         state.snapshot.step = step;
-        observer.observe(state.view(1, step / 24.));
+        change(step, state);
+        observer.observe(state.view(1, time));
       }
-      const StateCourse course = observer.course();
+      return observer.course();
+    }
+
+    // Half of the last cell may hold matter as cold as the wall, 2 K below the site.
+    TEST(CourseObserver, ASiteBesideAWallOfGivenTemperatureMayHideALayer)
+    {
+      const StateCourse course = course_beside(
+          cases::Side::x_max, [](double time) { return (1 - 0.5 / 64) * time - 2; },
+          [](int, tests::State &) {});
       const double share = std::pow(1 - 0.5 / 64, 3) / 64 / 0.25;
       EXPECT_NEAR(course.misreadings.at("temperature near x = 3/3")[12], share, 1e-4);
       EXPECT_LT(course.misreadings.at("temperature near x = 0/3")[12], 1e-6);
@@ -117,32 +130,22 @@ namespace meltfront::verification
     // Solid beside a wall 3 K below melting, seen by a site that is hardly below it.
     TEST(CourseObserver, ASiteBesideAWallOfGivenTemperatureMayHideHeat)
     {
-      cases::Scene scene
-          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
-      scene.boundaries[static_cast<std::size_t>(cases::Side::x_min)]
-          = {cases::BoundaryKind::fixed_temperature,
-             {"", [](const cases::Position &, double) { return -3.; }}};
-      CourseObserver observer(scene);
-      cases::RunDescription description;
-      description.spacing = 1. / 64;
-      observer.begin(description);
-      for(int step = 0; step <= 24; ++step)
-      {
-        tests::State state = slab_at(step / 24.);
-        state.snapshot.step = step;
-        if(step == 6) // both phases, at the wall's temperature: a layer of either
-        {
-          state.temperature[0] = -3;
-          state.solid_fraction[0] = 0.5;
-        }
-        observer.observe(state.view(1, step / 24.));
-      }
-      const std::vector<double> misread = observer.course().misreadings.at("heat");
+      const StateCourse course = course_beside(
+          cases::Side::x_min, [](double) { return -3.; },
+          [](int step, tests::State &state)
+          {
+            if(step != 6)
+              return;
+            // Both phases, at the wall's temperature: a layer of either.
+            state.temperature[0] = -3;
+            state.solid_fraction[0] = 0.5;
+          });
+      const std::vector<double> misread = course.misreadings.at("heat");
       EXPECT_NEAR(misread[12], (3 + 0.5 * 0.5 / 64) / 2 / 64, 1e-12);
       EXPECT_NEAR(misread[6], 0.5 * 3. / 2 / 64, 1e-12);
       // At the start all is liquid: half of the first cell may be solid.
       EXPECT_NEAR(misread[0], 0.5 / 64, 1e-12);
-      EXPECT_NEAR(observer.course().misreadings.at("solid fraction")[0], 0.5 / 64, 1e-12);
+      EXPECT_NEAR(course.misreadings.at("solid fraction")[0], 0.5 / 64, 1e-12);
     }
 
     TEST(CourseObserver, IsKeptAsJson)
