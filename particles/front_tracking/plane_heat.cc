@@ -13,9 +13,6 @@ namespace meltfront::particles::front_tracking
 {
   namespace
   {
-    /** Sinks are not looked at from nearer than this, in spacings. */
-    constexpr double nearest_to_sink = 0.05;
-
     /** Front particles so much beyond a wall, in spacings, take no part. */
     constexpr double beyond_wall = 0.05;
 
@@ -56,7 +53,7 @@ namespace meltfront::particles::front_tracking
 
   PlaneHeat::PlaneHeat(const cases::Scene &scene, const PlaneNodes &nodes,
                        const PlaneHeatSettings &settings)
-    : sinks(scene, nearest_to_sink * nodes.spacing)
+    : sinks(scene, nodes.spacing)
     , settings(settings)
     , scene(scene)
     , given(scene)
@@ -85,9 +82,15 @@ namespace meltfront::particles::front_tracking
   double PlaneHeat::temperature(const PlaneState &state, std::size_t node) const
   {
     return state.unknown[node]
-           + (state.phase[node] == NodePhase::solid
-                  ? sinks.value(nodes.position[node], state.time)
-                  : 0);
+           + (state.phase[node] == NodePhase::solid ? singular_part(node, state.time)
+                                                    : 0);
+  }
+
+  double PlaneHeat::singular_part(std::size_t node, double time) const
+  {
+    return sinks.at_node([&](const PlanePoint &point)
+                         { return sinks.value(point, time); },
+                         nodes.position[node], nodes.samples_of(node));
   }
 
   void PlaneHeat::nodes_moved(std::span<const PlanePoint> before)

@@ -101,6 +101,9 @@ namespace meltfront::particles::front_tracking
     /** Temperature at a node. */
     double temperature(const PlaneState &state, std::size_t node) const;
 
+    /** The sinks' singular part at a node, a mean over its cell beside a sink (K). */
+    double singular_part(std::size_t node, double time) const;
+
     /** Phase at a place, by the front last set. */
     bool solid(const PlanePoint &place) const
     {

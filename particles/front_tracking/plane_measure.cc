@@ -160,11 +160,10 @@ namespace meltfront::particles::front_tracking
       if(solid && near < sink_reach * h)
       {
         double mean = 0;
-        const std::size_t begin = nodes.sample_offsets[i],
-                          end = nodes.sample_offsets[i + 1];
-        for(std::size_t s = begin; s < end; ++s)
-          mean += heat.sinks.value(nodes.samples[s], state.time)
-                  / static_cast<double>(end - begin);
+        const std::span<const PlanePoint> samples = nodes.samples_of(i);
+        for(const PlanePoint &sample : samples)
+          mean += heat.sinks.value(sample, state.time)
+                  / static_cast<double>(samples.size());
         excess = state.unknown[i] + mean - material.melting_temperature;
       }
       add_heat(solid, nodes.weight[i], excess);

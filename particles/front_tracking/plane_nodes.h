@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace meltfront::particles::front_tracking
@@ -98,6 +99,13 @@ namespace meltfront::particles::front_tracking
     /** Put nodes to other places, none farther than a spacing from where it is; areas
      * follow. */
     void move(const std::vector<PlanePoint> &places);
+
+    /** The samples that make up a node's area. */
+    std::span<const PlanePoint> samples_of(std::size_t node) const
+    {
+      return std::span(samples).subspan(sample_offsets[node],
+                                        sample_offsets[node + 1] - sample_offsets[node]);
+    }
 
     /** Corners of the domain's bounding box (m). */
     PlanePoint lower{0, 0}, upper{0, 0};

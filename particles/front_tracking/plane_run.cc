@@ -102,10 +102,11 @@ namespace meltfront::particles::front_tracking
           h));
     state.unknown.resize(nodes.size());
     for(std::size_t i = 0; i < nodes.size(); ++i)
-      state.unknown[i] = found.temperature(nodes.position[i])
-                         - (state.phase[i] == NodePhase::solid
-                                ? heat.sinks.value(nodes.position[i], state.time)
-                                : 0);
+      state.unknown[i] = state.phase[i] == NodePhase::solid
+                             ? heat.sinks.at_node(found.temperature, nodes.position[i],
+                                                  nodes.samples_of(i))
+                                   - heat.singular_part(i, state.time)
+                             : found.temperature(nodes.position[i]);
     heat.expand(state);
     marked.seed(state.front, heat.settings.solid_beyond);
     condition = heat.worst_condition(state);

@@ -6,9 +6,16 @@
 
 namespace meltfront::particles::front_tracking
 {
-  PlaneSinks::PlaneSinks(const cases::Scene &scene, double smallest_distance)
+  namespace
+  {
+    /** Sources are not looked at from nearer than this, in spacings. */
+    constexpr double nearest_to_source = 0.05;
+  } // namespace
+
+  PlaneSinks::PlaneSinks(const cases::Scene &scene, double spacing)
     : scene(scene)
-    , smallest_distance(smallest_distance)
+    , spacing(spacing)
+    , smallest_distance(nearest_to_source * spacing)
     , factor(-1 / (2 * std::numbers::pi * scene.material.solid.conductivity))
   {
     for(const cases::PointSource &source : scene.sources)
@@ -51,6 +58,26 @@ namespace meltfront::particles::front_tracking
              * Eigen::Vector3d(y * y - x * x, -2 * x * y, x * x - y * y);
     }
     return factor * sum;
+  }
+
+  double PlaneSinks::at_node(const std::function<double(const PlanePoint &)> &temperature,
+                             const PlanePoint &node,
+                             std::span<const PlanePoint> samples) const
+  {
+    const bool holds_source
+        = std::ranges::any_of(places, [&](const PlanePoint &place)
+                              { return (node - place).norm() < spacing / 2; });
+    if(!holds_source || samples.empty())
+      return temperature(node);
+    double sum = 0;
+    for(PlanePoint sample : samples)
+    {
+      for(const PlanePoint &place : places)
+        if((sample - place).norm() < smallest_distance)
+          sample = place + PlanePoint(smallest_distance, 0);
+      sum += temperature(sample);
+    }
+    return sum / static_cast<double>(samples.size());
   }
 
   double PlaneSinks::energy(double time) const

@@ -4,6 +4,9 @@
 #include <cases/scene.h>
 #include <particles/front_tracking/plane_bins.h>
 
+#include <functional>
+#include <span>
+
 namespace meltfront::particles::front_tracking
 {
   /**
@@ -18,8 +21,9 @@ namespace meltfront::particles::front_tracking
   {
   public:
     /** @param scene outlives the sinks
-     * @param smallest_distance at which S is evaluated (m): it is infinite at a source */
-    PlaneSinks(const cases::Scene &scene, double smallest_distance);
+     * @param spacing of the nodes (m): S, infinite at a source, is evaluated at 0.05 of
+     * it where it is asked for nearer */
+    PlaneSinks(const cases::Scene &scene, double spacing);
 
     bool empty() const
     {
@@ -35,6 +39,15 @@ namespace meltfront::particles::front_tracking
     /** Second derivatives xx, xy, yy (K/m^2). */
     Eigen::Vector3d second_derivatives(const PlanePoint &point, double time) const;
 
+    /**
+     * A temperature at a node: the mean over the node's cell where that holds a source,
+     * since no value at a point there tells the cell's heat.
+     * @param temperature may be infinite at a source
+     * @param samples of the cell
+     */
+    double at_node(const std::function<double(const PlanePoint &)> &temperature,
+                   const PlanePoint &node, std::span<const PlanePoint> samples) const;
+
     /** Heat from the sources since the start (J/m). */
     double energy(double time) const;
 
@@ -42,7 +55,7 @@ namespace meltfront::particles::front_tracking
 
   private:
     const cases::Scene &scene;
-    double smallest_distance, factor;
+    double spacing, smallest_distance, factor;
   };
 } // namespace meltfront::particles::front_tracking
 

@@ -2,6 +2,9 @@
 
 #include <cases/error.h>
 #include <cases/exact/line_sink.h>
+#include <cases/undisturbed.h>
+
+#include <particles/front_tracking/tracking_options.h>
 
 #include <fmt/format.h>
 
@@ -124,6 +127,7 @@ namespace meltfront::particles::front_tracking
                              "seed before the end; take more nodes along the side");
       PlaneStart start;
       start.time = scene.start_time + clock;
+      cases::require_undisturbed(scene, far, start.time, method_name);
       start.description
           = fmt::format("similarity solution of each sink at {:.6g} s", start.time);
       start.level_set = [seeds, clock](const PlanePoint &point)

@@ -86,10 +86,10 @@ namespace meltfront::particles::front_tracking
           [&]
           {
             known -= capacity
-                     * (step.a * sinks.value(place, step.time)
-                        - step.b * sinks.value(place, step.last.time));
+                     * (step.a * singular_part(node, step.time)
+                        - step.b * singular_part(node, step.last.time));
             if(step.older)
-              known -= capacity * step.c * sinks.value(place, step.older->time);
+              known -= capacity * step.c * singular_part(node, step.older->time);
           });
     if(scene.heat_release)
       known += meters.release.measure(

@@ -2,6 +2,7 @@
 
 #include <cases/error.h>
 #include <cases/exact/line_sink.h>
+#include <cases/undisturbed.h>
 
 #include <fmt/format.h>
 
@@ -147,6 +148,7 @@ namespace meltfront::reference_fem::cut
             "take more cells along the side",
             seed_cells));
       require_independence(scene, seeds, clock);
+      cases::require_undisturbed(scene, far, time, "fem-cut");
       const auto level_set = [seeds, clock](const Point &point)
       {
         double least = std::numeric_limits<double>::infinity();

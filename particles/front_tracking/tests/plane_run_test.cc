@@ -1,11 +1,14 @@
 #include "plane_cases.h"
 
 #include <cases/error.h>
+#include <cases/exact/line_sink.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string>
 
 using namespace meltfront;
 using namespace meltfront::particles::front_tracking;
@@ -160,6 +163,71 @@ namespace
     const PlaneRecord record = run_plane(scene, 40);
     EXPECT_NEAR(record.frames.back().mean_radius, std::sqrt(0.06), 0.01);
     EXPECT_LT(record.frames.back().roundness, 0.02);
+  }
+
+  /** Liquid at 0.5 in an insulated square, whose middle a sink chills until the front of
+   * an unbounded domain stands at 0.4. */
+  cases::Scene sink_in_square(double &solid_area)
+  {
+    cases::Scene scene = insulated_box({1, 1, 0}, around, around, 0);
+    scene.initial.front.reset();
+    scene.initial.temperature = cases::Field::uniform(0.5);
+    const cases::LineSink exact(scene.material, 0.8, 0.5);
+    const double radius = 0.4, strength = exact.strength();
+    scene.end_time = std::pow(radius / exact.front(1), 2);
+    cases::PointSource sink;
+    sink.power = [=](double) { return -strength; };
+    sink.energy = [=](double time) { return -strength * time; };
+    scene.sources.push_back(sink);
+    solid_area = std::numbers::pi * radius * radius;
+    return scene;
+  }
+
+  TEST(PlaneRun, ASinkMayStandOnANode)
+  {
+    double exact = 0;
+    const cases::Scene scene = sink_in_square(exact);
+    for(const int n : {20, 21}) // on a node, amid four
+    {
+      const PlaneRecord record = run_plane(scene, n);
+      EXPECT_NEAR(record.frames.back().solid_area, exact, 0.01 * exact);
+      EXPECT_LT(record.frames.back().defect, 2e-3);
+    }
+  }
+
+  TEST(PlaneRun, NothingElseMayChangeTheLiquidBeforeASeed)
+  {
+    double area = 0;
+    const cases::Scene quiet = sink_in_square(area);
+    const auto refused = [](const cases::Scene &scene, const char *reason)
+    {
+      try
+      {
+        run_plane(scene, 20);
+        FAIL() << reason;
+      }
+      catch(const cases::Refusal &refusal)
+      {
+        EXPECT_NE(std::string(refusal.what()).find(reason), std::string::npos)
+            << refusal.what();
+      }
+    };
+    cases::Scene scene = quiet;
+    cases::Boundary wall;
+    wall.kind = cases::BoundaryKind::flux;
+    wall.value = {"", [](const auto &, double time) { return time < 1e-5 ? 1e3 : 0.; }};
+    scene.boundaries[static_cast<std::size_t>(cases::Side::x_max)] = wall;
+    refused(scene, "the wall x_max gives or takes heat");
+    scene = quiet;
+    const cases::PointSource steady = quiet.sources[0];
+    scene.sources[0].power = [=](double time)
+    { return (time > 1e-5 && time < 2e-5 ? 50 : 1) * steady.power(time); };
+    scene.sources[0].energy = [=](double time)
+    { return steady.energy(time + 49 * std::clamp(time - 1e-5, 0., 1e-5)); };
+    refused(scene, "the power of a source changes");
+    scene = quiet;
+    scene.heat_release = cases::Field::uniform(0.1);
+    refused(scene, "heat is released");
   }
 
   TEST(PlaneRun, SameBitsForAnyNumberOfThreads)

@@ -130,6 +130,12 @@ namespace meltfront::reference_fem::tests
       felt.sources[0].position = {0.4, 0, 0};
       set_boundary(felt, Side::outer, {});
       EXPECT_THROW(run_cut(felt, 24), Refusal); // a wall beside the seed
+      Scene pulsed = sink_in_disk(exact);
+      pulsed.sources[0].power = [steady = pulsed.sources[0].power(0)](double time)
+      { return time > 1 && time < 2 ? 50 * steady : steady; };
+      pulsed.sources[0].energy = [steady = pulsed.sources[0].power(0)](double time)
+      { return steady * (time + 49 * std::clamp(time - 1, 0., 1.)); };
+      EXPECT_THROW(run_cut(pulsed, 24), Refusal); // before the seed
       Scene liquid_source = disks({{0, 0, 0}}, 0.1);
       liquid_source.sources[0].position = {0.5, 0, 0};
       EXPECT_THROW(run_cut(liquid_source, 40), Refusal);
