@@ -6,18 +6,23 @@
 
 namespace meltfront::cases
 {
+  double HeatBudget::imbalance() const
+  {
+    return booked ? stored + latent - initial - boundary - sources
+                  : std::numeric_limits<double>::quiet_NaN();
+  }
+
   double HeatBudget::defect() const
   {
     if(!booked)
       return std::numeric_limits<double>::quiet_NaN();
-    const double imbalance = stored + latent - initial - boundary - sources;
-    if(!std::isfinite(imbalance))
+    if(!std::isfinite(imbalance()))
       return std::numeric_limits<double>::infinity();
     const double scale = std::max({std::abs(stored) + std::abs(latent), std::abs(initial),
                                    std::abs(boundary), std::abs(sources)});
     if(scale == 0)
       return 0;
-    return std::abs(imbalance) / scale;
+    return std::abs(imbalance()) / scale;
   }
 
   double SubstanceBudget::defect() const

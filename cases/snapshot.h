@@ -24,10 +24,11 @@ namespace meltfront::cases
      * does not: its defect is NaN. */
     bool booked = true;
 
-    /**
-     * |stored + latent - initial - boundary - sources| over the largest magnitude among
-     * these terms: round-off for a method that conserves heat.
-     */
+    /** stored + latent - initial - boundary - sources; NaN if not booked. */
+    double imbalance() const;
+
+    /** |imbalance| over the largest magnitude among its terms: round-off for a method that
+     * conserves heat. */
     double defect() const;
   };
 

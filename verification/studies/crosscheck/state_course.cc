@@ -207,13 +207,31 @@ namespace meltfront::verification
       const std::string where = fmt::format(" near {} = {}/{}", coordinate, k, degree);
       add("temperature" + where, temperature[k] / weight[k]);
       misread["temperature" + where].push_back(hidden_temperature[k] / weight[k]
-                                               + volume_misread * (highest - lowest));
+                                               + share_misread * (highest - lowest));
       if(!scene.changes_phase())
         continue;
       add("solid fraction" + where, solid[k] / weight[k]);
       misread["solid fraction" + where].push_back(hidden_solid[k] / weight[k]
-                                                  + volume_misread);
+                                                  + share_misread);
     }
+  }
+
+  /** From the coldest solid to the warmest liquid so far, per volume. */
+  double CourseObserver::heat_scale() const
+  {
+    const cases::Material &material = scene.material;
+    if(scene.changes_phase())
+      return heat_density(material, highest, 0) - heat_density(material, lowest, 1);
+    return material.solid.volumetric_heat_capacity() * (highest - lowest);
+  }
+
+  double CourseObserver::share_lacking(const cases::Snapshot &snapshot,
+                                       double of_sites) const
+  {
+    double share = scene.domain.round() ? std::abs(of_sites / volume - 1) : 0;
+    if(snapshot.heat.booked && heat_scale() > 0)
+      share += std::abs(snapshot.heat.imbalance()) / (heat_scale() * volume);
+    return share;
   }
 
   void CourseObserver::observe(const cases::Snapshot &snapshot)
@@ -228,7 +246,7 @@ namespace meltfront::verification
     double of_sites = 0;
     for(const double weight : snapshot.weights)
       of_sites += weight;
-    volume_misread = domain.round() ? std::abs(of_sites / volume - 1) : 0;
+    share_misread = share_lacking(snapshot, of_sites);
     std::vector<Hidden> hidden;
     if(scene.symmetry != cases::Symmetry::none)
     {
@@ -264,14 +282,11 @@ namespace meltfront::verification
       }
     }
     add("solid fraction", solid / of_sites);
-    misread["solid fraction"].push_back(hidden_solid / of_sites + volume_misread);
+    misread["solid fraction"].push_back(hidden_solid / of_sites + share_misread);
     if(material.solid.density != material.liquid.density)
       return;
     add("heat", heat / of_sites);
-    misread["heat"].push_back(
-        hidden_heat / of_sites
-        + volume_misread
-              * (heat_density(material, highest, 0) - heat_density(material, lowest, 1)));
+    misread["heat"].push_back(hidden_heat / of_sites + share_misread * heat_scale());
   }
 
   StateCourse CourseObserver::course() const

@@ -49,8 +49,11 @@ namespace meltfront::verification
    * temperature may be misread by half the site's weight times its distance (K) from the
    * wall's temperature, of a site of both phases that of melting if that is larger; the
    * solid fraction, of a site that shows nothing of the wall's phase, by half its weight;
-   * the heat by both. Where the sites of a round domain have another volume than it, all
-   * quantities may be misread by the relative difference times their scale.
+   * the heat by both. Where the sites of a round domain have another volume than it, and
+   * where the method's own book lacks heat, all quantities may be misread by the relative
+   * difference times their scale: of the volume; of the lacking heat over all that lies
+   * between coldest solid and warmest liquid. (A front whose layer takes up less heat
+   * than it should by E goes too far by the volume E/(rho (L + c dT)).)
    *
    * Without change of phase there are temperatures only. Values at the times of the
    * course are interpolated by cubics between the steps around them.
@@ -81,6 +84,8 @@ namespace meltfront::verification
                    std::span<const double> values, double lower, double upper,
                    std::span<const Hidden> hidden);
     void add(const std::string &name, double value);
+    double share_lacking(const cases::Snapshot &snapshot, double of_sites) const;
+    double heat_scale() const;
 
     cases::Scene scene;
     SiteCoordinates coordinates;
@@ -90,8 +95,8 @@ namespace meltfront::verification
     std::map<std::string, std::vector<double>> misread; ///< the same
     double lowest, highest;
     double spacing = 0;
-    double volume;             ///< of the domain
-    double volume_misread = 0; ///< relative, of the snapshot's sites
+    double volume;            ///< of the domain
+    double share_misread = 0; ///< of what the snapshot's sites and book lack
   };
 } // namespace meltfront::verification
 

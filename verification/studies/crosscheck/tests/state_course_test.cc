@@ -148,6 +148,30 @@ namespace meltfront::verification
       EXPECT_NEAR(course.misreadings.at("solid fraction")[0], 0.5 / 64, 1e-12);
     }
 
+    // Up to 0.49 K of sensible and 1 of latent heat per volume; 0.15 are not accounted
+    // for.
+    TEST(CourseObserver, WhatTheMethodsBookLacksMayBeAnywhere)
+    {
+      cases::Scene scene
+          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+      CourseObserver observer(scene);
+      for(int step = 0; step <= course_intervals; ++step)
+      {
+        const double time = step / double(course_intervals);
+        tests::State state = slab_at(time);
+        state.snapshot.step = step;
+        state.snapshot.heat.initial = 0.15;
+        state.snapshot.heat.booked = step != 6;
+        observer.observe(state.view(1, time));
+      }
+      const auto misreadings = observer.course().misreadings;
+      const double span = (1 - 0.5 / 64) / 2, share = 0.15 / (span + 1);
+      EXPECT_NEAR(misreadings.at("solid fraction")[12], share, 1e-12);
+      EXPECT_NEAR(misreadings.at("temperature near x = 1/3")[12], share * span, 1e-12);
+      EXPECT_NEAR(misreadings.at("heat")[12], 0.15, 1e-12);
+      EXPECT_EQ(misreadings.at("solid fraction")[6], 0);
+    }
+
     TEST(CourseObserver, IsKeptAsJson)
     {
       cases::Scene scene
