@@ -1,5 +1,6 @@
 #include <verification/matrix/json_values.h>
 #include <verification/measure/scene_quadrature.h>
+#include <verification/measure/site_heat.h>
 #include <verification/studies/crosscheck/state_course.h>
 
 #include <fmt/format.h>
@@ -134,25 +135,28 @@ namespace meltfront::verification
     values[name].push_back(value);
   }
 
-  /** The temperature of a wall that is given one, beside a site. */
-  std::optional<double> CourseObserver::wall_beside(double time, double x) const
+  std::vector<std::pair<cases::Side, double>> CourseObserver::walls_along_line() const
   {
     using cases::Side;
     const cases::Domain &domain = scene.domain;
     const bool round = domain.round();
-    const std::pair<Side, double> walls[]
-        = {{round ? Side::inner : Side::x_min,
-            round ? domain.inner_radius : domain.lower[0]},
-           {round ? Side::outer : Side::x_max, round ? domain.radius : domain.upper[0]}};
+    std::vector<std::pair<Side, double>> walls{
+        {round ? Side::inner : Side::x_min,
+         round ? domain.inner_radius : domain.lower[0]},
+        {round ? Side::outer : Side::x_max, round ? domain.radius : domain.upper[0]}};
     const std::vector<Side> sides = scene.sides();
-    for(const auto &[side, place] : walls)
-    {
-      if(std::abs(x - place) > reach_of_wall * spacing
-         || std::ranges::find(sides, side) == sides.end()
-         || scene.boundary(side).kind != cases::BoundaryKind::fixed_temperature)
-        continue;
-      return scene.boundary(side).value({place, 0, 0}, time);
-    }
+    std::erase_if(walls, [&](const auto &wall)
+                  { return std::ranges::find(sides, wall.first) == sides.end(); });
+    return walls;
+  }
+
+  /** The temperature of a wall that is given one, beside a site. */
+  std::optional<double> CourseObserver::wall_beside(double time, double x) const
+  {
+    for(const auto &[side, place] : walls_along_line())
+      if(std::abs(x - place) <= reach_of_wall * spacing
+         && scene.boundary(side).kind == cases::BoundaryKind::fixed_temperature)
+        return scene.boundary(side).value({place, 0, 0}, time);
     return {};
   }
 
@@ -207,13 +211,35 @@ namespace meltfront::verification
       const std::string where = fmt::format(" near {} = {}/{}", coordinate, k, degree);
       add("temperature" + where, temperature[k] / weight[k]);
       misread["temperature" + where].push_back(hidden_temperature[k] / weight[k]
-                                               + share_misread * (highest - lowest));
+                                               + share_misread * (highest - lowest)
+                                               + beside_front);
       if(!scene.changes_phase())
         continue;
       add("solid fraction" + where, solid[k] / weight[k]);
       misread["solid fraction" + where].push_back(hidden_solid[k] / weight[k]
                                                   + share_misread);
     }
+  }
+
+  /** How far temperatures may be off because a front stands in the cell of a wall:
+   * methods that hold the melting temperature at the site may have it half a spacing
+   * beside the front, the same share of a spacing at every resolution while the front is
+   * nearer to the wall than that. */
+  double CourseObserver::front_at_wall(const cases::Snapshot &snapshot,
+                                       std::span<const double> middles, double wall) const
+  {
+    bool stands_there = false;
+    double most = 0;
+    for(std::size_t i = 0; i < middles.size(); ++i)
+    {
+      const double away = std::abs(middles[i] - wall) / spacing;
+      const double fraction = snapshot.solid_fraction[i];
+      stands_there |= away <= reach_of_wall && fraction > 0 && fraction < 1;
+      if(away <= reach_of_wall + 1)
+        most = std::max(
+            most, std::abs(snapshot.temperature[i] - scene.material.melting_temperature));
+    }
+    return stands_there ? most / 2 : 0;
   }
 
   /** From the coldest solid to the warmest liquid so far, per volume. */
@@ -230,7 +256,9 @@ namespace meltfront::verification
   {
     double share = scene.domain.round() ? std::abs(of_sites / volume - 1) : 0;
     if(snapshot.heat.booked && heat_scale() > 0)
-      share += std::abs(snapshot.heat.imbalance()) / (heat_scale() * volume);
+      share += (std::abs(snapshot.heat.imbalance())
+                + heat_of_sites(scene.material, snapshot).difference(snapshot.heat))
+               / (heat_scale() * volume);
     return share;
   }
 
@@ -256,6 +284,11 @@ namespace meltfront::verification
           = middles_of(scene.symmetry, coordinates.of(snapshot), snapshot.weights, lower);
       for(std::size_t i = 0; scene.changes_phase() && i < middles.size(); ++i)
         hidden.push_back(hidden_at(snapshot, i, middles[i]));
+      beside_front = 0;
+      for(const auto &[side, place] : walls_along_line())
+        if(scene.changes_phase()
+           && scene.boundary(side).kind != cases::BoundaryKind::fixed_temperature)
+          beside_front += front_at_wall(snapshot, middles, place);
       add_means(snapshot, round ? "r" : "x", middles, lower,
                 round ? domain.radius : domain.upper[0], hidden);
     }

@@ -78,7 +78,10 @@ namespace meltfront::verification
       double heat = 0;        ///< J/m^3
     };
 
+    std::vector<std::pair<cases::Side, double>> walls_along_line() const;
     std::optional<double> wall_beside(double time, double x) const;
+    double front_at_wall(const cases::Snapshot &snapshot, std::span<const double> middles,
+                         double wall) const;
     Hidden hidden_at(const cases::Snapshot &snapshot, std::size_t site, double x) const;
     void add_means(const cases::Snapshot &snapshot, const std::string &coordinate,
                    std::span<const double> values, double lower, double upper,
@@ -97,6 +100,7 @@ namespace meltfront::verification
     double spacing = 0;
     double volume;            ///< of the domain
     double share_misread = 0; ///< of what the snapshot's sites and book lack
+    double beside_front = 0;  ///< K, of temperatures while a front stands at a wall
   };
 } // namespace meltfront::verification
 

@@ -1,3 +1,4 @@
+#include <verification/measure/site_heat.h>
 #include <verification/measure/tests/fixtures.h>
 #include <verification/studies/crosscheck/state_course.h>
 
@@ -160,9 +161,14 @@ namespace meltfront::verification
         const double time = step / double(course_intervals);
         tests::State state = slab_at(time);
         state.snapshot.step = step;
-        state.snapshot.heat.initial = 0.15;
-        state.snapshot.heat.booked = step != 6;
-        observer.observe(state.view(1, time));
+        const cases::Snapshot &snapshot = state.view(1, time);
+        const SiteHeat held = heat_of_sites(scene.material, snapshot);
+        cases::HeatBudget &heat = state.snapshot.heat;
+        heat.stored = held.stored + (step == 18 ? 0.05 : 0);
+        heat.latent = held.latent;
+        heat.initial = heat.stored + heat.latent - 0.15;
+        heat.booked = step != 6;
+        observer.observe(snapshot);
       }
       const auto misreadings = observer.course().misreadings;
       const double span = (1 - 0.5 / 64) / 2, share = 0.15 / (span + 1);
@@ -170,6 +176,36 @@ namespace meltfront::verification
       EXPECT_NEAR(misreadings.at("temperature near x = 1/3")[12], share * span, 1e-12);
       EXPECT_NEAR(misreadings.at("heat")[12], 0.15, 1e-12);
       EXPECT_EQ(misreadings.at("solid fraction")[6], 0);
+      EXPECT_NEAR(misreadings.at("heat")[18], 0.15 + 0.05, 1e-12); // not seen at sites
+    }
+
+    // At t = 1/4 the front of slab_at stands on the edge of a cell; the last one is
+    // melting.
+    TEST(CourseObserver, AFrontAtAnInsulatedWallIsHalfACellOff)
+    {
+      cases::Scene scene
+          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+      scene.material.melting_temperature = 0.25;
+      CourseObserver observer(scene);
+      cases::RunDescription description;
+      description.spacing = 1. / 64;
+      observer.begin(description);
+      for(int step = 0; step <= course_intervals; ++step)
+      {
+        const double time = step / double(course_intervals);
+        tests::State state = slab_at(time);
+        state.snapshot.step = step;
+        state.snapshot.heat.booked = false;
+        if(step == 6)
+        {
+          state.temperature.back() = 0.25;
+          state.solid_fraction.back() = 0.5;
+        }
+        observer.observe(state.view(1, time));
+      }
+      const auto misread = observer.course().misreadings.at("temperature near x = 0/3");
+      EXPECT_NEAR(misread[6], (0.25 - 0.25 * (1 - 1.5 / 64)) / 2, 1e-12);
+      EXPECT_EQ(misread[12], 0);
     }
 
     TEST(CourseObserver, IsKeptAsJson)
