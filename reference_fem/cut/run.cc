@@ -126,31 +126,64 @@ namespace meltfront::reference_fem::cut
     heat.project(state, found.temperature);
     step_number = found.time > scene.start_time ? 1 : 0;
     check(state);
-    damp_jump([&](const WallPoint &wall) { return found.temperature(wall.position); },
-              state.time);
+    damp_jump(
+        [&](const WallPoint &wall)
+        {
+          return scene.boundary(wall.side).kind == cases::BoundaryKind::flux
+                     ? 0
+                     : found.temperature(wall.position);
+        },
+        state.time);
   }
 
-  /** Damp the coming steps if held temperatures of walls at a time differ from what is
-   * there before. */
+  /** What a datum of a wall is worth in temperature (K): of heat that is given, across
+   * the cell that takes it up. */
+  double CutRun::worth(const cases::Boundary &boundary, double datum) const
+  {
+    using cases::BoundaryKind;
+    const double across_cell = state.mesh->spacing
+                               / std::min(scene.material.solid.conductivity,
+                                          scene.material.liquid.conductivity);
+    switch(boundary.kind)
+    {
+    case BoundaryKind::fixed_temperature:
+      return std::abs(datum);
+    case BoundaryKind::heat_transfer:
+      return std::abs(datum)
+             * std::min(1., boundary.heat_transfer_coefficient * across_cell);
+    case BoundaryKind::flux:
+      return std::abs(datum) * across_cell;
+    default:
+      return 0;
+    }
+  }
+
+  /** Damp the coming steps if data of walls at a time differ from what is there before.
+   */
   void CutRun::damp_jump(const std::function<double(const WallPoint &)> &before,
                          double time)
   {
-    const double melting = scene.material.melting_temperature;
     double largest = 0, scale = 0;
     for(const WallPoint &wall : state.geometry->walls)
     {
       const cases::Boundary &boundary = scene.boundary(wall.side);
-      if(boundary.kind != cases::BoundaryKind::fixed_temperature)
+      if(boundary.kind == cases::BoundaryKind::insulated
+         || boundary.kind == cases::BoundaryKind::periodic)
         continue;
       const double given = boundary.value(position(wall.position), time),
-                   was = before(wall);
-      largest = std::max(largest, std::abs(given - was));
-      scale = std::max({scale, std::abs(given - melting), std::abs(was - melting)});
+                   was = before(wall),
+                   rest = boundary.kind == cases::BoundaryKind::flux
+                              ? 0
+                              : scene.material.melting_temperature;
+      largest = std::max(largest, worth(boundary, given - was));
+      scale
+          = std::max({scale, worth(boundary, given - rest), worth(boundary, was - rest)});
     }
     if(largest > least_jump * scale)
     {
       damped_steps = damping_steps;
       wall_jump = largest;
+      layer_resolved = state.time + 3 * damping_step();
     }
   }
 
@@ -170,23 +203,29 @@ namespace meltfront::reference_fem::cut
     return state.mesh->spacing * state.mesh->spacing / (3 * slowest);
   }
 
+  /** How deep solid and liquid are at their deepest (m). */
+  std::array<double, 2> CutRun::depths(const State &of) const
+  {
+    double lowest = 0, highest = 0;
+    for(std::size_t cell = 0; cell < of.mesh->cells.size(); ++cell)
+      if(of.geometry->location[cell] != Location::outside)
+        for(const unsigned int dof : of.mesh->cells[cell].level_set_dofs)
+        {
+          lowest = std::min(lowest, of.level_set[dof]);
+          highest = std::max(highest, of.level_set[dof]);
+        }
+    return {-lowest, highest};
+  }
+
   void CutRun::require_resolved() const
   {
-    const BackgroundMesh &mesh = *state.mesh;
-    double lowest = 0, highest = 0;
-    for(std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
-      if(state.geometry->location[cell] != Location::outside)
-        for(const unsigned int dof : mesh.cells[cell].level_set_dofs)
-        {
-          lowest = std::min(lowest, state.level_set[dof]);
-          highest = std::max(highest, state.level_set[dof]);
-        }
-    const double least = least_depth * mesh.spacing;
-    if(!(-lowest >= least && highest >= least))
+    const double spacing = state.mesh->spacing, least = least_depth * spacing;
+    const auto [solid, liquid] = depths(state);
+    if(!(solid >= least && liquid >= least))
       throw cases::Refusal(fmt::format(
           "fem-cut does not resolve the front at the start: solid is {:.3g} m deep and "
           "liquid {:.3g} m, with cells of {:.3g} m; {} cells are needed",
-          -lowest, highest, mesh.spacing, least_depth));
+          solid, liquid, spacing, least_depth));
   }
 
   double CutRun::next_stop() const
@@ -348,7 +387,7 @@ namespace meltfront::reference_fem::cut
     }
     ++step_number;
     check(state);
-    if(damped_steps == 0)
+    if(state.time > layer_resolved)
       wall_jump = 0;
     follow_front();
   }

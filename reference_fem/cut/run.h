@@ -36,6 +36,8 @@ namespace meltfront::reference_fem::cut
     double next_step() const;
     double damping_step() const;
     void damp_jump(const std::function<double(const WallPoint &)> &before, double time);
+    double worth(const cases::Boundary &boundary, double datum) const;
+    std::array<double, 2> depths(const State &of) const;
     bool attempt(double step, bool last_chance, State &next);
     Values moved_front(double step, const SpeedField &end_speed, bool &limited) const;
     Values predicted_front(double step, bool &limited) const;
@@ -46,6 +48,10 @@ namespace meltfront::reference_fem::cut
     void check(const State &state) const;
     template <typename Visit>
     void visit_vertices(const State &of, const Visit &visit) const;
+    template <typename Visit>
+    void visit_rim(const State &of, const Visit &visit) const;
+    double corner_jump(double time) const;
+    std::string why_beyond_bounds(const State &checked) const;
     double overshoot(const State &of) const;
     double tolerated_overshoot() const;
 
@@ -76,9 +82,10 @@ namespace meltfront::reference_fem::cut
 
     std::optional<State> older;
     double last_step = 0;
-    bool fresh = true;    ///< no step was made since the start or a breakpoint
-    int damped_steps = 0; ///< still to be made, after a jump of the data
-    double wall_jump = 0; ///< largest of a held temperature, while steps are damped (K)
+    bool fresh = true;         ///< no step was made since the start or a breakpoint
+    int damped_steps = 0;      ///< still to be made, after a jump of the data
+    double wall_jump = 0;      ///< largest of a wall's datum, while its layer is thin (K)
+    double layer_resolved = 0; ///< when that layer is as thick as a cell, h^2/alpha (s)
     long step_number = 0, halved_steps = 0, capped_steps = 0, euler_steps = 0, meshes = 1;
     double boundary_heat = 0, initial_heat = 0;
 

@@ -119,6 +119,65 @@ namespace meltfront::reference_fem::tests
       EXPECT_LE(course.defect, 0.02);
     }
 
+    std::string why_refused(const Scene &scene, int n)
+    {
+      try
+      {
+        run_cut(scene, n);
+      }
+      catch(const Refusal &refusal)
+      {
+        return refusal.what();
+      }
+      return {};
+    }
+
+    // Scenes 8815199-669, -825 and, nearly, -940 of crosscheck.
+    TEST(FemCut, SaysWhyTemperaturesLeaveTheirBounds)
+    {
+      const auto cone = [](double radius, double solid, double liquid, const Position &at)
+      {
+        return Field{"cone",
+                     [=](const Position &p, double)
+                     {
+                       const double r = std::hypot(p[0] - at[0], p[1] - at[1]) - radius;
+                       return r < 0 ? solid * r : liquid * r;
+                     },
+                     false};
+      };
+      Material material = normalised_material();
+      material.melting_temperature = 0;
+      material.latent_heat = 5.172;
+      material.liquid.conductivity = 0.2693;
+      Scene corner = box(material, 2, {0, 0, 0}, {1, 1, 0}, 0, 0.1);
+      corner.initial.temperature = cone(0.1982, 0.9489, 1.045, {0.5639, 0.409, 0});
+      set_boundary(corner, Side::x_min,
+                   {BoundaryKind::fixed_temperature, Field::uniform(0.3373)});
+      set_boundary(
+          corner, Side::y_min,
+          {BoundaryKind::fixed_temperature,
+           {"ramp", [](const Position &, double t) { return 0.4825 + 4.074 * t; }}});
+      EXPECT_NE(why_refused(corner, 20).find("beside a corner"), std::string::npos);
+
+      material.latent_heat = 0.2637;
+      material.liquid.conductivity = 26.09;
+      Scene last = ball(material, 2, 1, 0, 0.02);
+      last.initial.temperature = cone(0.4362, 0.6617, 1.24, {});
+      EXPECT_NE(why_refused(last, 20).find("the last solid is"), std::string::npos);
+
+      material.latent_heat = 0.8018;
+      material.liquid.conductivity = 0.001571;
+      Scene sudden = box(material, 2, {0, 0, 0}, {1, 1, 0}, 0, 0.3);
+      sudden.initial.temperature = {"plane", [](const Position &p, double)
+                                    { return 1.216 * std::max(0., p[0] - 0.3689); }};
+      sudden.initial.front
+          = Field{"plane", [](const Position &p, double) { return p[0] - 0.3689; }};
+      set_boundary(sudden, Side::x_max, {BoundaryKind::flux, Field::uniform(-0.08)});
+      set_boundary(sudden, Side::y_min, {BoundaryKind::flux, Field::uniform(-0.028)});
+      EXPECT_NE(why_refused(sudden, 34).find("what a wall gives jumped"),
+                std::string::npos);
+    }
+
     TEST(FemCut, RefusesWhatItCannotStartFrom)
     {
       const auto exact = std::make_shared<LineSink>(water(), 0.15, 10);
