@@ -195,6 +195,22 @@ namespace
     }
   }
 
+  // The logarithm about a sink grows with its power, and the solid gives up that heat.
+  TEST(PlaneRun, ASinkMayGrowStronger)
+  {
+    cases::Scene scene = insulated_box(
+        {1, 1, 0}, [](const auto &p) { return around(p) - 0.5; },
+        [](const auto &p) { return std::max(0., around(p) - 0.5); }, 0.1);
+    cases::PointSource sink;
+    sink.power = [](double time) { return -40 * time; };
+    sink.energy = [](double time) { return -20 * time * time; };
+    scene.sources.push_back(sink);
+    const PlaneRecord record = run_plane(scene, 24);
+    EXPECT_LT(record.frames.back().defect, 1e-3);
+    // sph and fem-enthalpy, n = 120: 0.5667 and 0.5678.
+    EXPECT_NEAR(record.frames.back().solid_area, 0.567, 0.02 * 0.567);
+  }
+
   TEST(PlaneRun, NothingElseMayChangeTheLiquidBeforeASeed)
   {
     double area = 0;
