@@ -27,8 +27,8 @@ namespace meltfront::cases
     /** stored + latent - initial - boundary - sources; NaN if not booked. */
     double imbalance() const;
 
-    /** |imbalance| over the largest magnitude among its terms: round-off for a method that
-     * conserves heat. */
+    /** |imbalance| over the largest magnitude among its terms: round-off for a method
+     * that conserves heat. */
     double defect() const;
   };
 
