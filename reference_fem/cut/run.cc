@@ -144,18 +144,8 @@ namespace meltfront::reference_fem::cut
     const double across_cell = state.mesh->spacing
                                / std::min(scene.material.solid.conductivity,
                                           scene.material.liquid.conductivity);
-    switch(boundary.kind)
-    {
-    case BoundaryKind::fixed_temperature:
-      return std::abs(datum);
-    case BoundaryKind::heat_transfer:
-      return std::abs(datum)
-             * std::min(1., boundary.heat_transfer_coefficient * across_cell);
-    case BoundaryKind::flux:
-      return std::abs(datum) * across_cell;
-    default:
-      return 0;
-    }
+    return std::abs(datum)
+           * (boundary.kind == BoundaryKind::fixed_temperature ? 1 : across_cell);
   }
 
   /** Damp the coming steps if data of walls at a time differ from what is there before.

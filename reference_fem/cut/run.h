@@ -46,10 +46,18 @@ namespace meltfront::reference_fem::cut
     void accept(State next);
     void follow_front();
     void check(const State &state) const;
+
+    struct VertexValue
+    {
+      Point point; ///< the nearest of the rim where the vertex lies beyond it
+      bool solid;
+      double temperature;
+    };
+
+    VertexValue at_vertex(const State &of, unsigned int number,
+                          unsigned int vertex) const;
     template <typename Visit>
-    void visit_vertices(const State &of, const Visit &visit) const;
-    template <typename Visit>
-    void visit_rim(const State &of, const Visit &visit) const;
+    void visit_vertices(const State &of, bool rim, const Visit &visit) const;
     double corner_jump(double time) const;
     std::string why_beyond_bounds(const State &checked) const;
     double overshoot(const State &of) const;

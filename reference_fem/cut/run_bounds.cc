@@ -28,46 +28,30 @@ namespace meltfront::reference_fem::cut
     constexpr double least_corner_jump = 1e-3;
   } // namespace
 
-  /** Call `visit(solid, temperature)` for each vertex of the cells inside the domain. */
-  template <typename Visit>
-  void CutRun::visit_vertices(const State &of, const Visit &visit) const
+  CutRun::VertexValue CutRun::at_vertex(const State &of, unsigned int number,
+                                        unsigned int vertex) const
   {
-    const BackgroundMesh &mesh = *of.mesh;
-    for(unsigned int number = 0; number < mesh.cells.size(); ++number)
-    {
-      if(mesh.place[number] != Place::inside)
-        continue;
-      const Cell &cell = mesh.cells[number];
-      for(unsigned int vertex = 0; vertex < 1u << dim; ++vertex)
-      {
-        const bool solid = of.level_set[cell.level_set_dofs[vertex]] < 0;
-        visit(solid, heat.temperature(of, solid ? Phase::solid : Phase::liquid, number,
-                                      mesh.element.unit_support_point(vertex)));
-      }
-    }
+    const Cell &cell = of.mesh->cells[number];
+    Point point = of.mesh->positions[cell.dofs[vertex]];
+    if(const double radius = point.norm(); scene.domain.round() && radius > 0)
+      point
+          *= std::clamp(radius, scene.domain.inner_radius, scene.domain.radius) / radius;
+    const bool solid = of.level_set[cell.level_set_dofs[vertex]] < 0;
+    return {point, solid,
+            heat.temperature(of, solid ? Phase::solid : Phase::liquid, number,
+                             cell.unit(point))};
   }
 
-  /** The same for those of cells that the rim cuts, moved onto it. */
+  /** Call `visit(vertex)` for each vertex of the cells inside the domain, and of those
+   * that its rim cuts if @p rim. */
   template <typename Visit>
-  void CutRun::visit_rim(const State &of, const Visit &visit) const
+  void CutRun::visit_vertices(const State &of, const bool rim, const Visit &visit) const
   {
-    const BackgroundMesh &mesh = *of.mesh;
-    for(unsigned int number = 0; number < mesh.cells.size(); ++number)
-    {
-      const Cell &cell = mesh.cells[number];
-      if(mesh.place[number] == Place::inside || mesh.place[number] == Place::outside)
-        continue;
-      for(unsigned int vertex = 0; vertex < 1u << dim; ++vertex)
-      {
-        Point point = mesh.positions[cell.dofs[vertex]];
-        if(const double radius = point.norm(); radius > 0)
-          point *= std::clamp(radius, scene.domain.inner_radius, scene.domain.radius)
-                   / radius;
-        const bool solid = of.level_set[cell.level_set_dofs[vertex]] < 0;
-        visit(solid, heat.temperature(of, solid ? Phase::solid : Phase::liquid, number,
-                                      cell.unit(point)));
-      }
-    }
+    for(unsigned int number = 0; number < of.mesh->cells.size(); ++number)
+      if(of.mesh->place[number] == Place::inside
+         || (rim && of.mesh->place[number] == Place::on_rim))
+        for(unsigned int vertex = 0; vertex < 1u << dim; ++vertex)
+          visit(at_vertex(of, number, vertex));
   }
 
   /** By how much temperatures are beyond what bounds them, and phases beyond the melting
@@ -77,12 +61,14 @@ namespace meltfront::reference_fem::cut
     const double melting = scene.material.melting_temperature;
     const bool stable = !cases::metastable_initial_phase(scene);
     double most = 0;
-    visit_vertices(of,
-                   [&](const bool solid, const double value)
+    visit_vertices(of, false,
+                   [&](const VertexValue &vertex)
                    {
+                     const double value = vertex.temperature;
                      most = std::max({most, bounds.lower - value, value - bounds.upper});
                      if(stable)
-                       most = std::max(most, solid ? value - melting : melting - value);
+                       most = std::max(most,
+                                       vertex.solid ? value - melting : melting - value);
                    });
     return most;
   }
@@ -90,11 +76,11 @@ namespace meltfront::reference_fem::cut
   double CutRun::tolerated_overshoot() const
   {
     double lowest = scene.material.melting_temperature, highest = lowest;
-    visit_vertices(state,
-                   [&](bool, const double value)
+    visit_vertices(state, false,
+                   [&](const VertexValue &vertex)
                    {
-                     lowest = std::min(lowest, value);
-                     highest = std::max(highest, value);
+                     lowest = std::min(lowest, vertex.temperature);
+                     highest = std::max(highest, vertex.temperature);
                    });
     const double span = (std::isfinite(bounds.upper) ? bounds.upper : highest)
                         - (std::isfinite(bounds.lower) ? bounds.lower : lowest);
@@ -174,23 +160,16 @@ namespace meltfront::reference_fem::cut
   void CutRun::check(const State &checked) const
   {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-    visit_vertices(checked,
-                   [&](bool, const double temperature)
+    // The judge of snapshots sees the rim, too, and does not know of the jump.
+    visit_vertices(checked, wall_jump > 0,
+                   [&](const VertexValue &vertex)
                    {
                      // A comparison passes over what is not a number.
-                     if(!std::isfinite(temperature))
-                       lowest = highest = temperature;
-                     lowest = std::min(lowest, temperature);
-                     highest = std::max(highest, temperature);
+                     if(!std::isfinite(vertex.temperature))
+                       lowest = highest = vertex.temperature;
+                     lowest = std::min(lowest, vertex.temperature);
+                     highest = std::max(highest, vertex.temperature);
                    });
-    // The judge of snapshots sees the rim, too, and does not know of the jump.
-    if(wall_jump > 0)
-      visit_rim(checked,
-                [&](bool, const double temperature)
-                {
-                  lowest = std::min(lowest, temperature);
-                  highest = std::max(highest, temperature);
-                });
     cases::require_sinks(scene, checked.time, method_name);
     try
     {

@@ -90,7 +90,7 @@ namespace meltfront::reference_fem::cut
     solid_fractions.push_back(solid ? 1 : 0);
   }
 
-  /** Vertices as sites without weight; those beyond the rim are moved onto it. */
+  /** Vertices as sites without weight. */
   void CutRun::add_vertices()
   {
     const BackgroundMesh &mesh = *state.mesh;
@@ -107,16 +107,8 @@ namespace meltfront::reference_fem::cut
         if(site == none)
         {
           site = static_cast<unsigned int>(weights.size());
-          Point point = mesh.positions[cell.dofs[vertex]];
-          const double radius = point.norm();
-          if(scene.domain.round() && radius > 0)
-            point *= std::clamp(radius, scene.domain.inner_radius, scene.domain.radius)
-                     / radius;
-          const bool solid = state.level_set[cell.level_set_dofs[vertex]] < 0;
-          add_site(point, 0,
-                   heat.temperature(state, solid ? Phase::solid : Phase::liquid, number,
-                                    cell.unit(point)),
-                   solid);
+          const VertexValue value = at_vertex(state, number, vertex);
+          add_site(value.point, 0, value.temperature, value.solid);
         }
         site_cells.push_back(site);
       }

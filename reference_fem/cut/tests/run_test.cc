@@ -206,25 +206,39 @@ namespace meltfront::reference_fem::tests
       EXPECT_THROW(run_cut(periodic, 40), Refusal);
     }
 
+    /** Heat at the end of a disk of melt in a square with a flux (W/m^2) into one wall.
+     */
+    HeatBudget heat_with_flux(double (*flux)(double time),
+                              std::vector<double> breakpoints)
+    {
+      Scene scene = disks({{0, 0, 0}}, 0.1, {-0.5, -0.5, 0}, {0.5, 0.5, 0});
+      set_boundary(
+          scene, Side::x_max,
+          {BoundaryKind::flux,
+           {"", [flux](const cases::Position &, double time) { return flux(time); },
+            false, std::move(breakpoints)}});
+      return run_cut(scene, 40, {{"fewest_steps", "20"}}).heat;
+    }
+
     // Within a step of about 5e-3 s; q times 1e-4 s.
     TEST(FemCut, APulseOfFluxBringsItsEnergy)
     {
-      const auto end_of_run = [](double flux)
-      {
-        Scene scene = disks({{0, 0, 0}}, 0.1, {-0.5, -0.5, 0}, {0.5, 0.5, 0});
-        set_boundary(scene, Side::x_max,
-                     {BoundaryKind::flux,
-                      {"",
-                       [flux](const Position &, double t)
-                       { return t >= 0.071 && t < 0.0711 ? flux : 0.; },
-                       false,
-                       {0.071, 0.0711}}});
-        return run_cut(scene, 40, {{"fewest_steps", "20"}}).heat;
-      };
-      const HeatBudget without = end_of_run(0), with = end_of_run(200);
+      const HeatBudget without = heat_with_flux([](double) { return 0.; }, {});
+      const HeatBudget with = heat_with_flux(
+          [](double t) { return t >= 0.071 && t < 0.0711 ? 200. : 0.; }, {0.071, 0.0711});
       EXPECT_NEAR(with.boundary - without.boundary, 0.02, 1e-9);
       EXPECT_NEAR(with.stored + with.latent - without.stored - without.latent, 0.02,
                   2e-4);
+    }
+
+    // The scheme weighs the fluxes of two steps; the book has the integral.
+    TEST(FemCut, AGrowingFluxIsBookedAsItsIntegral)
+    {
+      const HeatBudget heat
+          = heat_with_flux([](double t) { return 5 * std::exp(30 * t); }, {});
+      const HeatBudget without = heat_with_flux([](double) { return 0.; }, {});
+      const double end = 0.1;
+      EXPECT_NEAR(heat.boundary - without.boundary, 5. / 30 * std::expm1(30 * end), 1e-6);
     }
   } // namespace
 } // namespace meltfront::reference_fem::tests

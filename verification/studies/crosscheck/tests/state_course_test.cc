@@ -91,17 +91,15 @@ namespace meltfront::verification
                   solid / (solid + liquid), 1e-12);
     }
 
-    /** Of the slab at the times of the course, with a wall of given temperature. */
-    template <typename Change>
-    StateCourse course_beside(cases::Side side, double (*temperature)(double time),
-                              const Change &change)
+    cases::Scene slab_scene()
     {
-      cases::Scene scene
-          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
-      scene.boundaries[static_cast<std::size_t>(side)]
-          = {cases::BoundaryKind::fixed_temperature,
-             {"", [temperature](const cases::Position &, double time)
-              { return temperature(time); }}};
+      return tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+    }
+
+    /** Of slab_at() as @p change leaves it, at the times of the course. */
+    template <typename Change>
+    StateCourse course_of(const cases::Scene &scene, const Change &change)
+    {
       CourseObserver observer(scene);
       cases::RunDescription description;
       description.spacing = 1. / 64;
@@ -115,6 +113,19 @@ namespace meltfront::verification
         observer.observe(state.view(1, time));
       }
       return observer.course();
+    }
+
+    /** The same beside a wall of given temperature. */
+    template <typename Change>
+    StateCourse course_beside(cases::Side side, double (*temperature)(double time),
+                              const Change &change)
+    {
+      cases::Scene scene = slab_scene();
+      scene.boundaries[static_cast<std::size_t>(side)]
+          = {cases::BoundaryKind::fixed_temperature,
+             {"", [temperature](const cases::Position &, double time)
+              { return temperature(time); }}};
+      return course_of(scene, change);
     }
 
     // Half of the last cell may hold matter as cold as the wall, 2 K below the site.
@@ -153,24 +164,19 @@ namespace meltfront::verification
     // for.
     TEST(CourseObserver, WhatTheMethodsBookLacksMayBeAnywhere)
     {
-      cases::Scene scene
-          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
-      CourseObserver observer(scene);
-      for(int step = 0; step <= course_intervals; ++step)
-      {
-        const double time = step / double(course_intervals);
-        tests::State state = slab_at(time);
-        state.snapshot.step = step;
-        const cases::Snapshot &snapshot = state.view(1, time);
-        const SiteHeat held = heat_of_sites(scene.material, snapshot);
-        cases::HeatBudget &heat = state.snapshot.heat;
-        heat.stored = held.stored + (step == 18 ? 0.05 : 0);
-        heat.latent = held.latent;
-        heat.initial = heat.stored + heat.latent - 0.15;
-        heat.booked = step != 6;
-        observer.observe(snapshot);
-      }
-      const auto misreadings = observer.course().misreadings;
+      const cases::Scene scene = slab_scene();
+      const auto course = course_of(scene,
+                                    [&scene](int step, tests::State &state)
+                                    {
+                                      const SiteHeat held = heat_of_sites(
+                                          scene.material, state.view(1, 0));
+                                      cases::HeatBudget &heat = state.snapshot.heat;
+                                      heat.stored = held.stored + (step == 18 ? 0.05 : 0);
+                                      heat.latent = held.latent;
+                                      heat.initial = heat.stored + heat.latent - 0.15;
+                                      heat.booked = step != 6;
+                                    });
+      const auto &misreadings = course.misreadings;
       const double span = (1 - 0.5 / 64) / 2, share = 0.15 / (span + 1);
       EXPECT_NEAR(misreadings.at("solid fraction")[12], share, 1e-12);
       EXPECT_NEAR(misreadings.at("temperature near x = 1/3")[12], share * span, 1e-12);
@@ -183,27 +189,18 @@ namespace meltfront::verification
     // melting.
     TEST(CourseObserver, AFrontAtAnInsulatedWallIsHalfACellOff)
     {
-      cases::Scene scene
-          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+      cases::Scene scene = slab_scene();
       scene.material.melting_temperature = 0.25;
-      CourseObserver observer(scene);
-      cases::RunDescription description;
-      description.spacing = 1. / 64;
-      observer.begin(description);
-      for(int step = 0; step <= course_intervals; ++step)
-      {
-        const double time = step / double(course_intervals);
-        tests::State state = slab_at(time);
-        state.snapshot.step = step;
-        state.snapshot.heat.booked = false;
-        if(step == 6)
-        {
-          state.temperature.back() = 0.25;
-          state.solid_fraction.back() = 0.5;
-        }
-        observer.observe(state.view(1, time));
-      }
-      const auto misread = observer.course().misreadings.at("temperature near x = 0/3");
+      const auto course = course_of(scene,
+                                    [](int step, tests::State &state)
+                                    {
+                                      state.snapshot.heat.booked = false;
+                                      if(step != 6)
+                                        return;
+                                      state.temperature.back() = 0.25;
+                                      state.solid_fraction.back() = 0.5;
+                                    });
+      const auto misread = course.misreadings.at("temperature near x = 0/3");
       EXPECT_NEAR(misread[6], (0.25 - 0.25 * (1 - 1.5 / 64)) / 2, 1e-12);
       EXPECT_EQ(misread[12], 0);
     }
