@@ -190,7 +190,9 @@ namespace meltfront::cases
           }
           error = std::max(below, above);
         }
-        const bool sharp = halvings >= halvings_of_breaks && !falls;
+        // Between neighbouring candidates a piece may be as short as round-off at once.
+        const bool sharp
+            = !falls && (halvings >= halvings_of_breaks || to - from <= least_width);
         const bool brief = halvings > 0 && !sharp && error > visible * range;
         was_brief |= brief;
         if(sharp)
@@ -243,6 +245,23 @@ namespace meltfront::cases
             result.push_back(value);
     }
 
+    /** Without those that round-off of the expression's numbers keeps from one of them.
+     */
+    void erase_close_to(const std::vector<double> &numbers, double start, double end,
+                        std::vector<double> &times)
+    {
+      double largest = std::max(std::abs(start), std::abs(end));
+      for(const double number : numbers)
+        largest = std::max(largest, std::abs(number));
+      const double margin = 16 * std::numeric_limits<double>::epsilon() * largest;
+      std::erase_if(times,
+                    [&](double time)
+                    {
+                      const auto next = std::ranges::lower_bound(numbers, time - margin);
+                      return next != numbers.end() && *next <= time + margin;
+                    });
+    }
+
     void sort_times(std::vector<double> &times, double start, double end)
     {
       std::erase_if(times, [=](double time) { return !(time > start && time < end); });
@@ -260,7 +279,7 @@ namespace meltfront::cases
     std::ranges::sort(numbers);
     const auto repeated = std::ranges::unique(numbers);
     numbers.erase(repeated.begin(), repeated.end());
-    std::vector<double> times = numbers;
+    std::vector<double> times;
     for(const double number : numbers)
       times.push_back(-number);
     if(numbers.size() <= most_numbers)
@@ -271,6 +290,8 @@ namespace meltfront::cases
         combine(pairs, numbers, times);
       times.insert(times.end(), pairs.begin(), pairs.end());
     }
+    erase_close_to(numbers, start, end, times);
+    times.insert(times.end(), numbers.begin(), numbers.end());
     sort_times(times, start, end);
     return times;
   }

@@ -3,6 +3,7 @@
 #include <cases/case_file/expression.h>
 #include <cases/error.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,6 +31,33 @@ namespace meltfront::cases
       EXPECT_DOUBLE_EQ(scaled[0], 294);
       EXPECT_DOUBLE_EQ(scaled[1], 306);
       EXPECT_EQ(breakpoints("if(t <= 3600, 1, 2)", 1e4), std::vector<double>{3600});
+    }
+
+    // 2 - 1.9 and 1.1 - 1 differ from 0.1 by round-off: they must not take its place.
+    TEST(Breakpoints, RoundNumbersAreFoundAsWritten)
+    {
+      for(const char *number :
+          {"0.1", "0.2", "0.3", "0.4", "0.7", "0.05", "0.15", "0.11", "1.1", "0.6"})
+        for(const char *form :
+            {"if(t < {}, 0, 1)", "if(t<={},1,2)", "0.1 + if(t > {}, 0.5, 0.3)",
+             "if(t < {}, 0.9*t, 20 + 0.1*t)"})
+        {
+          const std::string expression = fmt::format(fmt::runtime(form), number);
+          for(const double end : {1.2, 2., 10., 3600.})
+            EXPECT_EQ(breakpoints(expression, end),
+                      std::vector<double>{std::stod(number)})
+                << expression << " to " << end;
+        }
+    }
+
+    // No candidate of those that the expression's numbers make, but close to one.
+    TEST(Breakpoints, AJumpBetweenNeighbouringCandidatesIsFound)
+    {
+      const double jump = 0.1 + 5e-17; // 4 roundings above 0.1, and 3 below the other
+      const std::vector<double> found = find_breakpoints(
+          [jump](double t) { return t < jump ? 0. : 1.; }, {0.1, 0.1 + 1e-16}, 0, 0.3);
+      ASSERT_EQ(found.size(), 1u);
+      EXPECT_NEAR(found[0], 0.1, 1e-15);
     }
 
     TEST(Breakpoints, JumpsAndBendsWithoutALiteralAreLocatedToRoundOff)

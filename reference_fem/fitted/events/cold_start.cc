@@ -33,6 +33,10 @@ namespace meltfront::reference_fem::fitted
      * 5e-176, and what is left of it is no number. */
     constexpr double far_in_layers = 20;
 
+    /** Of the temperature scale: the other wall is held elsewhere than what lies at it.
+     */
+    constexpr double least_jump = 1e-6;
+
     /** Steps are equal in this root of the clock. */
     constexpr double lengthening = 3;
 
@@ -52,6 +56,21 @@ namespace meltfront::reference_fem::fitted
       const RayScene &rays = setting.rays;
       const double distance = beside_wall * (rays.outer - rays.inner);
       return state.temperature(inner ? rays.inner + distance : rays.outer - distance);
+    }
+
+    /** By how much a wall is held above what lies at it (K). */
+    double jump_at_wall(const EventScene &setting, const OnePhase &state,
+                        const bool inner)
+    {
+      const RayScene &rays = setting.rays;
+      const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
+      if(inner && geometry.has_centre())
+        return 0;
+      const cases::Boundary &wall = setting.scene.boundary(side_at(setting.scene, inner));
+      if(wall.kind != BoundaryKind::fixed_temperature)
+        return 0;
+      return wall.value(geometry.position(0, inner ? rays.inner : rays.outer), state.time)
+             - temperature_at_end(setting, state, inner);
     }
 
     /** The front constant for which a sink of the given kind removes @p heat. */
@@ -201,7 +220,6 @@ namespace meltfront::reference_fem::fitted
     const bool inner = start.at_inner_end;
     const double since = seed_time(setting, start, state.time);
     const double width = start.local->front(since);
-    const double length = rays.outer - rays.inner;
     const bool new_is_solid = start.local->solid_at_origin();
 
     // The old phase's thermal layer or the new phase, whichever is thinner.
@@ -209,21 +227,17 @@ namespace meltfront::reference_fem::fitted
         = new_is_solid ? scene.material.liquid : scene.material.solid;
     const double thermal_layer = 2 * std::sqrt(old.diffusivity() * since);
     const double layer = std::min(width, thermal_layer);
-    const int cells = rays.cells;
-    const std::vector<double> equal
-        = graded_shares(std::max(1, cells / 2), 1, false),
-        widening = widening_shares(4 * layer / (cells * length),
-                                   1 + 8. / std::max(cells, 8), 2. / cells, inner);
     Physics physics
         = physics_of(scene, setting.effects, setting.options, inner == new_is_solid);
+    const double jump = jump_at_wall(setting, state, !inner),
+                 far_jump
+                 = std::abs(jump) > least_jump * physics.temperature_scale ? jump : 0;
     if(setting.options.clock != "t")
       physics.clock = {true, state.time};
 
     Stretch result;
     result.problem = std::make_shared<FittedProblem>(
-        RayMesh(rays.surface, rays.inner, rays.outer, inner ? equal : widening,
-                inner ? widening : equal),
-        physics);
+        seed_mesh(rays, inner, layer, far_jump != 0 ? thermal_layer : 0), physics);
     result.time = state.time + since;
     const double far = temperature_at_end(setting, state, inner);
     result.state = result.problem->state(
@@ -236,7 +250,9 @@ namespace meltfront::reference_fem::fitted
           if(distance < width)
             return start.local->temperature(distance, since);
           // The state need not be uniform farther away.
-          const double there = state.temperature(r);
+          const double from_far_end = inner ? rays.outer - r : r - rays.inner;
+          const double there
+              = state.temperature(r) + far_jump * std::erfc(from_far_end / thermal_layer);
           return distance > width + far_in_layers * thermal_layer
                      ? there
                      : start.local->temperature(distance, since) + there - far;

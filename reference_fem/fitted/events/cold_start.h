@@ -64,7 +64,8 @@ namespace meltfront::reference_fem::fitted
    * The run from a front that is so close to its end of the ray that the local solution
    * holds: 1e-4 of the ray, or less where little time or a fast liquid demands it. The
    * new phase has equal cells, the old one cells that widen from the front; the clock is
-   * the root of the time since the start, and its steps lengthen.
+   * the root of the time since the start, and its steps lengthen. A wall at the other end
+   * that is held elsewhere than what lies at it has its layer, too, that of a half-space.
    *
    * Heat that came in through the wall before is by definition what the seed holds more
    * than the state did, less what sources gave.

@@ -21,7 +21,8 @@ namespace meltfront::reference_fem::fitted
      * fewer and no more in each than that. */
     constexpr long parts_in_all = 8192, fewest_parts = 8, most_parts = 64;
 
-    /** The first step after a jump, of the one that was planned: a power of two. */
+    /** The first step after a jump, of the one that was planned: a power of two, at
+     * most. */
     constexpr int doublings_after_jump = 8;
 
     /** Of the largest value: a larger difference across a breakpoint is a jump. */
@@ -136,8 +137,13 @@ namespace meltfront::reference_fem::fitted
         {
           if(after_jump)
           {
-            double size = std::min(step, end - from) / (1 << doublings_after_jump);
-            for(int k = 0; k < doublings_after_jump; ++k, size *= 2)
+            const double least
+                = clock.clock(clock.time(from) + data.shortest_after_jump) - from;
+            double size = std::min(step, end - from);
+            int doublings = 0;
+            for(; doublings < doublings_after_jump && size / 2 >= least; ++doublings)
+              size /= 2;
+            for(; doublings > 0; --doublings, size *= 2)
               result.push_back({from += size, size});
           }
           if(end > from)
@@ -226,9 +232,25 @@ namespace meltfront::reference_fem::fitted
       std::vector<double> totals;
       long parts = fewest_parts;
     };
+
+    /** Of the phase at a wall: see TimeData::shortest_after_jump. */
+    double resolved_at(const FittedProblem &problem, bool inner,
+                       const dealii::Vector<double> &u)
+    {
+      const RayMesh &mesh = problem.mesh();
+      const unsigned int degree = mesh.surface.degree, last = mesh.n_levels() - 1;
+      const double spacing
+          = (inner ? problem.coordinate(0, degree, u) - problem.coordinate(0, 0, u)
+                   : problem.coordinate(0, last, u)
+                         - problem.coordinate(0, last - degree, u))
+            / degree;
+      const Layer &layer = inner ? mesh.layers.front() : mesh.layers.back();
+      const Phase &phase = problem.physics().phases[layer.phase];
+      return spacing * spacing / 3 * phase.capacity / phase.conductivity;
+    }
   } // namespace
 
-  TimeData data_of(const FittedProblem &problem)
+  TimeData data_of(const FittedProblem &problem, const dealii::Vector<double> &u)
   {
     const RayMesh &mesh = problem.mesh();
     const Physics &physics = problem.physics();
@@ -242,6 +264,9 @@ namespace meltfront::reference_fem::fitted
         continue;
       data.breakpoints.insert(data.breakpoints.end(), wall.value.breakpoints.begin(),
                               wall.value.breakpoints.end());
+      if(!wall.value.breakpoints.empty())
+        data.shortest_after_jump
+            = std::max(data.shortest_after_jump, resolved_at(problem, inner, u));
       if(wall.exact)
         continue;
       const double reference = wall.kind == cases::BoundaryKind::fixed_temperature

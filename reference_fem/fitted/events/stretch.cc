@@ -37,4 +37,31 @@ namespace meltfront::reference_fem::fitted
     }
     return shares;
   }
+
+  RayMesh seed_mesh(const RayScene &rays, const bool inner, const double layer,
+                    const double far_layer)
+  {
+    const int cells = rays.cells;
+    const double length = rays.outer - rays.inner;
+    const auto from_layer
+        = [&](const double thickness, const double part, const bool first)
+    {
+      return widening_shares(4 * thickness / (cells * length * part),
+                             1 + 8. / std::max(cells, 8), 2. / (cells * part), first);
+    };
+    std::vector<double> old;
+    if(far_layer > 0)
+    {
+      for(const double share : from_layer(inner ? layer : far_layer, 0.5, true))
+        old.push_back(share / 2);
+      const std::vector<double> rest = from_layer(inner ? far_layer : layer, 0.5, false);
+      for(auto share = rest.begin() + 1; share != rest.end(); ++share)
+        old.push_back(0.5 + *share / 2);
+    }
+    else
+      old = from_layer(layer, 1, inner);
+    const std::vector<double> equal = graded_shares(std::max(1, cells / 2), 1, false);
+    return {rays.surface, rays.inner, rays.outer, inner ? equal : old,
+            inner ? old : equal};
+  }
 } // namespace meltfront::reference_fem::fitted

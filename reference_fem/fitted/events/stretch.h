@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_fitted_events_stretch_h
 
 #include <reference_fem/fitted/fitted_problem.h>
+#include <reference_fem/fitted/setup.h>
 
 #include <memory>
 #include <string>
@@ -51,6 +52,15 @@ namespace meltfront::reference_fem::fitted
    */
   std::vector<double> widening_shares(double first, double ratio, double largest,
                                       bool front_first);
+
+  /**
+   * Of a new phase beside a wall and an old one: equal cells in the new one, in the old
+   * one cells that widen from the front, where a quarter of @p layer (m) is 1/cells wide
+   * at first, and in the same way from the far end if @p far_layer is above 0.
+   *
+   * @param inner the new phase is at the inner end of the rays
+   */
+  RayMesh seed_mesh(const RayScene &rays, bool inner, double layer, double far_layer);
 } // namespace meltfront::reference_fem::fitted
 
 #endif

@@ -181,8 +181,9 @@ namespace meltfront::reference_fem::fitted
     const FittedProblem &problem = *stretch.problem;
     const Clock &clock = problem.physics().clock;
     const double from = clock.clock(stretch.time);
-    const std::vector<StepRange> ranges = fit_to_data(
-        stretch.steps, from, clock, data_of(problem), options.tolerance > 0);
+    const std::vector<StepRange> ranges
+        = fit_to_data(stretch.steps, from, clock, data_of(problem, stretch.state),
+                      options.tolerance > 0);
     const bool has_front = problem.mesh().has_front();
     if(!has_front)
       if(auto next = refined(stretch, ranges))
@@ -284,7 +285,7 @@ namespace meltfront::reference_fem::fitted
       finer = refined_stretch(setting, present, crossing->inner,
                               clock.time(crossing->clock) - present.time);
       ranges = fit_to_data(finer->steps, 0, finer->problem->physics().clock,
-                           data_of(*finer->problem), options.tolerance > 0);
+                           data_of(*finer->problem, finer->state), options.tolerance > 0);
     }
     throw cases::Refusal(fmt::format(
         "fem-fitted cannot start a front at a wall that is at the melting temperature "

@@ -180,17 +180,9 @@ namespace meltfront::reference_fem::fitted
           * (new_is_solid ? scene.material.solid.density : scene.material.liquid.density);
     const double diffusivity = phase.conductivity / phase.capacity;
     const double layer = 2 * std::sqrt(diffusivity * since);
-    const double length = rays.outer - rays.inner;
-    const int cells = rays.cells;
-    const std::vector<double> equal
-        = graded_shares(std::max(1, cells / 2), 1, false),
-        widening = widening_shares(4 * layer / (cells * length),
-                                   1 + 8. / std::max(cells, 8), 2. / cells, inner);
     Stretch result;
-    result.problem = std::make_shared<FittedProblem>(
-        RayMesh(rays.surface, rays.inner, rays.outer, inner ? equal : widening,
-                inner ? widening : equal),
-        physics);
+    result.problem
+        = std::make_shared<FittedProblem>(seed_mesh(rays, inner, layer, 0), physics);
     result.time = time;
 
     // Everything by distance from the wall; positive slopes lead away from it.

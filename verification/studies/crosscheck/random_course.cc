@@ -18,17 +18,20 @@ namespace meltfront::verification
     if(!random.chance(varied))
       return {a, {}};
     Course course{{}, {b, a}};
+    // People write round numbers.
+    const int digits = random.chance(0.5) ? 2 : 4;
+    const std::string first = words(begin, digits), last = words(end, digits);
     switch(random.weighted({0.3, 0.15, 0.2, 0.15, 0.2}))
     {
     case 0:
       course.expression = fmt::format("{} + ({})*t", a, words((to - from) / duration));
       break;
     case 1:
-      course.expression = fmt::format("{} + ({})*min(t/{}, 1)", a, step, words(begin));
+      course.expression = fmt::format("{} + ({})*min(t/{}, 1)", a, step, first);
       break;
     case 2:
-      course.expression = fmt::format("if(t > {}, if(t < {}, {}, {}), {})", words(begin),
-                                      words(end), b, a, a);
+      course.expression
+          = fmt::format("if(t > {}, if(t < {}, {}, {}), {})", first, last, b, a, a);
       break;
     case 3:
       course.expression = fmt::format(
@@ -36,7 +39,7 @@ namespace meltfront::verification
           words(2 * std::numbers::pi * random.log_uniform(0.3, 5) / duration));
       break;
     default:
-      course.expression = fmt::format("if(t < {}, {}, {})", words(begin), a, b);
+      course.expression = fmt::format("if(t < {}, {}, {})", first, a, b);
     }
     return course;
   }

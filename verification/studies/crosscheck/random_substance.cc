@@ -50,9 +50,9 @@ namespace meltfront::verification
     return std::sqrt(solid_conductivity * liquid_conductivity);
   }
 
-  std::string words(double value)
+  std::string words(double value, int digits)
   {
-    return fmt::format("{:.4g}", value);
+    return fmt::format("{:.{}g}", value, digits);
   }
 
   double rounded(double value)

@@ -33,7 +33,7 @@ namespace meltfront::verification
   double rounded(double value);
 
   /** The number in the words of a file. */
-  std::string words(double value);
+  std::string words(double value, int digits = 4);
 
   /** Write its keys. */
   void write_substance(const Substance &substance, bool changes_phase, SceneDraft &draft);

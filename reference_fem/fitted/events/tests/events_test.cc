@@ -139,6 +139,41 @@ namespace meltfront::reference_fem::fitted
       }
     }
 
+    // The layers do not meet: Neumann's at one wall, that of a half-space at the other.
+    TEST(ColdStart, AWallAtTheOtherEndMayBeHotFromTheSameMoment)
+    {
+      const double end = 0.05, hot = 2 * std::sqrt(end / std::numbers::pi);
+      const cases::PlanarNeumann exact(plain(), -1, 0);
+      for(const bool mirrored : {false, true})
+      {
+        cases::Scene scene = slab(plain(), 4, 0, 0, end);
+        set_boundary(scene, mirrored ? Side::x_max : Side::x_min, fixed_wall(-1));
+        set_boundary(scene, mirrored ? Side::x_min : Side::x_max, fixed_wall(1));
+        const Recorder record = run(scene, 32);
+        EXPECT_LE(worst_error(record, exact, mirrored ? 4 : 0), 2e-8);
+        EXPECT_LE(record.defect, 1e-12);
+        cases::Scene cold = slab(plain(), 4, 0, 0, end);
+        set_boundary(cold, Side::x_min, fixed_wall(-1));
+        EXPECT_NEAR(record.heat.boundary - run(cold, 32).heat.boundary, hot, 1e-7);
+      }
+    }
+
+    // What a jump leaves in the first cell is not resolved, and must not be taken for
+    // liquid below its melting point.
+    TEST(Jump, OfAWallHeatsLiquidAtItsMeltingPoint)
+    {
+      for(const int n : {8, 16, 32, 64})
+      {
+        cases::Scene scene = slab(plain(), 1, 0, 0, 0.15);
+        cases::Boundary wall = varying_wall([](double t) { return t < 0.1 ? 0. : 1.; });
+        wall.value.breakpoints = {0.1};
+        set_boundary(scene, Side::x_min, wall);
+        const Recorder record = run(scene, n);
+        EXPECT_LE(record.defect, 1e-12);
+        EXPECT_NEAR(record.heat.boundary, 2 * std::sqrt(0.05 / std::numbers::pi), 1e-8);
+      }
+    }
+
     cases::Scene cooled_bar(const double end)
     {
       cases::Scene scene = slab(plain(), 1, 0, 0, end);

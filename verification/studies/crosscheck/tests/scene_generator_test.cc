@@ -45,7 +45,7 @@ namespace meltfront::verification
     TEST(SceneGenerator, EverySceneIsACase)
     {
       std::map<std::string, int> words;
-      for(int index = 0; index < 300; ++index)
+      for(int index = 0; index < 600; ++index)
       {
         const std::string text = random_scene(11, index).text();
         try
