@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace meltfront::cases
 {
@@ -15,6 +16,25 @@ namespace meltfront::cases
 
     /** Of a step: how far beside a breakpoint a value is taken on its side. */
     constexpr double beside = 1e-9;
+
+    /** Of a time: by so much round-off may have parted two that are meant to be one. */
+    constexpr double time_round_off = 1e-14;
+
+    bool is_same_time(double a, double b)
+    {
+      return std::abs(a - b) <= time_round_off * std::max(std::abs(a), std::abs(b));
+    }
+
+    /** The one of ascending breakpoints that is a time but for round-off, or nothing. */
+    std::optional<double> breakpoint_at(const std::vector<double> &breakpoints,
+                                        double time)
+    {
+      const auto next
+          = std::ranges::lower_bound(breakpoints, time - time_round_off * std::abs(time));
+      if(next == breakpoints.end() || !is_same_time(*next, time))
+        return {};
+      return *next;
+    }
 
     struct Function
     {
@@ -123,14 +143,19 @@ namespace meltfront::cases
     if(scene.heat_release)
       add(*scene.heat_release);
     std::ranges::sort(times);
-    const auto repeated = std::ranges::unique(times);
+    const auto repeated = std::ranges::unique(times, is_same_time);
     times.erase(repeated.begin(), repeated.end());
     return times;
   }
 
   bool breaks_at(const Field &field, double time)
   {
-    return std::ranges::binary_search(field.breakpoints, time);
+    return breakpoint_at(field.breakpoints, time).has_value();
+  }
+
+  double snap_to_breakpoint(const std::vector<double> &breakpoints, double time)
+  {
+    return breakpoint_at(breakpoints, time).value_or(time);
   }
 
   double end_of_piece(const std::vector<double> &breakpoints, double begin, double end)

@@ -79,11 +79,16 @@ namespace meltfront::cases
   };
 
   /** Times within the run at which what the scene prescribes over time may jump or bend,
-   * as far as the fields tell: where steps of a high order had better end. Ascending. */
+   * as far as the fields tell: where steps of a high order had better end. Ascending; of
+   * those that only round-off parts one. */
   std::vector<double> breakpoints_of(const Scene &scene);
 
-  /** Whether a field has a breakpoint at a time, exactly. */
+  /** Whether a field has a breakpoint at a time, but for round-off. */
   bool breaks_at(const Field &field, double time);
+
+  /** A time, or that of ascending breakpoints from which only round-off parts it: a step
+   * between the two would have no length to speak of. */
+  double snap_to_breakpoint(const std::vector<double> &breakpoints, double time);
 
   /** The first of ascending breakpoints within a step, or its end. */
   double end_of_piece(const std::vector<double> &breakpoints, double begin, double end);

@@ -89,6 +89,36 @@ namespace
     EXPECT_EQ(value_at_begin(field, {}, 0.3172, 0.4), 0);
   }
 
+  // 24/120 of 0.1 is 0.020000000000000004; 0.1 * 3 is not 0.3.
+  TEST(Breakpoints, TimesThatRoundOffPartsAreOne)
+  {
+    const auto step = [](double at)
+    {
+      return Field{
+          "", [at](const Position &, double t) { return t < at ? 0. : 1.; }, false, {at}};
+    };
+    Scene scene;
+    scene.domain.shape = DomainShape::slab;
+    scene.end_time = 1;
+    scene.boundaries[0] = Boundary{BoundaryKind::fixed_temperature, step(0.3)};
+    scene.boundaries[1] = Boundary{BoundaryKind::fixed_temperature, step(0.1 * 3)};
+    ASSERT_NE(0.1 * 3, 0.3);
+    const std::vector<double> breakpoints = breakpoints_of(scene);
+    EXPECT_EQ(breakpoints, std::vector<double>{0.3});
+    for(const Side side : {Side::x_min, Side::x_max})
+    {
+      const Field &value = scene.boundary(side).value;
+      EXPECT_TRUE(breaks_at(value, 0.3));
+      EXPECT_EQ(value_at_end(value, {}, 0.29, 0.3), 0);
+      EXPECT_EQ(value_at_begin(value, {}, 0.3, 0.31), 1);
+    }
+    EXPECT_EQ(snap_to_breakpoint(breakpoints, 0.1 * 3), 0.3);
+    EXPECT_EQ(snap_to_breakpoint(breakpoints, 0.3 - 1e-16), 0.3);
+    EXPECT_EQ(snap_to_breakpoint(breakpoints, 0.3 + 1e-12), 0.3 + 1e-12);
+    EXPECT_EQ(snap_to_breakpoint(breakpoints, 0.7), 0.7);
+    EXPECT_EQ(snap_to_breakpoint({}, 0.7), 0.7);
+  }
+
   TEST(ExpressionWords, WhatAnExpressionMayDependOn)
   {
     EXPECT_TRUE(may_depend_on("2*x + 1", "xyz"));

@@ -106,13 +106,14 @@ namespace meltfront::particles
     if(!diffusion)
       return heat(fraction, heat_flow);
     const std::size_t first = diffusion->first_to_diffuse();
+    const std::span<double> solute_flow = flows.subspan((first + 1) * size, size);
     conduction.with_pair(
         [&](const auto &pair)
         {
-          diffusion->flow_with_heat(pair, heat_flow, first, rows.rows,
-                                    flows.subspan((first + 1) * size, size),
+          diffusion->flow_with_heat(pair, heat_flow, first, rows.rows, solute_flow,
                                     thread_count);
         });
+    rows.take_per_cell(solute_flow);
     for(std::size_t s = 0; s < substance.n_solutes(); ++s)
       if(s != first)
         solute(s, flows.subspan((s + 1) * size, size));
@@ -131,12 +132,14 @@ namespace meltfront::particles
       through_walls += wall_temperature->add([this](std::size_t row, double wall)
                                              { return conduction.from_wall(row, wall); },
                                              fraction, flow);
+    rows.take_per_cell(flow);
     return through_walls;
   }
 
   void MixtureFlow::solute(std::size_t solute, std::span<double> flow)
   {
     diffusion->flow(solute, rows.rows, flow, thread_count);
+    rows.take_per_cell(flow);
   }
 
   double MixtureFlow::monotone_step(double particle_mass) const

@@ -21,6 +21,7 @@ namespace meltfront::particles
     const std::span<const double> of_rows = derivative->row_diagonal();
     for(std::size_t a = 0; a < rows.rows.rows(); ++a)
       diagonal[a] = of_rows[a] + wall_diagonal[a];
+    rows.take_per_cell(diagonal);
     if(wall_temperature)
       for(const std::uint32_t row : wall_temperature->held_rows())
         diagonal[row] = 0;
@@ -33,6 +34,7 @@ namespace meltfront::particles
     ++evaluations;
     for(std::size_t a = 0; a < rows.rows.rows(); ++a)
       flow_change[a] += wall_diagonal[a] * change[a];
+    rows.take_per_cell(flow_change);
     if(wall_temperature)
       for(const std::uint32_t row : wall_temperature->held_rows())
         flow_change[row] = 0;

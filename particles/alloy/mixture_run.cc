@@ -98,7 +98,9 @@ namespace meltfront::particles
       /** Time after a step; the end exactly. */
       double time_of(long step) const
       {
-        return step == plan.steps ? scene.end_time : scene.start_time + step * plan.step;
+        return step == plan.steps ? scene.end_time
+                                  : cases::snap_to_breakpoint(
+                                      breakpoints, scene.start_time + step * plan.step);
       }
 
       std::span<const double> concentration(std::size_t solute) const

@@ -112,6 +112,8 @@ namespace meltfront::particles
       {
         require_freezing(parameters, scene, substance, initial);
         weights = dis.weights;
+        for(const WallCell &cell : dis.wall_cells)
+          weights[cell.particle] /= cell.share; // sites stand for whole cells
         for(const std::uint32_t a : dis.held)
           weights[a] = 0; // holds a boundary value only
         flows.prepare_step(
@@ -170,7 +172,9 @@ namespace meltfront::particles
       /** Time after a step; the end exactly. */
       double time_of(long step) const
       {
-        return step == plan.steps ? scene.end_time : scene.start_time + step * plan.step;
+        return step == plan.steps ? scene.end_time
+                                  : cases::snap_to_breakpoint(
+                                      breakpoints, scene.start_time + step * plan.step);
       }
 
       /** The maximum principle, for every particle that has mass; a known liquidus. */

@@ -138,13 +138,15 @@ namespace meltfront::particles::front_tracking
           return scene.end_time;
         const double share = static_cast<double>(step) / parameters.steps;
         if(parameters.clock == Clock::time)
-          return scene.start_time + share * (scene.end_time - scene.start_time);
+          return cases::snap_to_breakpoint(
+              problem.breakpoints,
+              scene.start_time + share * (scene.end_time - scene.start_time));
         const double origin
             = scene.initial.exact ? scene.initial.exact->start_time() : scene.start_time;
         const double first = std::sqrt(scene.start_time - origin);
         const double last = std::sqrt(scene.end_time - origin);
         const double root = first + share * (last - first);
-        return origin + root * root;
+        return cases::snap_to_breakpoint(problem.breakpoints, origin + root * root);
       }
 
       cases::RunDescription description(const LineStart &start) const

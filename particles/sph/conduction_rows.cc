@@ -59,6 +59,8 @@ namespace meltfront::particles
           row_sum[link.row] += link.strength;
         for(const std::uint32_t a : dis.held)
           row_sum[a] = 0;
+        result.wall_cells = dis.wall_cells;
+        result.take_per_cell(row_sum);
         result.largest_row_sum = *std::max_element(row_sum.begin(), row_sum.end());
         result.rows = ParticleOperator(neighbours, coefficients);
       }

@@ -52,9 +52,19 @@ namespace meltfront::particles
   {
     explicit ConductionRows(const Discretisation &discretisation, bool moment_correction);
 
+    /** Turn flows into particles into those into a cell of the lattice each: the
+     * particles beside round walls hold more or less mass than that. */
+    void take_per_cell(std::span<double> flow) const
+    {
+      for(const WallCell &cell : wall_cells)
+        flow[cell.particle] /= cell.share;
+    }
+
     ParticleOperator rows;
-    double second_moment = 1;   ///< mu on the lattice; 1 where it is not corrected
-    double largest_row_sum = 0; ///< over particles that do not hold a wall's value
+    double second_moment = 1; ///< mu on the lattice; 1 where it is not corrected
+    /** Per cell, over particles that do not hold a wall's value. */
+    double largest_row_sum = 0;
+    std::vector<WallCell> wall_cells; ///< see Discretisation
     std::vector<WallPoint> temperature_points;
     std::vector<WallLink> temperature_links;
     std::vector<WallPoint> flux_points;

@@ -33,6 +33,8 @@ namespace meltfront::particles
     /** Least distance of particles from a round wall whose temperature is given on it
      * alone, in spacings. */
     constexpr double nearest_to_wall = 0.25;
+    /** Over a cell: what a particle beside a round wall stands for at least. */
+    constexpr double least_share = 0.25;
 
     /** Particles must not act on each other across a hole, nor ghosts lie at its centre.
      */
@@ -95,8 +97,6 @@ namespace meltfront::particles
     disturb(p);
     reorder(particles, order_along_curve(particles, spacing));
     weights.assign(particles.size(), particle_volume / cross_section);
-    if(scene.domain.round())
-      corrected_shares = weights;
     for(const RoundWall &wall : round_walls)
       share_the_rest(wall);
     find_held_particles();
@@ -258,16 +258,26 @@ namespace meltfront::particles
         = wall.inner ? wall.radius + least_depth(wall) : wall.radius - least_depth(wall);
     const double cells
         = arrange_in_shell(dimension, 0, innermost_other, spacing, layout).size();
-    std::vector<std::size_t> nearest;
+    std::vector<std::uint32_t> nearest;
     for(std::size_t i = 0; i < particles.size(); ++i)
     {
       const auto place = particles.point(i);
       if(wall.depth(std::hypot(place[0], place[1], place[2])) < spacing)
-        nearest.push_back(i);
+        nearest.push_back(static_cast<std::uint32_t>(i));
     }
     const double excess = cells * particle_volume - wall.enclosed(dimension);
-    for(const std::size_t i : nearest)
-      corrected_shares[i] += (wall.inner ? excess : -excess) / nearest.size();
+    const double added = (wall.inner ? excess : -excess) / nearest.size();
+    const double share = 1 + added / particle_volume;
+    if(!(share > least_share))
+      throw cases::Refusal(
+          fmt::format("a lattice of spacing {:.6g} m does not fill a round domain: the "
+                      "particles beside the wall stand for {:.3g} of a cell each",
+                      spacing, share));
+    for(const std::uint32_t i : nearest)
+    {
+      weights[i] += added;
+      wall_cells.push_back({i, share});
+    }
   }
 
   const RoundWall &Discretisation::nearest_round_wall(double distance) const

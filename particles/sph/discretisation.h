@@ -61,6 +61,14 @@ namespace meltfront::particles
     double enclosed(int dimension) const;
   };
 
+  /** A particle beside a round wall, and the volume that it stands for over that of a
+   * cell of the lattice. */
+  struct WallCell
+  {
+    std::uint32_t particle;
+    double share;
+  };
+
   /** A scene as particles: where they are and what each stands for. */
   struct Discretisation
   {
@@ -72,17 +80,6 @@ namespace meltfront::particles
     /** Of a ball or a shell: the round wall nearest to a place at a distance from the
      * origin. */
     const RoundWall &nearest_round_wall(double distance) const;
-
-    /**
-     * The volume of the domain that each particle stands for, in the measure of the
-     * scene: `weights` but at round walls. There the cells of the lattice cover more or
-     * less than the domain, and the particles within a spacing of the wall share the
-     * difference alike, so that shares add up to the domain.
-     */
-    std::span<const double> shares() const
-    {
-      return corrected_shares.empty() ? weights : corrected_shares;
-    }
 
     const cases::Scene &scene;
     int dimension;
@@ -102,6 +99,10 @@ namespace meltfront::particles
     double particle_volume;             ///< dp^d (m^d)
     double cross_section;               ///< of the strip that stands for a slab, else 1
     std::vector<double> weights;        ///< volumes in the measure of the scene
+    /** The lattice's cells cover more or less of a ball or a shell than there is. The
+     * particles within a spacing of a wall share the difference alike, so that weights
+     * add up to the domain. */
+    std::vector<WallCell> wall_cells;
     /** Particles on a wall of prescribed temperature (edge layout), which hold its value.
      */
     std::vector<std::uint32_t> held;
@@ -117,8 +118,6 @@ namespace meltfront::particles
     void scatter_in_box(const SphParameters &parameters);
     ParticleStorage lattice_around_box() const;
     void find_held_particles();
-
-    std::vector<double> corrected_shares; ///< or empty
   };
 } // namespace meltfront::particles
 

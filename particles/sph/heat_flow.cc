@@ -116,6 +116,7 @@ namespace meltfront::particles
       through_walls += wall_flux->add(fraction, flow, scale());
     if(wall_temperature)
       through_walls += wall_flow(state, fraction, flow);
+    conduction.take_per_cell(flow);
     return through_walls;
   }
 

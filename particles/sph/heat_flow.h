@@ -42,8 +42,9 @@ namespace meltfront::particles
     Extremes temperatures(std::span<const double> enthalpy) const;
 
     /**
-     * Heat flow into each particle at a fraction of the step, over scale().
-     * @return heat flow through walls into the scene, likewise.
+     * Heat flow into each particle at a fraction of the step, over scale(), and where it
+     * stands for more or less than a cell over its share.
+     * @return heat flow through walls into the scene, over scale().
      */
     double evaluate(std::span<const double> enthalpy, double fraction,
                     std::span<double> flow);

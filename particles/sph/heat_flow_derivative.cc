@@ -44,6 +44,7 @@ namespace meltfront::particles
       differentiate_walls(PlainDerivative(), fraction);
     for(std::size_t a = 0; a < n; ++a)
       derivative.diagonal[a] += derivative.wall_diagonal[a];
+    conduction.take_per_cell(derivative.diagonal);
     if(wall_temperature)
       for(const std::uint32_t row : wall_temperature->held_rows())
         derivative.diagonal[row] = 0;
@@ -75,6 +76,7 @@ namespace meltfront::particles
     }
     for(std::size_t a = 0; a < n; ++a)
       flow_change[a] += derivative.wall_diagonal[a] * h[a];
+    conduction.take_per_cell(flow_change);
     if(wall_temperature)
       for(const std::uint32_t row : wall_temperature->held_rows())
         flow_change[row] = 0;

@@ -18,13 +18,13 @@ namespace meltfront::particles
     meter.measure_setup(
         [&]
         {
-          CarefulSum sum;
           for(std::size_t a = 0; a < power.size(); ++a)
-          {
-            const double mean = density(dis.particles.point(a), begin, end);
-            power[a] = mean * dis.particle_volume;
-            sum.add(power[a]);
-          }
+            power[a] = density(dis.particles.point(a), begin, end) * dis.particle_volume;
+          for(const WallCell &cell : dis.wall_cells)
+            power[cell.particle] *= cell.share;
+          CarefulSum sum;
+          for(const double heat : power)
+            sum.add(heat);
           while(released.size() > 1 && released.back().time > begin)
             released.pop_back();
           released.push_back({end, released.back().heat + (end - begin) * sum.value()});

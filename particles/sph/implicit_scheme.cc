@@ -47,7 +47,10 @@ namespace meltfront::particles
   {
     if(wanted_error > 0)
       return make_controlled_step(subject, step, begin, heat);
-    const double end = step == plan.steps ? last : start + step * plan.step;
+    const double end
+        = step == plan.steps
+              ? last
+              : cases::snap_to_breakpoint(breakpoints, start + step * plan.step);
     while(begin < end)
     {
       const double next = cases::end_of_piece(breakpoints, begin, end);

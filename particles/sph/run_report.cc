@@ -72,7 +72,7 @@ namespace meltfront::particles
     snapshot.dimension = dis.dimension;
     for(int d = 0; d < dis.dimension; ++d)
       snapshot.positions[d] = dis.particles.position[d];
-    snapshot.weights = dis.shares();
+    snapshot.weights = dis.weights;
     snapshot.temperature = temperature;
     snapshot.solid_fraction = solid_fraction;
     return snapshot;

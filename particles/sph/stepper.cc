@@ -38,7 +38,8 @@ namespace meltfront::particles
   double Stepper::time_of(long step) const
   {
     return step == plan.steps ? dis.scene.end_time
-                              : dis.scene.start_time + step * plan.step;
+                              : cases::snap_to_breakpoint(
+                                  breakpoints, dis.scene.start_time + step * plan.step);
   }
 
   double Stepper::advance(long step, double begin)

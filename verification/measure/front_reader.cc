@@ -17,6 +17,9 @@ namespace meltfront::verification
     constexpr double melting_tolerance = 1e-10;
     constexpr double lost_quarter = 0.25;
 
+    /** One front parts the phases if no more of the smaller one lies beyond it. */
+    constexpr double most_misplaced = 0.2;
+
     /** isotherm_crossing() of sites of which each is a point of the profile. */
     double crossing_of_sites(const std::vector<double> &coordinate,
                              std::span<const double> temperature,
@@ -163,6 +166,7 @@ namespace meltfront::verification
                            double spacing, double smoothing_length)
     : symmetry(measured_symmetry(scene, exact))
     , solid_at_origin(solid_holds_origin(scene, exact))
+    , sites_tell_phase(!exact && !scene.initial.front && scene.sources.empty())
     , alloy(scene.alloy.has_value())
     , melting_temperature(front_temperature(scene, exact))
     , spacing(spacing)
@@ -183,15 +187,44 @@ namespace meltfront::verification
     return site_coordinates.of(snapshot);
   }
 
-  double FrontReader::by_latent_heat(const cases::Snapshot &snapshot) const
+  double FrontReader::enclosing(const cases::Snapshot &snapshot, bool solid) const
   {
     double volume = 0;
     for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
       volume += snapshot.weights[i]
-                * (solid_at_origin ? snapshot.solid_fraction[i]
-                                   : 1 - snapshot.solid_fraction[i]);
+                * (solid ? snapshot.solid_fraction[i] : 1 - snapshot.solid_fraction[i]);
     return origin
            + cases::enclosing_coordinate(symmetry, (volume + hole) / cross_section);
+  }
+
+  double FrontReader::by_latent_heat(const cases::Snapshot &snapshot,
+                                     const std::vector<double> &coordinate)
+  {
+    if(sites_tell_phase)
+      find_phase_at_origin(snapshot, coordinate);
+    return enclosing(snapshot, solid_at_origin);
+  }
+
+  /** What is known stays unless the sites show one front with the phases the other way
+   * round: a wall may melt what it froze before. */
+  void FrontReader::find_phase_at_origin(const cases::Snapshot &snapshot,
+                                         const std::vector<double> &coordinate)
+  {
+    const double front = enclosing(snapshot, !solid_at_origin);
+    double inner = 0, outer = 0, inside = 0, beyond = 0;
+    for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
+    {
+      const double fraction
+          = solid_at_origin ? 1 - snapshot.solid_fraction[i] : snapshot.solid_fraction[i];
+      const double volume = snapshot.weights[i];
+      inner += volume * fraction;
+      outer += volume * (1 - fraction);
+      (coordinate[i] > front ? beyond : inside)
+          += volume * (coordinate[i] > front ? fraction : 1 - fraction);
+    }
+    const double smaller = std::min(inner, outer);
+    if(smaller > 0 && std::max(inside, beyond) <= most_misplaced * smaller)
+      solid_at_origin = !solid_at_origin;
   }
 
   Shells::Shells(const std::vector<double> &coordinates, double width)
@@ -267,7 +300,7 @@ namespace meltfront::verification
     const std::vector<double> &coordinate = coordinates(snapshot);
     FrontReading reading;
     reading.isotherm = by_isotherm(snapshot, coordinate);
-    reading.latent_heat = alloy ? reading.isotherm : by_latent_heat(snapshot);
+    reading.latent_heat = alloy ? reading.isotherm : by_latent_heat(snapshot, coordinate);
     read_extreme_sites(snapshot, coordinate, reading);
     return reading;
   }

@@ -18,7 +18,8 @@ namespace meltfront::verification
   struct FrontReading
   {
     /** Encloses the volume that is solid: sum of weight x solid fraction, and the hole of
-     * a shell. In an alloy, whose mush no volume tells from the liquid: the isotherm. */
+     * a shell; of the liquid where that lies inside. In an alloy, whose mush no volume
+     * tells from the liquid: the isotherm. */
     double latent_heat;
     double isotherm; ///< where T = T_m; in an alloy, where crystals first stand
     /** Largest coordinate of a fully frozen site plus half the smoothing length (Error-1
@@ -92,7 +93,11 @@ namespace meltfront::verification
     const std::vector<double> &coordinates(const cases::Snapshot &snapshot);
 
   private:
-    double by_latent_heat(const cases::Snapshot &snapshot) const;
+    double by_latent_heat(const cases::Snapshot &snapshot,
+                          const std::vector<double> &coordinate);
+    double enclosing(const cases::Snapshot &snapshot, bool solid) const;
+    void find_phase_at_origin(const cases::Snapshot &snapshot,
+                              const std::vector<double> &coordinate);
     double by_isotherm(const cases::Snapshot &snapshot,
                        const std::vector<double> &coordinate);
     void read_extreme_sites(const cases::Snapshot &snapshot,
@@ -101,6 +106,7 @@ namespace meltfront::verification
 
     cases::Symmetry symmetry;
     bool solid_at_origin;
+    bool sites_tell_phase;    ///< at the origin, as walls may change it
     double origin = 0;        ///< of the coordinate in a planar scene (m)
     double cross_section = 1; ///< by which a box's volume is divided to give a length
     double hole = 0;          ///< of a shell, in the measure of the scene

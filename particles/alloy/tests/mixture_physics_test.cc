@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace meltfront::particles::testing
 {
@@ -73,6 +74,42 @@ namespace meltfront::particles::testing
       scene.alloy->solutes.push_back(other);
       scene.initial.concentration = {Field::uniform(first), Field::uniform(second)};
       return scene;
+    }
+
+    // As in `sph`: the heat, and what solute there is, belong to the volume of the ball.
+    TEST(Mixture, InABallHoldsWhatItsVolumeHolds)
+    {
+      for(const char *scheme : {"rkl2", "crank-nicolson"})
+        for(const int n : {12, 17})
+        {
+          Scene scene;
+          scene.symmetry = cases::Symmetry::cylindrical;
+          scene.domain = {cases::DomainShape::ball, 2, {}, {}, 0.05, 0};
+          scene.material = nitrate_solvent();
+          scene.alloy = nitrate();
+          scene.alloy->solutes[0].diffusivity = 1e-6;
+          scene.initial.temperature = Field::uniform(10);
+          scene.initial.concentration = {
+              {"", [](const Position &p, double) { return p[0] > 0.01 ? 0.1 : 0.02; }}};
+          scene.boundaries[static_cast<int>(cases::Side::outer)]
+              = cases::Boundary{cases::BoundaryKind::flux, Field::uniform(-500)};
+          scene.end_time = 300;
+          const auto outcome
+              = run(*make_sph_mixture(), scene, n, {{"time_scheme", scheme}});
+          double volume = 0, heat = 0;
+          for(std::size_t i = 0; i < outcome.weights.size(); ++i)
+          {
+            volume += outcome.weights[i];
+            heat += outcome.weights[i] * nitrate_density * 4180
+                    * (outcome.temperature[i] - 10);
+          }
+          const double area = std::numbers::pi * 0.05 * 0.05;
+          EXPECT_NEAR(volume, area, 1e-13 * area);
+          const double taken = -500 * 2 * std::numbers::pi * 0.05 * 300;
+          EXPECT_NEAR(heat, taken, 1e-9 * std::abs(taken));
+          EXPECT_LE(outcome.heat_defect, 1e-12);
+          EXPECT_LE(outcome.solute_defect, 1e-12);
+        }
     }
 
     // Only the sum of what solutes lower the liquidus by counts.

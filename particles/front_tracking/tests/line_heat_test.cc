@@ -65,6 +65,29 @@ namespace meltfront::particles::front_tracking
       }
     }
 
+    // 24/120 of 0.1 is not quite 0.02: a step as short as the difference, after the front
+    // has appeared, once gave it any speed.
+    TEST(LineHeat, AWallMayJumpAtATimeThatIsPlanned)
+    {
+      ASSERT_NE(24. / 120 * 0.1, 0.02);
+      const auto melted = [](double jump)
+      {
+        cases::Scene scene = slab(material(1, 1, 2), 0, 0.1);
+        scene.initial.temperature = cases::Field::uniform(-0.2);
+        set(scene, Side::x_min, {});
+        set(scene, Side::x_max,
+            {BoundaryKind::fixed_temperature,
+             {"",
+              [jump](const cases::Position &, double t) { return t < jump ? -0.2 : 1.; },
+              false,
+              {jump}}});
+        const Recorder recorder = run(scene, 40, {{"steps", "120"}});
+        EXPECT_LT(lost(recorder, 1), 0.02) << jump;
+        return 1 - recorder.solid;
+      };
+      EXPECT_NEAR(melted(0.02), melted(0.02 + 1e-7), 1e-5);
+    }
+
     // Superheated solid melts towards a hot wall; after it has gone heat flows through
     // liquid from the first step on.
     TEST(LineHeat, AStepAfterAnEventBeginsWithTheHeatFlowAfterIt)

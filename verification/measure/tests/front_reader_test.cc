@@ -200,6 +200,26 @@ namespace meltfront::verification
       EXPECT_NEAR(reader.read(state.view(2, 1)).latent_heat, -0.07, 1e-15);
     }
 
+    // Solid at the start, then melted from the inner wall, then frozen there: the scene's
+    // start does not tell which phase lies inside. Two fronts leave what was known.
+    TEST(FrontReader, SeesWhichPhaseAWallMadeInside)
+    {
+      auto scene = tests::scene_of(DomainShape::slab, 1, Symmetry::planar);
+      scene.initial.temperature = cases::Field::uniform(-1);
+      FrontReader reader(scene, nullptr, 0.1, 0);
+      State state = frozen_slab(10, 1);
+      const auto front_of = [&](std::initializer_list<double> fractions)
+      {
+        state.solid_fraction = fractions;
+        return reader.read(state.view(1, 1)).latent_heat;
+      };
+      EXPECT_NEAR(front_of({1, 1, 1, 1, 1, 1, 1, 1, 1, 1}), 1, 1e-15);
+      EXPECT_NEAR(front_of({0, 0, 0.4, 1, 1, 1, 1, 1, 1, 1}), 0.26, 1e-15);
+      EXPECT_NEAR(front_of({0, 0, 0, 0, 0, 0, 0, 0.8, 1, 1}), 0.72, 1e-15);
+      EXPECT_NEAR(front_of({1, 0, 0, 0, 0, 0, 0, 0.8, 1, 1}), 0.62, 1e-15);
+      EXPECT_NEAR(front_of({1, 1, 1, 0.5, 0, 0, 0, 0, 0, 0}), 0.35, 1e-15);
+    }
+
     TEST(Isotherm, TakesTheMiddleOfAPlateau)
     {
       const std::vector<double> x{0, 1, 2, 3, 4, 5};
