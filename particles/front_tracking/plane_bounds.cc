@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <cases/overshoot.h>
+#include <particles/front_tracking/plane_measure.h>
 #include <particles/front_tracking/plane_run.h>
 
 #include <fmt/format.h>
@@ -17,6 +18,10 @@ namespace meltfront::particles::front_tracking
      * less than a share of it; no earlier, as a new step beside bodies that meet costs
      * more heat than an overshoot does (cavity-two-sinks, n = 40: 2.6 % for 0.08 %). */
     constexpr double worth_halving = 0.75;
+
+    /** Three nodes across a phase: with fewer no parabola follows its temperature, and
+     * bounds may break. */
+    constexpr double resolved_thickness = 2;
   } // namespace
 
   double PlaneRun::shorten_to_bounds(double step, PlaneState &next)
@@ -75,6 +80,43 @@ namespace meltfront::particles::front_tracking
                                                               : melting - value);
     }
     return most;
+  }
+
+  /** Says which phase nodes do not resolve, or nothing: its area over the length of the
+   * fronts that bound it is its thickness beside a wall, and half of its radius where it
+   * is a disk. */
+  std::string PlaneRun::unresolved_phase() const
+  {
+    double length = 0;
+    for(std::size_t c = 0; c < state.front.curves(); ++c)
+      length += curve_length(state.front, c);
+    if(length == 0)
+      return {};
+    const double solid = measure(scene, nodes, heat, state).solid_area;
+    const double thinnest = std::min(solid, nodes.area - solid) / length;
+    if(thinnest >= resolved_thickness * nodes.spacing)
+      return {};
+    return fmt::format("at t = {:.6g} the {} is {:.3g} m thick on the average, {:.2g} "
+                       "spacings of nodes, and is not resolved: take n at least {:.2g} "
+                       "times as large",
+                       state.time, solid < nodes.area - solid ? "solid" : "liquid",
+                       thinnest, thinnest / nodes.spacing,
+                       resolved_thickness * nodes.spacing / thinnest);
+  }
+
+  void PlaneRun::check_resolved() const
+  {
+    try
+    {
+      check(state);
+    }
+    catch(const cases::NumericalError &error)
+    {
+      const std::string unresolved = unresolved_phase();
+      if(unresolved.empty())
+        throw;
+      throw cases::Refusal(fmt::format("{}; {}", error.what(), unresolved));
+    }
   }
 
   void PlaneRun::check(const PlaneState &checked) const

@@ -326,7 +326,7 @@ namespace meltfront::particles::front_tracking
     state = std::move(next);
     fresh = false;
     ++step_number;
-    check(state);
+    check_resolved();
     warn_of_ripples();
     close_budget();
     follow_level_set();

@@ -49,6 +49,8 @@ namespace meltfront::particles::front_tracking
     void warn_of_ripples();
     void settle_nodes();
     void check(const PlaneState &checked) const;
+    void check_resolved() const;
+    std::string unresolved_phase() const;
 
     cases::RunDescription description() const;
     void report(cases::Observer &observer, bool always);

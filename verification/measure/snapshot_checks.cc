@@ -150,6 +150,11 @@ namespace meltfront::verification
     entries[heat_of_sites_].bound = sites_are_cut() ? layer_of_walls(scene, spacing)
                                     : scene.alloy   ? site_of_two_temperatures
                                                     : sum_of_round_off;
+    // The temperature of a layer of some dozen particles fluctuates: nothing bounds it,
+    // nor does its phase follow it.
+    if(scene.particle_solid && !snapshot.heat.booked)
+      entries[principle].reason = entries[phase].reason
+          = "the temperature of few particles fluctuates";
     judge_principle(snapshot);
     judge_phase(snapshot);
     judge_heat(snapshot);
@@ -237,12 +242,8 @@ namespace meltfront::verification
 
   void SnapshotChecks::judge_principle(const cases::Snapshot &snapshot)
   {
-    // The temperature of a layer of some dozen particles fluctuates: nothing bounds it.
-    if(scene.particle_solid && !snapshot.heat.booked)
-    {
-      entries[principle].reason = "the temperature of few particles fluctuates";
+    if(!entries[principle].reason.empty())
       return;
-    }
     if(!std::isfinite(principle_bounds.lower) && !std::isfinite(principle_bounds.upper))
     {
       entries[principle].reason = "the scene bounds no temperature";

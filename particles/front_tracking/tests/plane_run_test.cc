@@ -274,4 +274,47 @@ namespace
     beside.sources[0].position = {0, 0, 0};
     EXPECT_THROW(run_plane(beside, 24), cases::Refusal);
   }
+
+  // Solid between a wall and a front that vanishes: bounds break where one node is left
+  // across it, and the method says why.
+  TEST(PlaneRun, SaysWhichPhaseNodesDoNotResolve)
+  {
+    cases::Scene scene;
+    scene.domain = {cases::DomainShape::shell, 2, {}, {}, 0.005717, 0.002858};
+    scene.material.melting_temperature = 29.78;
+    scene.material.latent_heat = 80160;
+    scene.material.solid = {40.6, 371, 6000};
+    scene.material.liquid = {29.4, 397, 6000};
+    const auto beyond
+        = [](const cases::Position &p) { return std::hypot(p[0], p[1]) - 0.003909; };
+    scene.initial.front = cases::Field{"", [beyond](const cases::Position &p, double)
+                                       { return beyond(p); }};
+    scene.initial.temperature = {"", [beyond](const cases::Position &p, double) {
+                                   return 29.78 + 2076 * std::min(beyond(p), 0.)
+                                          + 448.7 * std::max(beyond(p), 0.);
+                                 }};
+    const auto wall = [&scene](cases::Side side, double start, double rate)
+    {
+      scene.boundaries[static_cast<std::size_t>(side)]
+          = cases::Boundary{cases::BoundaryKind::fixed_temperature,
+                            {"", [start, rate](const cases::Position &, double t)
+                             { return start + rate * t; }}};
+    };
+    wall(cases::Side::inner, 28.3, 0);
+    wall(cases::Side::outer, 31.34, 0.2602);
+    scene.end_time = 5.112;
+    try
+    {
+      run_plane(scene, 12);
+      FAIL() << "one node across a phase was enough";
+    }
+    catch(const cases::Refusal &refusal)
+    {
+      const std::string reason = refusal.what();
+      EXPECT_NE(reason.find("maximum principle"), std::string::npos) << reason;
+      EXPECT_NE(reason.find("the solid is"), std::string::npos) << reason;
+      EXPECT_NE(reason.find("is not resolved: take n"), std::string::npos) << reason;
+    }
+    EXPECT_NO_THROW(run_plane(scene, 24));
+  }
 } // namespace

@@ -270,5 +270,24 @@ namespace meltfront::verification
                        "front is not reported, and there are both phases"));
       EXPECT_EQ(judged(scene, state.view(1, 0.5)), "") << "a method that tracks none";
     }
+
+    // A layer of few particles may be hotter than where it melts, and is solid.
+    TEST(SnapshotChecks, FluctuationsOfFewParticlesAreNoBreach)
+    {
+      cases::Scene scene = freezing_slab();
+      tests::State state = state_with(0.5);
+      state.temperature[3] = 0.4;
+      const auto judged = [&]
+      {
+        SnapshotChecks checks(scene, capable_of({FrontOrigin::wall}), "fake", spacing);
+        checks.judge(state.view(1, 0));
+        return checks.unchecked();
+      };
+      EXPECT_THROW(judged(), cases::NumericalError);
+      scene.particle_solid = cases::ParticleSolid();
+      const auto unchecked = judged();
+      for(const char *name : {"maximum principle", "phase against temperature"})
+        EXPECT_TRUE(says(unchecked.at(name), "fluctuates"));
+    }
   } // namespace
 } // namespace meltfront::verification
