@@ -99,6 +99,10 @@ namespace meltfront::particles
     weights.assign(particles.size(), particle_volume / cross_section);
     for(const RoundWall &wall : round_walls)
       share_the_rest(wall);
+    if(const auto &outline = scene.domain.outline)
+      share_beside_wall([&outline](const cases::Position &place)
+                        { return outline->distance(place); },
+                        outline->area() - particles.size() * particle_volume);
     find_held_particles();
   }
 
@@ -258,20 +262,25 @@ namespace meltfront::particles
         = wall.inner ? wall.radius + least_depth(wall) : wall.radius - least_depth(wall);
     const double cells
         = arrange_in_shell(dimension, 0, innermost_other, spacing, layout).size();
+    const double missing = wall.enclosed(dimension) - cells * particle_volume;
+    share_beside_wall([&wall](const cases::Position &place)
+                      { return wall.depth(std::hypot(place[0], place[1], place[2])); },
+                      wall.inner ? -missing : missing);
+  }
+
+  void Discretisation::share_beside_wall(
+      const std::function<double(const cases::Position &)> &depth, double missing)
+  {
     std::vector<std::uint32_t> nearest;
     for(std::size_t i = 0; i < particles.size(); ++i)
-    {
-      const auto place = particles.point(i);
-      if(wall.depth(std::hypot(place[0], place[1], place[2])) < spacing)
+      if(depth(particles.point(i)) < spacing)
         nearest.push_back(static_cast<std::uint32_t>(i));
-    }
-    const double excess = cells * particle_volume - wall.enclosed(dimension);
-    const double added = (wall.inner ? excess : -excess) / nearest.size();
+    const double added = missing / nearest.size();
     const double share = 1 + added / particle_volume;
     if(!(share > least_share))
       throw cases::Refusal(
-          fmt::format("a lattice of spacing {:.6g} m does not fill a round domain: the "
-                      "particles beside the wall stand for {:.3g} of a cell each",
+          fmt::format("a lattice of spacing {:.6g} m does not fill the domain: the "
+                      "particles beside its wall stand for {:.3g} of a cell each",
                       spacing, share));
     for(const std::uint32_t i : nearest)
     {

@@ -9,6 +9,7 @@
 #include <particles/relaxation/conjugate_gradients.h>
 #include <particles/sph/parameters.h>
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -61,8 +62,8 @@ namespace meltfront::particles
     double enclosed(int dimension) const;
   };
 
-  /** A particle beside a round wall, and the volume that it stands for over that of a
-   * cell of the lattice. */
+  /** A particle beside a wall that bends, and the volume that it stands for over that of
+   * a cell of the lattice. */
   struct WallCell
   {
     std::uint32_t particle;
@@ -99,9 +100,9 @@ namespace meltfront::particles
     double particle_volume;             ///< dp^d (m^d)
     double cross_section;               ///< of the strip that stands for a slab, else 1
     std::vector<double> weights;        ///< volumes in the measure of the scene
-    /** The lattice's cells cover more or less of a ball or a shell than there is. The
-     * particles within a spacing of a wall share the difference alike, so that weights
-     * add up to the domain. */
+    /** The lattice's cells cover more or less of a ball, a shell or an outline than there
+     * is. The particles within a spacing of a wall share the difference alike, so that
+     * weights add up to the domain. */
     std::vector<WallCell> wall_cells;
     /** Particles on a wall of prescribed temperature (edge layout), which hold its value.
      */
@@ -113,6 +114,9 @@ namespace meltfront::particles
     void add_points_beyond(const RoundWall &wall, ParticleStorage &points) const;
     double least_depth(const RoundWall &wall) const;
     void share_the_rest(const RoundWall &wall);
+    /** Share what cells leave out of a domain (m^d). */
+    void share_beside_wall(const std::function<double(const cases::Position &)> &depth,
+                           double missing);
     void fill_outline();
     void disturb(const SphParameters &parameters);
     void scatter_in_box(const SphParameters &parameters);

@@ -89,6 +89,19 @@ namespace meltfront::particles::testing
       EXPECT_EQ(points, mirrored);
     }
 
+    TEST(OutlineLattice, WeighsTheArea)
+    {
+      const Problem problem = cavity(1);
+      for(const int n : {20, 33})
+      {
+        double area = 0;
+        for(const double weight : run(*make_sph(), problem, n).weights)
+          area += weight;
+        const double exact = problem.scene.domain.outline->area();
+        EXPECT_NEAR(area, exact, 1e-13 * exact) << n;
+      }
+    }
+
     TEST(OutlineRun, KeepsItsBudgetAndItsBounds)
     {
       for(const auto &method : {make_sph(), make_sph_2005()})
