@@ -239,6 +239,7 @@ namespace meltfront::particles
         = options.get_string("new_ice") == "kernel" ? NewIce::kernel : NewIce::site;
     result.constant_latent_heat = options.get_string("latent_heat") == "constant";
     result.sph.step_factor = options.get_double("step_factor");
+    result.sph.whole_cells = true;
     if(policy.as_published)
       return result;
     result.sph.time_scheme

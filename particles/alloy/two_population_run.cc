@@ -112,8 +112,6 @@ namespace meltfront::particles
       {
         require_freezing(parameters, scene, substance, initial);
         weights = dis.weights;
-        for(const WallCell &cell : dis.wall_cells)
-          weights[cell.particle] /= cell.share; // sites stand for whole cells
         for(const std::uint32_t a : dis.held)
           weights[a] = 0; // holds a boundary value only
         flows.prepare_step(

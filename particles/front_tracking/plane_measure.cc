@@ -1,5 +1,7 @@
 #include <particles/front_tracking/plane_measure.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +19,11 @@ namespace meltfront::particles::front_tracking
 
     constexpr int most_shifts = 20;
 
+    /** Spacings within which a node's neighbours tell the slope of the temperature. */
+    constexpr double slope_reach = 1.6;
+    /** Determinant over the square of the trace: of neighbours nearly on a line less. */
+    constexpr double least_spread = 0.05;
+
     /** A point of a cut area. */
     struct Sample
     {
@@ -33,6 +40,33 @@ namespace meltfront::particles::front_tracking
       const long nearest = state.expansion_bins.nearest(place);
       return nearest < 0 ? material.melting_temperature
                          : state.expansion[0].value[nearest];
+    }
+
+    /**
+     * By how much the mean over a node's area differs from the node's own temperature:
+     * the slope that fits the neighbours of its phase best, over the distance to the
+     * centroid. Areas beside walls lie to one side of their nodes; without it the heat of
+     * a steep start is off by a per cent at 34 spacings across.
+     */
+    double mean_beyond_node(const PlaneNodes &nodes, const PlaneState &state,
+                            const std::vector<double> &temperature, std::size_t i)
+    {
+      const PlanePoint &place = nodes.position[i];
+      Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+      PlanePoint change(0, 0);
+      nodes.bins.visit(place, slope_reach * nodes.spacing,
+                       [&](std::uint32_t other, double squared)
+                       {
+                         if(other == i || state.phase[other] != state.phase[i])
+                           return;
+                         const PlanePoint way = nodes.position[other] - place;
+                         spread += way * way.transpose() / squared;
+                         change += way * (temperature[other] - temperature[i]) / squared;
+                       });
+      const double trace = spread.trace();
+      if(!(spread.determinant() > least_spread * trace * trace))
+        return 0;
+      return (nodes.centroid[i] - place).dot(spread.inverse() * change);
     }
 
     /** Share of a sample's area that is solid. */
@@ -153,7 +187,8 @@ namespace meltfront::particles::front_tracking
         continue;
       }
       const bool solid = state.phase[i] == NodePhase::solid;
-      double excess = result.temperature[i] - material.melting_temperature;
+      double excess = result.temperature[i] - material.melting_temperature
+                      + mean_beyond_node(nodes, state, result.temperature, i);
       double near = std::numeric_limits<double>::infinity();
       for(const PlanePoint &place : heat.sinks.places)
         near = std::min(near, (place - nodes.position[i]).norm());

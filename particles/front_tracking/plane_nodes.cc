@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 namespace meltfront::particles::front_tracking
@@ -315,8 +316,15 @@ namespace meltfront::particles::front_tracking
       sample_offsets.push_back(samples.size());
     }
     weight.resize(position.size());
+    centroid = position;
     for(std::size_t i = 0; i < weight.size(); ++i)
-      weight[i] = area * static_cast<double>(of_node[i].size())
-                  / static_cast<double>(samples.size());
+    {
+      const auto own = static_cast<double>(of_node[i].size());
+      weight[i] = area * own / static_cast<double>(samples.size());
+      if(own > 0)
+        centroid[i]
+            = std::accumulate(of_node[i].begin(), of_node[i].end(), PlanePoint(0, 0))
+              / own;
+    }
   }
 } // namespace meltfront::particles::front_tracking

@@ -115,7 +115,8 @@ namespace meltfront::particles::front_tracking
     std::vector<PlanePoint> position;
     std::vector<WallNode> walls;
     std::vector<std::int32_t> wall_of_node; ///< -1 inside
-    std::vector<double> weight; ///< area nearer to each node than to others (m^2)
+    std::vector<double> weight;       ///< area nearer to each node than to others (m^2)
+    std::vector<PlanePoint> centroid; ///< of that area
     PlaneBins bins;
 
     /** Points evenly over the domain that make up the nodes' areas: those of node i are

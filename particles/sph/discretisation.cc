@@ -97,13 +97,20 @@ namespace meltfront::particles
     disturb(p);
     reorder(particles, order_along_curve(particles, spacing));
     weights.assign(particles.size(), particle_volume / cross_section);
+    if(!p.whole_cells)
+      share_what_cells_miss();
+    find_held_particles();
+  }
+
+  /** Particles beside walls that bend stand for what the cells leave out. */
+  void Discretisation::share_what_cells_miss()
+  {
     for(const RoundWall &wall : round_walls)
       share_the_rest(wall);
     if(const auto &outline = scene.domain.outline)
       share_beside_wall([&outline](const cases::Position &place)
                         { return outline->distance(place); },
                         outline->area() - particles.size() * particle_volume);
-    find_held_particles();
   }
 
   /** Jitter the particles, but for those on walls, and relax them if that is wanted. */

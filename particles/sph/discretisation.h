@@ -113,6 +113,7 @@ namespace meltfront::particles
     void fill_ball_or_shell();
     void add_points_beyond(const RoundWall &wall, ParticleStorage &points) const;
     double least_depth(const RoundWall &wall) const;
+    void share_what_cells_miss();
     void share_the_rest(const RoundWall &wall);
     /** Share what cells leave out of a domain (m^d). */
     void share_beside_wall(const std::function<double(const cases::Position &)> &depth,

@@ -185,6 +185,7 @@ namespace meltfront::particles
     p.layout = options.get_string("layout") == "edge" ? LatticeLayout::on_edge
                                                       : LatticeLayout::cell_centred;
     p.moment_correction = options.get_bool("moment_correction");
+    p.whole_cells = policy.as_published;
     p.front = front_rule(options.get_string("front"));
     p.time_scheme = time_scheme(options.get_string("time_scheme"));
     p.stages = static_cast<int>(options.get_integer("stages"));

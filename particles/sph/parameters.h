@@ -91,6 +91,9 @@ namespace meltfront::particles
     int stages;         ///< most stages of a super step
     double step_factor; ///< 0: the paper's step
     double step_error;  ///< wanted of each implicit step; 0: steps of equal length
+    /** Particles beside walls that bend stand for a whole cell of the lattice, as in the
+     * paper: the domain has the volume of the cells. */
+    bool whole_cells;
     Arrangement arrangement;
     double jitter; ///< in particle spacings
     std::uint64_t seed;

@@ -95,7 +95,7 @@ namespace
     source.power = [](double) { return -2.; };
     source.energy = [](double time) { return -2 * time; };
     scene.sources.push_back(source);
-    const PlaneRecord record = run_plane(scene, 30);
+    const PlaneRecord record = run_plane(scene, 33);
     for(std::size_t i = 1; i < record.frames.size(); ++i)
     {
       EXPECT_GE(record.frames[i].solid_area, record.frames[i - 1].solid_area - 1e-9);
