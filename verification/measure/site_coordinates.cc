@@ -1,5 +1,7 @@
 #include <verification/measure/site_coordinates.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace meltfront::verification
@@ -10,6 +12,14 @@ namespace meltfront::verification
     for(int d = 0; d < snapshot.dimension; ++d)
       position[d] = snapshot.positions[d][site];
     return position;
+  }
+
+  std::string place_text(const cases::Position &place, int dimension)
+  {
+    std::string text;
+    for(int d = 0; d < dimension; ++d)
+      text += fmt::format("{}{:.6g}", d == 0 ? "" : ", ", place[d]);
+    return dimension == 1 ? "x = " + text : "(" + text + ")";
   }
 
   SiteCoordinates::SiteCoordinates(cases::Symmetry symmetry)

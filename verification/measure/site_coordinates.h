@@ -5,12 +5,16 @@
 #include <cases/snapshot.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace meltfront::verification
 {
   /** The position of a site (m); coordinates beyond the snapshot's dimension are zero. */
   cases::Position site_position(const cases::Snapshot &snapshot, std::size_t site);
+
+  /** A place as messages name it, `x = 0.5` or `(0.5, 0.25)`. */
+  std::string place_text(const cases::Position &place, int dimension);
 
   /**
    * The coordinates (x or r, m) of a snapshot's sites, computed again only when sites

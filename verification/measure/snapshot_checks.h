@@ -101,25 +101,39 @@ namespace meltfront::verification
       std::string reason{}; ///< why it is not judged
     };
 
+    /** Relative to the largest temperature: what is nearer is the same, of solutions of
+     * systems that are rounded in thousands of steps (cases::temperature_round_off()). */
+    static constexpr double same_temperature = 1e-9;
+
+    /** Relative to what enters and leaves: sums over many steps. */
+    static constexpr double integral_of_round_off = 1e-6;
+
     void require_finite(const cases::Snapshot &snapshot) const;
-    void include_initial(const cases::Snapshot &snapshot);
-    void include_liquidus(const cases::Snapshot &snapshot);
-    double temperature_of_melting() const;
-    void judge_principle(const cases::Snapshot &snapshot);
-    void judge_phase(const cases::Snapshot &snapshot);
-    void judge_heat(const cases::Snapshot &snapshot);
-    void judge_balance(const cases::Snapshot &snapshot, const SiteHeat &held);
-    double heat_of_domain(const cases::Snapshot &snapshot) const;
-    double expected_of_sources(const cases::Snapshot &snapshot) const;
-    bool sites_are_cut() const;
-    void judge_front(const cases::Snapshot &snapshot);
     bool add(Kind kind, double value);
     [[noreturn]] void end_run(const cases::Snapshot &snapshot,
                               const std::string &quantity,
                               const std::string &problem) const;
+
+    // In temperature_checks.cc:
+    cases::TemperatureBounds bounds_of_scene() const;
+    void include_initial(const cases::Snapshot &snapshot);
+    void include_liquidus(const cases::Snapshot &snapshot);
+    double span() const;
+    double temperature_of_melting() const;
+    void judge_principle(const cases::Snapshot &snapshot);
+
+    // In phase_checks.cc:
+    void judge_phase(const cases::Snapshot &snapshot);
     void refuse_unnamed_front(const cases::Snapshot &snapshot,
                               const MetastableSites &found) const;
-    double span() const;
+    void judge_front(const cases::Snapshot &snapshot);
+
+    // In heat_checks.cc:
+    void judge_heat(const cases::Snapshot &snapshot);
+    double expected_of_sources(const cases::Snapshot &snapshot) const;
+    bool sites_are_cut() const;
+    double heat_of_domain(const cases::Snapshot &snapshot) const;
+    void judge_balance(const cases::Snapshot &snapshot, const SiteHeat &held);
 
     const cases::Scene &scene;
     cases::Capabilities capabilities;
