@@ -334,7 +334,8 @@ namespace meltfront::particles::front_tracking
   }
 
   /** Where the temperature is held the power is what the balance of the wall node's area
-   * asks for: with the conduction away from the wall, what heats that area. */
+   * asks for: with the conduction away from the wall, what heats that area. A node on the
+   * front has no balance: what fluxes and ambients give it melts the front there. */
   double PlaneHeat::wall_power(const PlaneStep &step, const PlaneState &state,
                                std::span<const double> solution) const
   {
@@ -342,11 +343,14 @@ namespace meltfront::particles::front_tracking
     for(const WallNode &wall : nodes.walls)
     {
       const NodePhase phase = state.phase[wall.node];
-      if(phase == NodePhase::front)
+      const bool at_front = phase == NodePhase::front;
+      if(at_front && wall.held())
         continue;
       const PlanePoint &place = nodes.position[wall.node];
       if(!wall.held())
       {
+        const double own = at_front ? front_temperature_near(wall.node)
+                                    : temperature(state, wall.node);
         for(int i = 0; i < wall.n_pieces; ++i)
         {
           const WallPiece &piece = wall.pieces[i];
@@ -357,10 +361,10 @@ namespace meltfront::particles::front_tracking
             continue;
           const double value
               = given.wall(*piece.boundary, {place.x(), place.y(), 0}, step.span);
-          power += piece.length
-                   * (transfers ? piece.boundary->heat_transfer_coefficient
-                                      * (value - temperature(state, wall.node))
-                                : value);
+          power
+              += piece.length
+                 * (transfers ? piece.boundary->heat_transfer_coefficient * (value - own)
+                              : value);
         }
         continue;
       }
@@ -390,7 +394,7 @@ namespace meltfront::particles::front_tracking
     double heat = 0;
     for(const WallNode &wall : nodes.walls)
     {
-      if(state.phase[wall.node] == NodePhase::front || wall.held())
+      if(wall.held())
         continue;
       const PlanePoint &place = nodes.position[wall.node];
       for(int i = 0; i < wall.n_pieces; ++i)

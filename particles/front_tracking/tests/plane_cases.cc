@@ -125,6 +125,7 @@ namespace meltfront::particles::front_tracking
     frame.defect = snapshot.heat.defect();
     frame.latent = snapshot.heat.latent;
     frame.sensible = snapshot.heat.stored;
+    frame.through_walls = snapshot.heat.boundary;
     for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
       frame.solid_area += snapshot.weights[i] * snapshot.solid_fraction[i];
     const auto [coldest, hottest] = std::ranges::minmax(snapshot.temperature);

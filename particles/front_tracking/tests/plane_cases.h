@@ -37,7 +37,7 @@ namespace meltfront::particles::front_tracking
     {
       double time, solid_area, defect, coldest, hottest, mean_radius, roundness;
       std::size_t front_points;
-      double latent, sensible;
+      double latent, sensible, through_walls;
     };
 
     bool wants(long, double) override

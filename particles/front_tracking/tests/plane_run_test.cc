@@ -94,6 +94,29 @@ namespace
     }
   }
 
+  TEST(PlaneRun, FluxEntersWhereTheFrontMeetsTheWall)
+  {
+    // The front passes the nodes of a wall, one by one, that has a flux.
+    for(const bool steady : {true, false})
+    {
+      cases::Scene scene = insulated_box(
+          {1, 1, 0}, [](const auto &p) { return p[0] + 0.001; },
+          [](const auto &p) { return warmth(p[0] + 0.001); }, 0.2);
+      cases::Boundary wall;
+      wall.kind = cases::BoundaryKind::flux;
+      wall.value = steady
+                       ? cases::Field::uniform(-0.7)
+                       : cases::Field{"", [](const auto &, double t) { return -7 * t; }};
+      scene.boundaries[static_cast<std::size_t>(cases::Side::y_min)] = wall;
+      const PlaneRecord record = run_plane(scene, 16);
+      for(const auto &frame : record.frames)
+        EXPECT_NEAR(frame.through_walls,
+                    -2 * (steady ? 0.7 * frame.time : 3.5 * frame.time * frame.time),
+                    1e-9);
+      EXPECT_GT(record.frames.size(), 10);
+    }
+  }
+
   TEST(PlaneRun, FrontTurnsBack)
   {
     cases::Scene scene;
