@@ -37,11 +37,12 @@ namespace meltfront::verification
       return std::sqrt((here * here + near * near) / 2);
     }
 
-    /** The error of the finest level of which two levels tell, if it falls as h^p. */
-    double error_of_finest(const Level &finest, const Level &finer, const Level &coarser,
-                           std::size_t time, double p)
+    /** The error of the finest level over the difference of two levels, if it falls as
+     * h^p. */
+    double error_per_difference(const Level &finest, const Level &finer,
+                                const Level &coarser, double p)
     {
-      return around(finer, coarser, time) * std::pow(finest.spacing, p)
+      return std::pow(finest.spacing, p)
              / (std::pow(coarser.spacing, p) - std::pow(finer.spacing, p));
     }
 
@@ -102,12 +103,20 @@ namespace meltfront::verification
       }
       estimate.order = std::clamp(observed, lowest_order, highest_order);
     }
+    // Where two levels agree at a time, only a third could tell that terms of their
+    // errors cancel there.
+    const double course
+        = levels == 2 ? difference(finest, second, 0, finest.values.size() - 1) : 0;
     double error = 0;
     for(std::size_t i = std::max(levels, counted_levels) - counted_levels; i < levels;
         ++i)
       for(std::size_t j = i + 1; j < levels; ++j)
-        error = std::max(error, error_of_finest(finest, coarse_to_fine[j],
-                                                coarse_to_fine[i], time, estimate.order));
+      {
+        const Level &coarser = coarse_to_fine[i], &finer = coarse_to_fine[j];
+        error = std::max(
+            error, std::max(course, around(finer, coarser, time))
+                       * error_per_difference(finest, finer, coarser, estimate.order));
+      }
     estimate.bar = safety_factor * error + floor;
     return estimate;
   }

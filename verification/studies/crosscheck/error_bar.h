@@ -55,7 +55,8 @@ namespace meltfront::verification
    * solves D_32/D_21 = r_21^p (r_32^p - 1)/(r_21^p - 1) for root mean squares over the
    * whole course, bounded by lowest_order and highest_order. Levels whose differences do
    * not shrink give three times their largest difference (`converging` is false). Two
-   * levels tell no order: p = lowest_order.
+   * levels tell no order, nor whether terms of the error cancel at a time: p =
+   * lowest_order, and a is at least the root mean square over the whole course.
    *
    * Levels should not double: a front that rests at x stands in its cell at the fraction
    * of n x, and doubling n leaves its distance from the cell's middle as it was.

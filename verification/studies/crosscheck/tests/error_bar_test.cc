@@ -66,6 +66,24 @@ namespace meltfront::verification
                   safety_factor * difference / (std::pow(2, lowest_order) - 1), 1e-12);
     }
 
+    TEST(ErrorBar, TwoLevelsThatAgreeAtTheEndAloneAreNotBelieved)
+    {
+      // a h + b h^2 with a h_1 + b h_1^2 = a h_2 + b h_2^2 at the end, far from the
+      // truth.
+      std::vector<Level> levels{level(20, 0, 1), level(34, 0, 1)};
+      for(Level &of : levels)
+        for(std::size_t k = 0; k < times; ++k)
+        {
+          const double early = 1 - k / (times - 1.), h = of.spacing;
+          of.values[k] += 0.05 * h + (0.05 * early - 0.05) * h * h / (1. / 20 + 1. / 34);
+        }
+      const Estimate estimate = estimate_at(levels, times - 1, 0);
+      ASSERT_NEAR(levels[0].values.back(), levels[1].values.back(), 1e-15);
+      EXPECT_GT(estimate.bar, std::abs(estimate.value - 1));
+      levels.push_back(level(54, 0.05, 1));
+      EXPECT_LT(estimate_at(levels, times - 1, 0).bar, estimate.bar);
+    }
+
     TEST(ErrorBar, FinestOfFiveLevelsCount)
     {
       // The coarsest lies before the range in which errors fall as they should.
