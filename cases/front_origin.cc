@@ -20,6 +20,9 @@ namespace meltfront::cases
      * What an exact solution keeps there misses it by round-off. */
     constexpr double share_of_round_off = 1e-9;
 
+    /** Samples may pass by the extremes of a metastable phase by this share of them. */
+    constexpr double share_of_sampling = 1e-3;
+
     enum class InitialPhase
     {
       solid,
@@ -45,7 +48,15 @@ namespace meltfront::cases
                           largest = std::max(largest, std::abs(values.back().second));
                       });
         for(const auto &[front, excess] : values)
-          found[static_cast<std::size_t>(phase(front, excess))] = true;
+        {
+          const InitialPhase of = phase(front, excess);
+          found[static_cast<std::size_t>(of)] = true;
+          if(of != InitialPhase::mush && std::isfinite(excess))
+          {
+            double &farthest = farthest_beyond[static_cast<std::size_t>(of)];
+            farthest = std::max(farthest, beyond(of, excess));
+          }
+        }
       }
 
       InitialPhase phase(const Position &p) const
@@ -60,17 +71,35 @@ namespace meltfront::cases
                * std::max(largest, std::abs(scene.material.melting_temperature));
       }
 
+      /** How far beyond the melting point a wall must be for what lies at it to change
+       * its phase (K): a metastable phase stands the temperatures that it has at the
+       * start, there and next to the wall. */
+      double withstood_by(InitialPhase of, Side side,
+                          const std::vector<Position> &walls) const
+      {
+        double most = farthest_beyond[static_cast<std::size_t>(of)];
+        for(const Position &wall : walls)
+          most = std::max(most, beyond(of, excess(inside_of(side, wall))));
+        return (1 + share_of_sampling) * most + round_off();
+      }
+
       bool has(InitialPhase wanted) const
       {
         return found[static_cast<std::size_t>(wanted)];
       }
 
       /** What lies at a wall inside of a point of it. */
-      InitialPhase phase_at_wall(Side side, Position wall) const
+      InitialPhase phase_at_wall(Side side, const Position &wall) const
+      {
+        return phase(inside_of(side, wall));
+      }
+
+    private:
+      Position inside_of(Side side, Position wall) const
       {
         const Domain &domain = scene.domain;
         if(side == Side::outer && domain.outline)
-          return phase(wall);
+          return wall;
         if(side == Side::outer || side == Side::inner)
           for(double &component : wall)
             component *= 1 + (side == Side::inner ? 1 : -1) * next_to_wall;
@@ -78,10 +107,9 @@ namespace meltfront::cases
           wall[static_cast<std::size_t>(side) / 2]
               += (static_cast<int>(side) % 2 == 0 ? 1 : -1) * next_to_wall
                  * domain.side();
-        return phase(wall);
+        return wall;
       }
 
-    private:
       InitialPhase phase(double front, double excess) const
       {
         const double sign = front != 0 ? front : excess;
@@ -105,9 +133,17 @@ namespace meltfront::cases
         return std::isnan(value) ? 0 : value;
       }
 
+      /** By how much a phase is on the wrong side of the melting point (K). */
+      static double beyond(InitialPhase of, double excess)
+      {
+        return of == InitialPhase::solid ? excess : -excess;
+      }
+
       const Scene &scene;
       double largest = 0;
       std::array<bool, 3> found{}; ///< by InitialPhase
+      /** Of solid and liquid, at the start (K). */
+      std::array<double, 2> farthest_beyond{};
     };
 
     /** Whether the temperature of a wall is ever on the other side of the melting point
@@ -115,9 +151,7 @@ namespace meltfront::cases
     bool starts_front(const Scene &scene, const Start &start, Side side)
     {
       const Boundary &boundary = scene.boundary(side);
-      // Undercooled liquid does not freeze at a wall that is no colder than itself.
-      if(boundary.kind != BoundaryKind::fixed_temperature
-         || metastable_initial_phase(scene) != nullptr)
+      if(boundary.kind != BoundaryKind::fixed_temperature)
         return false;
       std::vector<Position> solid, liquid;
       visit_wall(scene.domain, side,
@@ -128,15 +162,20 @@ namespace meltfront::cases
                      (phase == InitialPhase::solid ? solid : liquid).push_back(wall);
                  });
       bool found = false;
-      for(const auto &[positions, sign] :
-          {std::pair(&solid, 1.), std::pair(&liquid, -1.)})
-        visit_values_in_time(scene, boundary.value, *positions,
-                             [&, sign = sign](double temperature)
+      const auto look = [&](InitialPhase of, const std::vector<Position> &positions)
+      {
+        const double withstood = start.withstood_by(of, side, positions);
+        const double sign = of == InitialPhase::solid ? 1 : -1;
+        visit_values_in_time(scene, boundary.value, positions,
+                             [&](double temperature)
                              {
                                const double excess
                                    = temperature - scene.material.melting_temperature;
-                               found = found || sign * excess > start.round_off();
+                               found = found || sign * excess > withstood;
                              });
+      };
+      look(InitialPhase::solid, solid);
+      look(InitialPhase::liquid, liquid);
       return found;
     }
 

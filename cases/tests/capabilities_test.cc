@@ -216,6 +216,24 @@ TEST(FrontOrigins, AWallOfUndercooledLiquidStartsNone)
   EXPECT_EQ(front_origins(scene), Origins{FrontOrigin::initial_front});
 }
 
+TEST(FrontOrigins, AWallBeyondWhatAMetastableSceneHoldsStartsOne)
+{
+  const Origins both{FrontOrigin::initial_front, FrontOrigin::wall};
+  Scene scene = slab();
+  scene.initial.front = field([](const Position &p, double) { return p[0] - 0.3; });
+  scene.initial.temperature
+      = field([](const Position &p, double) { return std::min(0., 0.3 - p[0]); });
+  // The solid beside the undercooled liquid is stable, and melts.
+  hold(scene, Side::x_min, Field::uniform(0.1));
+  EXPECT_EQ(front_origins(scene), both);
+  hold(scene, Side::x_min, Field::uniform(-0.1));
+  EXPECT_EQ(front_origins(scene), Origins{FrontOrigin::initial_front});
+  // Liquid that is colder than any at the start freezes.
+  hold(scene, Side::x_max, field([](const Position &, double t) { return -0.6 - t; }));
+  EXPECT_EQ(front_origins(scene), both);
+  EXPECT_EQ(least_number_of_fronts(scene), 2);
+}
+
 TEST(FrontOrigins, ASinkInLiquidAndASourceInSolid)
 {
   Scene scene = square();
