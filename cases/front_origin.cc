@@ -35,6 +35,7 @@ namespace meltfront::cases
     public:
       explicit Start(const Scene &scene)
         : scene(scene)
+        , metastable(metastable_start(scene))
       {
         std::vector<const Field *> fields{&scene.initial.temperature};
         if(scene.initial.front)
@@ -48,15 +49,7 @@ namespace meltfront::cases
                           largest = std::max(largest, std::abs(values.back().second));
                       });
         for(const auto &[front, excess] : values)
-        {
-          const InitialPhase of = phase(front, excess);
-          found[static_cast<std::size_t>(of)] = true;
-          if(of != InitialPhase::mush && std::isfinite(excess))
-          {
-            double &farthest = farthest_beyond[static_cast<std::size_t>(of)];
-            farthest = std::max(farthest, beyond(of, excess));
-          }
-        }
+          found[static_cast<std::size_t>(phase(front, excess))] = true;
       }
 
       InitialPhase phase(const Position &p) const
@@ -77,9 +70,13 @@ namespace meltfront::cases
       double withstood_by(InitialPhase of, Side side,
                           const std::vector<Position> &walls) const
       {
-        double most = farthest_beyond[static_cast<std::size_t>(of)];
+        const bool solid = of == InitialPhase::solid;
+        double most = solid ? metastable.superheat : metastable.undercooling;
         for(const Position &wall : walls)
-          most = std::max(most, beyond(of, excess(inside_of(side, wall))));
+        {
+          const double next_to = excess(inside_of(side, wall));
+          most = std::max(most, solid ? next_to : -next_to);
+        }
         return (1 + share_of_sampling) * most + round_off();
       }
 
@@ -133,17 +130,10 @@ namespace meltfront::cases
         return std::isnan(value) ? 0 : value;
       }
 
-      /** By how much a phase is on the wrong side of the melting point (K). */
-      static double beyond(InitialPhase of, double excess)
-      {
-        return of == InitialPhase::solid ? excess : -excess;
-      }
-
       const Scene &scene;
+      MetastableStart metastable;
       double largest = 0;
       std::array<bool, 3> found{}; ///< by InitialPhase
-      /** Of solid and liquid, at the start (K). */
-      std::array<double, 2> farthest_beyond{};
     };
 
     /** Whether the temperature of a wall is ever on the other side of the melting point

@@ -196,12 +196,13 @@ namespace meltfront::cases
     return {lower - slack, upper + slack};
   }
 
-  const char *metastable_initial_phase(const Scene &scene)
+  MetastableStart metastable_start(const Scene &scene)
   {
+    MetastableStart start;
     if(!scene.initial.front)
-      return nullptr;
+      return start;
     const double melting = scene.material.melting_temperature;
-    double coldest_liquid = 0, warmest_solid = 0, span = 0;
+    double span = 0;
     visit_densely(scene, {&scene.initial.temperature, &*scene.initial.front},
                   [&](const Position &p)
                   {
@@ -211,14 +212,23 @@ namespace meltfront::cases
                     if(std::isfinite(excess))
                       span = std::max(span, std::abs(excess));
                     if(distance > 0)
-                      coldest_liquid = std::min(coldest_liquid, excess);
+                      start.undercooling = std::max(start.undercooling, -excess);
                     if(distance < 0)
-                      warmest_solid = std::max(warmest_solid, excess);
+                      start.superheat = std::max(start.superheat, excess);
                   });
     const double round_off = 1e-9 * span;
-    if(coldest_liquid < -round_off)
+    for(double *most : {&start.undercooling, &start.superheat})
+      if(*most <= round_off)
+        *most = 0;
+    return start;
+  }
+
+  const char *metastable_initial_phase(const Scene &scene)
+  {
+    const MetastableStart start = metastable_start(scene);
+    if(start.undercooling > 0)
       return "liquid is undercooled";
-    return warmest_solid > round_off ? "solid is superheated" : nullptr;
+    return start.superheat > 0 ? "solid is superheated" : nullptr;
   }
 
   bool initially_present(const Scene &scene, std::size_t solute)

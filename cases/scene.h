@@ -235,8 +235,19 @@ namespace meltfront::cases
    */
   TemperatureBounds temperature_bounds(const Scene &scene);
 
-  /** `liquid is undercooled` or `solid is superheated` where the scene's initial front
-   * says so, else null; sampled over the domain. */
+  /** By how much the phases that the scene's initial front divides are on the wrong side
+   * of the melting temperature at the start, at most (K); 0: not at all. */
+  struct MetastableStart
+  {
+    double undercooling = 0; ///< of liquid
+    double superheat = 0;    ///< of solid
+  };
+
+  /** Sampled over the domain; stable without an initial front. */
+  MetastableStart metastable_start(const Scene &scene);
+
+  /** `liquid is undercooled` or `solid is superheated` where metastable_start() says so,
+   * else null. */
   const char *metastable_initial_phase(const Scene &scene);
 
   /** Whether there is any of a solute at the start; sampled over the domain. */

@@ -389,7 +389,7 @@ namespace meltfront::particles::front_tracking
     return power;
   }
 
-  double PlaneHeat::flux_heat(const PlaneStep &step, const PlaneState &state) const
+  double PlaneHeat::flux_heat(const PlaneStep &step) const
   {
     double heat = 0;
     for(const WallNode &wall : nodes.walls)

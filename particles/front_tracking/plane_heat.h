@@ -174,7 +174,7 @@ namespace meltfront::particles::front_tracking
                        std::span<const double> solution) const;
     double wall_power(const PlaneStep &step, const PlaneState &state,
                       std::span<const double> solution) const;
-    double flux_heat(const PlaneStep &step, const PlaneState &state) const;
+    double flux_heat(const PlaneStep &step) const;
     double released_heat(const PlaneStep &step) const;
 
     const cases::Scene &scene;

@@ -251,7 +251,7 @@ namespace meltfront::particles::front_tracking
       displacement[p] = nodes.spacing * solution[nodes.size() + p];
     meters.front.measure([&] { update_expansions(next, solution); });
     next.wall_power = wall_power(step, next, solution);
-    next.flux_heat = flux_heat(step, next);
+    next.flux_heat = flux_heat(step);
     next.released_heat = released_heat(step);
     return displacement;
   }

@@ -69,6 +69,7 @@ namespace meltfront::verification
     : melting_temperature(scene.material.melting_temperature)
     , eutectic_temperature(scene.alloy ? scene.alloy->eutectic_temperature
                                        : melting_temperature)
+    , at_start(cases::metastable_start(scene))
     , reach(spacings_to_front * spacing)
   {
     if(scene.alloy)
@@ -80,7 +81,8 @@ namespace meltfront::verification
   {
     const double fraction = snapshot.solid_fraction[site];
     const double temperature = snapshot.temperature[site];
-    if(fraction > 0 && fraction < 1)
+    if((fraction > 0 && fraction < 1)
+       || (fraction >= 1 ? at_start.superheat : at_start.undercooling) > 0)
       return 0;
     double melting = melting_temperature;
     if(diagram)

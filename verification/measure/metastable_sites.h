@@ -24,9 +24,10 @@ namespace meltfront::verification
    * the liquidus of what it holds and the eutectic temperature, and solid that holds
    * solute above the eutectic temperature.
    *
-   * Sites within two spacings of a front are left out, where the phase of a site and the
-   * temperature of its volume need not agree: of tracked points, or of a site that is of
-   * the other phase or partly frozen.
+   * A phase that the scene starts with beyond its melting temperature is left out:
+   * nothing says where it has to end. Sites within two spacings of a front are left out,
+   * where the phase of a site and the temperature of its volume need not agree: of
+   * tracked points, or of a site that is of the other phase or partly frozen.
    */
   class MetastableFinder
   {
@@ -42,6 +43,7 @@ namespace meltfront::verification
                   double tolerance) const;
 
     double melting_temperature, eutectic_temperature;
+    cases::MetastableStart at_start;
     std::optional<cases::PhaseDiagram> diagram;
     double reach; ///< distance from a front within which sites are left out (m)
   };

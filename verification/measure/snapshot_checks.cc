@@ -78,8 +78,9 @@ namespace meltfront::verification
     principle_bounds = bounds_of_scene();
     if(!scene.changes_phase())
       entries[phase].reason = entries[front].reason = "no phase changes";
-    else if(const char *metastable = cases::metastable_initial_phase(scene))
-      entries[phase].reason = metastable;
+    else if(const cases::MetastableStart start = cases::metastable_start(scene);
+            start.undercooling > 0 && start.superheat > 0)
+      entries[phase].reason = "both phases are metastable at the start";
     entries[heat_of_walls].reason = given.unknown_walls;
     entries[heat_of_sources].reason = given.unknown_sources;
     if(scene.problem == cases::ProblemKind::poisson)

@@ -128,6 +128,29 @@ namespace meltfront::verification
                 "0.5 the liquid at x = 0.01 is 0.19 K below its melting temperature");
     }
 
+    TEST(SnapshotChecks, JudgeTheStablePhaseBesideAMetastableOne)
+    {
+      // Liquid beyond the front is undercooled; solid that a wall melts is not excused.
+      cases::Scene scene = freezing_slab();
+      scene.initial.front = cases::Field{
+          "", [](const cases::Position &p, double) { return p[0] - 0.4; }, false};
+      scene.initial.temperature = cases::Field{
+          "", [](const cases::Position &p, double) { return std::min(0., 0.4 - p[0]); },
+          false};
+      set_wall(scene, Side::x_min, BoundaryKind::fixed_temperature, 0.3);
+      const cases::Capabilities able
+          = capable_of({FrontOrigin::initial_front, FrontOrigin::wall});
+      tests::State state = state_with(0.4);
+      for(int i = 0; i < n; ++i)
+        state.temperature[i] = std::min(0., 0.4 - state.positions[0][i]);
+      EXPECT_EQ(judged(scene, state.view(1, 0.5), able), "");
+      for(int i = 0; i < 10; ++i)
+        state.temperature[i] = 0.3 - i * 0.03;
+      EXPECT_TRUE(
+          says(judged(scene, state.view(1, 0.5), able),
+               "phase is solid at x = 0.01, 0.3 K above its melting temperature"));
+    }
+
     TEST(SnapshotChecks, FindASecondFrontThatIsIgnored)
     {
       const cases::Scene scene = freezing_slab();
