@@ -1,5 +1,4 @@
 #include <cases/case_file/case_file.h>
-#include <cases/case_file/vary_case.h>
 #include <cases/error.h>
 #include <verification/app/capability_list.h>
 #include <verification/app/commands.h>
@@ -124,8 +123,6 @@ namespace meltfront::verification
       options.program_version = program_version;
       options.command_line = command_line;
       options.progress = stderr;
-      options.vary_case = [](const cases::Case &base, const PlannedCase &planned)
-      { return cases::vary_case(base, planned.name, planned.settings); };
       int status = all_well;
       options.conclude
           = [&](MatrixResult &result) { status = conclude(result, directory); };
@@ -186,7 +183,7 @@ namespace meltfront::verification
             const RunRecord record
                 = run_one(c, method, resolution, label, provenance, &fields, once);
             if(record.status == RunStatus::finished)
-              write_run_page(record, make_case_record(c), directory);
+              write_run_page(record, stored_case(c), directory);
             write_json(file, record);
           },
           log);

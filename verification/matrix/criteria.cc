@@ -21,7 +21,7 @@ namespace meltfront::verification
     using Runs = std::vector<const RunRecord *>;
 
     /** The runs that a criterion is about. */
-    Runs runs_of(const MatrixResult &result, const CaseRecord &record,
+    Runs runs_of(const MatrixResult &result, const StoredCase &record,
                  const cases::Criterion &criterion)
     {
       Runs runs;
@@ -30,7 +30,7 @@ namespace meltfront::verification
                             || criterion.statistic == cases::Statistic::failure;
       const bool derived = is_derived_quantity(criterion.quantity);
       for(const RunRecord &run : result.runs)
-        if(run.case_name == record.name && label_matches(criterion.method, run.label)
+        if(run.case_name == record.name() && label_matches(criterion.method, run.label)
            && !(derived && is_reference(record, run))
            && (at_one_n ? run.n == criterion.n
                         : run.n >= criterion.n_from && run.n <= criterion.n_to))
@@ -56,7 +56,7 @@ namespace meltfront::verification
     /** Whether a criterion says that the run is known to fail. */
     bool known_to_fail(const MatrixResult &result, const RunRecord &run)
     {
-      for(const CaseRecord &record : result.cases)
+      for(const StoredCase &record : result.cases)
         for(const cases::Criterion &criterion : record.criteria)
         {
           if(criterion.statistic != cases::Statistic::failure)
@@ -68,7 +68,7 @@ namespace meltfront::verification
       return false;
     }
 
-    double order_over(const CaseRecord &record, const Runs &runs,
+    double order_over(const StoredCase &record, const Runs &runs,
                       const std::string &quantity)
     {
       const Refinement refinement(runs);
@@ -121,7 +121,7 @@ namespace meltfront::verification
                                     : 0.5 * (values[half - 1] + values[half]);
     }
 
-    double value_of(const CaseRecord &record, const Runs &runs,
+    double value_of(const StoredCase &record, const Runs &runs,
                     const cases::Criterion &criterion)
     {
       switch(criterion.statistic)
@@ -166,7 +166,7 @@ namespace meltfront::verification
         all ? "" : fmt::format(" over n={}..{}", criterion.n_from, criterion.n_to));
   }
 
-  std::string why_not_judged(const MatrixResult &result, const CaseRecord &record,
+  std::string why_not_judged(const MatrixResult &result, const StoredCase &record,
                              const cases::Criterion &criterion)
   {
     const Runs runs = runs_of(result, record, criterion);
@@ -178,7 +178,7 @@ namespace meltfront::verification
     return {};
   }
 
-  double criterion_value(const MatrixResult &result, const CaseRecord &record,
+  double criterion_value(const MatrixResult &result, const StoredCase &record,
                          const cases::Criterion &criterion)
   {
     return value_of(record, runs_of(result, record, criterion), criterion);
@@ -243,20 +243,20 @@ namespace meltfront::verification
             = result.passed
               && (run.status == RunStatus::refused || known_to_fail(result, run));
       }
-    for(const CaseRecord &record : result.cases)
+    for(const StoredCase &record : result.cases)
       for(const cases::Criterion &criterion : record.criteria)
       {
         const std::string reason = why_not_judged(result, record, criterion);
         if(!reason.empty())
         {
           result.omissions.push_back(fmt::format("{}, {}: {}: not judged: {}",
-                                                 record.name, criterion.method,
+                                                 record.name(), criterion.method,
                                                  quantity_text(criterion), reason));
           continue;
         }
         const double value = criterion_value(result, record, criterion);
         const bool passed = value >= criterion.lower && value <= criterion.upper;
-        result.criteria.push_back({record.name, criterion.method,
+        result.criteria.push_back({record.name(), criterion.method,
                                    quantity_text(criterion), value, criterion.lower,
                                    criterion.upper, passed, criterion.known_shortfall});
         result.passed = result.passed && passed;

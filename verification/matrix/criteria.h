@@ -28,12 +28,12 @@ namespace meltfront::verification
   std::string quantity_text(const cases::Criterion &criterion);
 
   /** Why a matrix says nothing on a criterion in a case; empty if it does. */
-  std::string why_not_judged(const MatrixResult &result, const CaseRecord &record,
+  std::string why_not_judged(const MatrixResult &result, const StoredCase &record,
                              const cases::Criterion &criterion);
 
   /** The value that a criterion bounds in a case, as evaluate() explains; NaN where a
    * run that it needs is missing or failed. */
-  double criterion_value(const MatrixResult &result, const CaseRecord &record,
+  double criterion_value(const MatrixResult &result, const StoredCase &record,
                          const cases::Criterion &criterion);
 
   /**

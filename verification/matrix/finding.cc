@@ -1,6 +1,6 @@
+#include <cases/case_file/criterion_parser.h>
 #include <cases/error.h>
 #include <verification/matrix/criteria.h>
-#include <verification/matrix/criterion_record.h>
 #include <verification/matrix/finding.h>
 #include <verification/matrix/label.h>
 
@@ -19,13 +19,13 @@ namespace meltfront::verification
     EvidenceResult judge(const MatrixResult &result, const Evidence &evidence)
     {
       EvidenceResult judged{evidence, quantity_text(evidence.criterion), {}};
-      for(const CaseRecord &record : result.cases)
-        if(label_matches(evidence.cases, record.name)
+      for(const StoredCase &record : result.cases)
+        if(label_matches(evidence.cases, record.name())
            && why_not_judged(result, record, evidence.criterion).empty())
         {
           const double value = criterion_value(result, record, evidence.criterion);
           judged.values.push_back(
-              {record.name, value,
+              {record.name(), value,
                value >= evidence.criterion.lower && value <= evidence.criterion.upper});
         }
       return judged;
@@ -124,8 +124,8 @@ namespace meltfront::verification
   {
     json = {{"claim", finding.claim}, {"evidence", nlohmann::json::array()}};
     for(const Evidence &evidence : finding.evidence)
-      json["evidence"].push_back(
-          {{"cases", evidence.cases}, {"criterion", json_of(evidence.criterion)}});
+      json["evidence"].push_back({{"cases", evidence.cases},
+                                  {"criterion", {{"text", evidence.criterion.text}}}});
   }
 
   void from_json(const nlohmann::json &json, Finding &finding)
@@ -134,7 +134,8 @@ namespace meltfront::verification
     finding.claim = json.at("claim");
     for(const auto &evidence : json.at("evidence"))
       finding.evidence.push_back(
-          {evidence.at("cases"), criterion_in(evidence.at("criterion"))});
+          {evidence.at("cases"),
+           cases::parse_criterion(evidence.at("criterion").at("text"))});
   }
 
   void to_json(nlohmann::json &json, const Picture &picture)

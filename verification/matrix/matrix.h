@@ -81,10 +81,6 @@ namespace meltfront::verification
   /** Finds a case by name. @throws InputError */
   using CaseLoader = std::function<cases::Case(const std::string &name)>;
 
-  /** Gives other values to keys of a case. @throws InputError */
-  using CaseVariation
-      = std::function<cases::Case(const cases::Case &base, const PlannedCase &planned)>;
-
   /** Finds a method by name. @throws InputError */
   using MethodLookup = std::function<const cases::Method &(const std::string &name)>;
 

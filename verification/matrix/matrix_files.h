@@ -15,7 +15,7 @@ namespace meltfront::verification
    * matrix that is still running or was killed.
    */
   void write_plan(const std::string &directory, const Matrix &matrix,
-                  const std::vector<CaseRecord> &cases,
+                  const std::vector<StoredCase> &cases,
                   const std::vector<PlannedRun> &runs,
                   const std::string &program_version);
 

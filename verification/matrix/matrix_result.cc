@@ -51,14 +51,14 @@ namespace meltfront::verification
   } // namespace
 
   void write_plan(const std::string &directory, const Matrix &matrix,
-                  const std::vector<CaseRecord> &cases,
+                  const std::vector<StoredCase> &cases,
                   const std::vector<PlannedRun> &runs, const std::string &program_version)
   {
     json names = json::array(), list = json::array();
-    for(const CaseRecord &record : cases)
+    for(const StoredCase &record : cases)
     {
-      write_json(fmt::format("{}/cases/{}.json", directory, record.name), record);
-      names.push_back(record.name);
+      write_json(fmt::format("{}/cases/{}.json", directory, record.name()), record);
+      names.push_back(record.name());
     }
     for(const PlannedRun &run : runs)
       list.push_back({{"case", run.case_name},
@@ -125,7 +125,7 @@ namespace meltfront::verification
       for(const auto &name : matrix.at("cases"))
         result.cases.push_back(
             read_json(fmt::format("{}/cases/{}.json", directory, name.get<std::string>()))
-                .get<CaseRecord>());
+                .get<StoredCase>());
       for(const auto &run : matrix.at("runs"))
         result.runs.push_back(read_run(directory, run));
       compare_with_references(result);

@@ -1,9 +1,9 @@
 #ifndef meltfront_verification_matrix_matrix_result_h
 #define meltfront_verification_matrix_matrix_result_h
 
-#include <verification/matrix/case_record.h>
 #include <verification/matrix/finding.h>
 #include <verification/matrix/run_record.h>
+#include <verification/matrix/stored_case.h>
 #include <verification/measure/grid_convergence.h>
 
 #include <string>
@@ -56,7 +56,7 @@ namespace meltfront::verification
     std::string date;
     std::string program_version;
     bool hard_cases = false;       ///< the report shows the table held / refused / failed
-    std::vector<CaseRecord> cases; ///< in the matrix's order
+    std::vector<StoredCase> cases; ///< in the matrix's order
     std::vector<RunRecord> runs;   ///< in the matrix's order
     std::vector<CriterionResult> criteria;
     std::vector<Finding> claims;         ///< findings as the matrix states them

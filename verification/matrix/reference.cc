@@ -26,11 +26,11 @@ namespace meltfront::verification
 
     /** The reference and the next coarser runs of its label, finest first. */
     std::vector<const RunRecord *> reference_levels(const MatrixResult &result,
-                                                    const CaseRecord &record)
+                                                    const StoredCase &record)
     {
       std::vector<const RunRecord *> levels;
       for(const RunRecord &run : result.runs)
-        if(run.case_name == record.name && run.status == RunStatus::finished
+        if(run.case_name == record.name() && run.status == RunStatus::finished
            && canonical_label(run.label) == canonical_label(record.reference->label)
            && run.n <= record.reference->n
            && std::ranges::none_of(levels, [&run](const RunRecord *other)
@@ -43,13 +43,13 @@ namespace meltfront::verification
       return levels;
     }
 
-    ReferenceTrust trust_in(const CaseRecord &record,
+    ReferenceTrust trust_in(const StoredCase &record,
                             const std::vector<const RunRecord *> &levels,
                             const std::string &name)
     {
       const Refinement refinement(levels);
       ReferenceTrust trust;
-      trust.case_name = record.name;
+      trust.case_name = record.name();
       trust.label = levels.front()->label;
       trust.quantity = name;
       trust.symbol = refinement.symbol();
@@ -94,16 +94,16 @@ namespace meltfront::verification
       run.quantities[series_error] = series_difference(run.series, reference.series);
     }
 
-    std::string named(const CaseRecord &record)
+    std::string named(const StoredCase &record)
     {
-      return fmt::format("{}: the reference, {} at n = {},", record.name,
+      return fmt::format("{}: the reference, {} at n = {},", record.name(),
                          record.reference->label, record.reference->n);
     }
 
-    void compare_case(MatrixResult &result, const CaseRecord &record)
+    void compare_case(MatrixResult &result, const StoredCase &record)
     {
       const auto of_case
-          = [&](const RunRecord &run) { return run.case_name == record.name; };
+          = [&](const RunRecord &run) { return run.case_name == record.name(); };
       for(RunRecord &run : result.runs)
         if(of_case(run) && run.status == RunStatus::finished)
           for(const std::string &name : derived_quantity_names())
@@ -166,9 +166,9 @@ namespace meltfront::verification
     return std::ranges::find(names, name) != names.end();
   }
 
-  bool is_reference(const CaseRecord &record, const RunRecord &run)
+  bool is_reference(const StoredCase &record, const RunRecord &run)
   {
-    return record.reference && run.case_name == record.name
+    return record.reference && run.case_name == record.name()
            && run.n == record.reference->n
            && canonical_label(run.label) == canonical_label(record.reference->label);
   }
@@ -176,7 +176,7 @@ namespace meltfront::verification
   void compare_with_references(MatrixResult &result)
   {
     result.references.clear();
-    for(const CaseRecord &record : result.cases)
+    for(const StoredCase &record : result.cases)
       if(record.reference)
         compare_case(result, record);
   }

@@ -18,7 +18,7 @@ namespace meltfront::verification
   bool is_derived_quantity(const std::string &name);
 
   /** Whether others of the case are held against this run. */
-  bool is_reference(const CaseRecord &record, const RunRecord &run);
+  bool is_reference(const StoredCase &record, const RunRecord &run);
 
   /**
    * Hold the runs of every case that names a reference (Case::reference) against that

@@ -47,22 +47,16 @@ namespace meltfront::verification
     return time ? run.description.time_step : run.description.spacing;
   }
 
-  double domain_side(const CaseRecord &record)
+  int measure_dimension(const StoredCase &record)
   {
-    if(record.shape == "outline")
-      return record.reference_length;
-    const bool round = record.shape == "ball" || record.shape == "shell";
-    return round ? 2 * record.radius : record.upper[0] - record.lower[0];
+    if(record.scene.symmetry == cases::Symmetry::none)
+      return record.scene.domain.dimension;
+    return record.scene.symmetry == cases::Symmetry::planar        ? 1
+           : record.scene.symmetry == cases::Symmetry::cylindrical ? 2
+                                                                   : 3;
   }
 
-  int measure_dimension(const CaseRecord &record)
-  {
-    if(record.symmetry == "none")
-      return record.dimension;
-    return record.symmetry == "planar" ? 1 : record.symmetry == "cylindrical" ? 2 : 3;
-  }
-
-  double round_off_floor(const CaseRecord &record, const std::string &quantity)
+  double round_off_floor(const StoredCase &record, const std::string &quantity)
   {
     const bool relative = quantity.starts_with("temperature")
                           || quantity == "budget_defect"
@@ -73,7 +67,7 @@ namespace meltfront::verification
     int power = 1;
     if(quantity.starts_with("solid_volume"))
       power = measure_dimension(record);
-    return round_off * std::pow(domain_side(record), power);
+    return round_off * std::pow(record.scene.domain.side(), power);
   }
 
   double plausible_order(const RunRecord &run, const Refinement &refinement)
@@ -92,7 +86,7 @@ namespace meltfront::verification
                      option("basis_order") + 1.5, option("constraint_order") + 1.5});
   }
 
-  OrderFit fit_levels(const ErrorLevels &levels, const CaseRecord &record,
+  OrderFit fit_levels(const ErrorLevels &levels, const StoredCase &record,
                       const std::string &quantity, const RunRecord &run,
                       const Refinement &refinement)
   {

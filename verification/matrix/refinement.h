@@ -1,8 +1,8 @@
 #ifndef meltfront_verification_matrix_refinement_h
 #define meltfront_verification_matrix_refinement_h
 
-#include <verification/matrix/case_record.h>
 #include <verification/matrix/run_record.h>
+#include <verification/matrix/stored_case.h>
 #include <verification/measure/order_fit.h>
 
 #include <string>
@@ -35,19 +35,16 @@ namespace meltfront::verification
     bool time = false;
   };
 
-  /** The length that n divides: slab length, box side or outer diameter (m). */
-  double domain_side(const CaseRecord &record);
-
   /** Of which power of a length volumes are in the measure of the scene: 1 in planar
    * scenes, 2 in cylindrical, 3 in spherical ones, else the dimension. */
-  int measure_dimension(const CaseRecord &record);
+  int measure_dimension(const StoredCase &record);
 
   /**
    * The error of a quantity that says nothing any more: 1e-13 of the domain's side for
    * positions of the front and of the corresponding volume for the solid's, 1e-13 for
    * quantities that are relative.
    */
-  double round_off_floor(const CaseRecord &record, const std::string &quantity);
+  double round_off_floor(const StoredCase &record, const std::string &quantity);
 
   /**
    * The highest order that is believed of a run's scheme: in space 3, or for elements of
@@ -64,7 +61,7 @@ namespace meltfront::verification
   };
 
   /** fit_order() with the floor of the quantity and the plausible order of the run. */
-  OrderFit fit_levels(const ErrorLevels &levels, const CaseRecord &record,
+  OrderFit fit_levels(const ErrorLevels &levels, const StoredCase &record,
                       const std::string &quantity, const RunRecord &run,
                       const Refinement &refinement);
 } // namespace meltfront::verification

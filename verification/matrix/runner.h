@@ -23,7 +23,6 @@ namespace meltfront::verification
     std::string program_hash; ///< empty: the SHA-256 of the running program's file
     std::string command_line;
     std::FILE *progress = nullptr; ///< null: say nothing
-    CaseVariation vary_case{};     ///< for matrices that give values to keys of cases
     RepeatPolicy repeats{};
     /** What is to be done with the result while the directory is still held against other
      * processes: the report, for one. */

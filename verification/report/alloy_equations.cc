@@ -24,9 +24,9 @@ namespace meltfront::verification
              + text(" = ∇·(") + symbol("k") + text(" ∇") + symbol("T") + text(")");
     }
 
-    Markup enthalpy(const CaseRecord &record)
+    Markup enthalpy(const StoredCase &record)
     {
-      const cases::Material &m = record.material;
+      const cases::Material &m = record.scene.material;
       const Markup melting = text("(") + symbol("T") + text(" − ")
                              + equation_number(m.melting_temperature) + text(")");
       return symbol("H") + text(" = ") + symbol("f") + text(" ") + symbol("c", "s")
@@ -39,29 +39,36 @@ namespace meltfront::verification
                       + equation_number(m.latent_heat) + text("]"));
     }
 
-    Markup lever_rule(const CaseRecord &record)
+    Markup lever_rule(const StoredCase &record)
     {
       Markup sum;
       bool curved = false;
-      for(std::size_t s = 0; s < record.alloy->solutes.size(); ++s)
+      for(std::size_t s = 0; s < record.scene.alloy->solutes.size(); ++s)
       {
-        const SoluteRecord &solute = record.alloy->solutes[s];
-        curved = curved || std::isnan(solute.liquidus_slope);
+        const cases::Solute &solute = record.scene.alloy->solutes[s];
+        curved = curved || solute.liquidus_curve;
         sum += text(" − ") + equation_number(solute.liquidus_slope) + text(" ")
                + symbol("C", std::to_string(s + 1));
       }
       const Markup liquidus
-          = curved ? text(" the liquidus " + record.alloy->solutes[0].liquidus)
-                   : symbol("T") + text(" = ")
-                         + equation_number(record.material.melting_temperature) + sum;
+          = curved
+                ? text(" the liquidus " + record.scene.alloy->solutes[0].liquidus)
+                : symbol("T") + text(" = ")
+                      + equation_number(record.scene.material.melting_temperature) + sum;
       return liquidus + text(" where 0 < ") + symbol("f")
              + text(" < 1; all solute stays in the liquid");
     }
 
-    Markup conductivity(const CaseRecord &record)
+    double crystal_density(const cases::Scene &scene)
     {
-      const cases::Material &m = record.material;
-      const double expansion = m.liquid.density / record.alloy->crystal_density;
+      const double density = scene.alloy->crystal_density;
+      return density > 0 ? density : scene.material.liquid.density;
+    }
+
+    Markup conductivity(const StoredCase &record)
+    {
+      const cases::Material &m = record.scene.material;
+      const double expansion = m.liquid.density / crystal_density(record.scene);
       const Markup theta = symbol("θ");
       return symbol("k") + text(" = ") + theta + text(" ") + symbol("k", "s")
              + text(" + (1 − ") + theta + text(") ") + symbol("k", "l")
@@ -71,7 +78,7 @@ namespace meltfront::verification
                       + symbol("f"));
     }
 
-    Markup solute(const SoluteRecord &solute, std::size_t number)
+    Markup solute(const cases::Solute &solute, std::size_t number)
     {
       const std::string index = std::to_string(number);
       const Markup in_liquid = symbol("C", index);
@@ -85,27 +92,27 @@ namespace meltfront::verification
     }
   } // namespace
 
-  Markup alloy_equations(const CaseRecord &record)
+  Markup alloy_equations(const StoredCase &record)
   {
     Markup result = equation_line("heat", heat())
                     + equation_line("enthalpy", enthalpy(record))
                     + equation_line("liquidus", lever_rule(record))
                     + equation_line("mush", conductivity(record));
-    for(std::size_t s = 0; s < record.alloy->solutes.size(); ++s)
-      result += equation_line(record.alloy->solutes[s].name,
-                              solute(record.alloy->solutes[s], s + 1));
-    if(std::isfinite(record.alloy->eutectic_temperature))
-      result += equation_line("eutectic",
-                              text("the rest freezes at ")
-                                  + equation_number(record.alloy->eutectic_temperature)
-                                  + text(unit_of(record, " (K or °C)")));
+    for(std::size_t s = 0; s < record.scene.alloy->solutes.size(); ++s)
+      result += equation_line(record.scene.alloy->solutes[s].name,
+                              solute(record.scene.alloy->solutes[s], s + 1));
+    if(std::isfinite(record.scene.alloy->eutectic_temperature))
+      result += equation_line(
+          "eutectic", text("the rest freezes at ")
+                          + equation_number(record.scene.alloy->eutectic_temperature)
+                          + text(unit_of(record, " (K or °C)")));
     return result
            + element("p", {{"class", "nothing"}},
                      text("f: mass fraction of solid; θ: its volume fraction; C: mass "
                           "fraction of solute in the liquid."));
   }
 
-  void add_alloy_properties(const CaseRecord &record, RowGroup &group)
+  void add_alloy_properties(const StoredCase &record, RowGroup &group)
   {
     const auto add = [&group](const std::string &what, const std::string &unit,
                               const Cell &solid, const Cell &liquid) {
@@ -113,15 +120,17 @@ namespace meltfront::verification
     };
     const Cell none{std::string()};
     add("density of the crystals", unit_of(record, "kg/m³"),
-        {prose_number(record.alloy->crystal_density, 4)}, none);
-    for(const SoluteRecord &solute : record.alloy->solutes)
+        {prose_number(crystal_density(record.scene), 4)}, none);
+    const std::vector<cases::Solute> &solutes = record.scene.alloy->solutes;
+    const std::vector<cases::Field> &concentration = record.scene.initial.concentration;
+    for(std::size_t s = 0; s < solutes.size(); ++s)
     {
+      const cases::Solute &solute = solutes[s];
       add("mass fraction of " + solute.name + " at the start", "", none,
-          {solute.concentration});
+          {s < concentration.size() ? concentration[s].expression : std::string()});
       add("its liquidus slope", unit_of(record, "K"), none,
-          {std::isnan(solute.liquidus_slope)
-               ? Cell{solute.liquidus}
-               : Cell{prose_number(solute.liquidus_slope, 4)}});
+          {solute.liquidus_curve ? Cell{solute.liquidus}
+                                 : Cell{prose_number(solute.liquidus_slope, 4)}});
       add("its diffusivity", unit_of(record, "m²/s"), none,
           {prose_number(solute.diffusivity, 4)});
     }

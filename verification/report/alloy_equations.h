@@ -1,7 +1,7 @@
 #ifndef meltfront_verification_report_alloy_equations_h
 #define meltfront_verification_report_alloy_equations_h
 
-#include <verification/matrix/case_record.h>
+#include <verification/matrix/stored_case.h>
 #include <verification/report/markup.h>
 #include <verification/report/table.h>
 
@@ -9,10 +9,10 @@ namespace meltfront::verification
 {
   /** What is solved of an alloy: heat, enthalpy, the lever rule, conductivity, solutes,
    * the eutectic, with the case's numbers filled in. */
-  Markup alloy_equations(const CaseRecord &record);
+  Markup alloy_equations(const StoredCase &record);
 
   /** Rows for the solutes and the crystals in the table of the material. */
-  void add_alloy_properties(const CaseRecord &record, RowGroup &group);
+  void add_alloy_properties(const StoredCase &record, RowGroup &group);
 } // namespace meltfront::verification
 
 #endif

@@ -15,11 +15,11 @@ namespace meltfront::verification
                   const LabelRuns &label, const std::string &name)
     {
       const RunRecord *run = label.finest();
-      if(!run || (run->frames.empty() && runs.record->moving->exact_fronts.empty()))
+      if(!run || (run->frames.empty() && runs.record->scene.domain.dimension != 2))
         return {};
       return context.plots.figure(
           name, carried_front_script(*runs.record, run->frames),
-          "Fronts of " + label.label + " over the exact ones, " + runs.record->name,
+          "Fronts of " + label.label + " over the exact ones, " + runs.record->name(),
           text(fmt::format("{}, n = {}{}.", label.label, run->n,
                            run->frames.empty() ? ": no points of its front were kept"
                                                : "")));
@@ -31,7 +31,7 @@ namespace meltfront::verification
       int number = 0;
       for(const LabelRuns &label : runs.labels)
         figures += fronts(context, runs, label,
-                          fmt::format("{}-fronts-{}", runs.record->name, ++number));
+                          fmt::format("{}-fronts-{}", runs.record->name(), ++number));
       if(figures.empty())
         return {};
       return element("h3", "Fronts over the exact ones")
@@ -46,12 +46,12 @@ namespace meltfront::verification
     Markup volume(const ReportContext &context, const CaseRuns &runs)
     {
       Plot plot = solid_against_time(runs, context.styles);
-      plot.description = "Area of the region against time, " + runs.record->name;
+      plot.description = "Area of the region against time, " + runs.record->name();
       plot.y.label = "area";
       if(nothing_to_draw(plot))
         return {};
       return context.plots.figure(
-          runs.record->name + "-volume", plot,
+          runs.record->name() + "-volume", plot,
           text("Area of the region against time, each method's finest run."));
     }
 
@@ -71,14 +71,14 @@ namespace meltfront::verification
 
   Markup carried_chapter(const ReportContext &context, const CaseRuns &runs)
   {
-    const CaseRecord &record = *runs.record;
+    const StoredCase &record = *runs.record;
     Markup content = chapter_head(record);
     const Markup scene
-        = record.moving->exact_fronts.empty()
+        = record.scene.domain.dimension != 2
               ? Markup()
               : context.plots.figure(
-                  record.name + "-scene", carried_front_script(record, {}),
-                  "The region of " + record.name,
+                  record.name() + "-scene", carried_front_script(record, {}),
+                  "The region of " + record.name(),
                   text(fmt::format("The exact front at t = {}; black: at the end.",
                                    carried_front_times(record))));
     const Markup equations

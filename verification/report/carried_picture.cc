@@ -1,3 +1,4 @@
+#include <verification/measure/exact_front.h>
 #include <verification/report/carried_picture.h>
 #include <verification/report/gnuplot.h>
 #include <verification/report/method_styles.h>
@@ -16,25 +17,34 @@ namespace meltfront::verification
 
     using Script = std::back_insert_iterator<std::string>;
 
-    /** Black for the last of the times, colours of the palette before it. */
-    std::string colour_of(const CaseRecord &record, double time)
+    /** When the exact front is drawn, in the plane: at the marks and at the end. */
+    std::vector<double> shown_times(const StoredCase &record)
     {
-      const std::vector<FrontFrame> &exact = record.moving->exact_fronts;
-      if(!(time < record.end_time))
+      if(record.scene.domain.dimension != 2)
+        return {};
+      std::vector<double> times = record.measurement.marks;
+      times.push_back(record.scene.end_time);
+      return times;
+    }
+
+    /** Black for the last of the times, colours of the palette before it. */
+    std::string colour_of(const StoredCase &record, double time)
+    {
+      const std::vector<double> times = shown_times(record);
+      if(!(time < record.scene.end_time))
         return "black";
       std::size_t number = 0;
-      while(number + 1 < exact.size() && exact[number].time < time - 1e-9)
+      while(number + 1 < times.size() && times[number] < time - 1e-9)
         ++number;
       return palette()[number % palette().size()].light;
     }
 
-    /** Pairs of points, each a piece of its own. */
-    void write_pieces(Script out, const FrontFrame &front, std::size_t name)
+    void write_pieces(Script out, const std::vector<FrontPiece> &front, std::size_t name)
     {
       fmt::format_to(out, "$exact{} << end_of_data\n", name);
-      for(std::size_t i = 0; i + 1 < front.x.size(); i += 2)
-        fmt::format_to(out, "{:.5g} {:.5g} {:.5g} {:.5g}\n", front.x[i], front.y[i],
-                       front.x[i + 1] - front.x[i], front.y[i + 1] - front.y[i]);
+      for(const auto &[begin, end] : front)
+        fmt::format_to(out, "{:.5g} {:.5g} {:.5g} {:.5g}\n", begin[0], begin[1],
+                       end[0] - begin[0], end[1] - begin[1]);
       fmt::format_to(out, "end_of_data\n");
     }
 
@@ -50,11 +60,11 @@ namespace meltfront::verification
     }
   } // namespace
 
-  std::string carried_front_script(const CaseRecord &record,
+  std::string carried_front_script(const StoredCase &record,
                                    const std::vector<FrontFrame> &found)
   {
-    const double width = record.upper[0] - record.lower[0];
-    const double height = record.upper[1] - record.lower[1];
+    const double width = record.scene.domain.upper[0] - record.scene.domain.lower[0];
+    const double height = record.scene.domain.upper[1] - record.scene.domain.lower[1];
     const double drawn = picture_width - 2 * margin;
     const double picture_height = drawn * height / width + 2 * margin;
     std::string script;
@@ -71,18 +81,21 @@ namespace meltfront::verification
         "set xrange [{:.10g}:{:.10g}]\nset yrange [{:.10g}:{:.10g}]\n",
         picture_width, picture_height, margin / picture_width, 1 - margin / picture_width,
         1 - margin / picture_height, margin / picture_height, plot_colours::axis,
-        record.lower[0], width / 2, record.lower[1], height / 2, record.lower[0],
-        record.upper[0], record.lower[1], record.upper[1]);
+        record.scene.domain.lower[0], width / 2, record.scene.domain.lower[1], height / 2,
+        record.scene.domain.lower[0], record.scene.domain.upper[0],
+        record.scene.domain.lower[1], record.scene.domain.upper[1]);
     std::string commands;
     const auto add = [&commands](const std::string &command)
     { commands += (commands.empty() ? "plot " : ", \\\n     ") + command; };
-    const std::vector<FrontFrame> &exact = record.moving->exact_fronts;
-    for(std::size_t f = 0; f < exact.size(); ++f)
-      if(!exact[f].x.empty())
+    const std::vector<double> times = shown_times(record);
+    const double longest = 0.006 * record.scene.domain.side();
+    for(std::size_t f = 0; f < times.size(); ++f)
+      if(const auto exact = exact_front_pieces(record.scene, times[f], longest);
+         !exact.empty())
       {
-        write_pieces(out, exact[f], f);
+        write_pieces(out, exact, f);
         add(fmt::format("$exact{} using 1:2:3:4 with vectors nohead lw 1.2 lc rgb '{}'",
-                        f, colour_of(record, exact[f].time)));
+                        f, colour_of(record, times[f])));
       }
     for(std::size_t f = 0; f < found.size(); ++f)
       if(write_points(out, found[f], f))
@@ -91,11 +104,11 @@ namespace meltfront::verification
     return script + (commands.empty() ? "plot NaN notitle" : commands) + "\n";
   }
 
-  std::string carried_front_times(const CaseRecord &record)
+  std::string carried_front_times(const StoredCase &record)
   {
     std::string times;
-    for(const FrontFrame &front : record.moving->exact_fronts)
-      times += (times.empty() ? "" : ", ") + plain_number(front.time, 4);
+    for(const double time : shown_times(record))
+      times += (times.empty() ? "" : ", ") + plain_number(time, 4);
     return times;
   }
 } // namespace meltfront::verification

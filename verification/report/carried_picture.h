@@ -1,8 +1,8 @@
 #ifndef meltfront_verification_report_carried_picture_h
 #define meltfront_verification_report_carried_picture_h
 
-#include <verification/matrix/case_record.h>
 #include <verification/matrix/run_record.h>
+#include <verification/matrix/stored_case.h>
 
 #include <string>
 #include <vector>
@@ -14,11 +14,11 @@ namespace meltfront::verification
    * (one colour for each time, black for the end), and points that a run found on its
    * front in the colour of their time.
    */
-  std::string carried_front_script(const CaseRecord &record,
+  std::string carried_front_script(const StoredCase &record,
                                    const std::vector<FrontFrame> &found);
 
   /** The times of the exact fronts: `0.5, 1`. */
-  std::string carried_front_times(const CaseRecord &record);
+  std::string carried_front_times(const StoredCase &record);
 } // namespace meltfront::verification
 
 #endif

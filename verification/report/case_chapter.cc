@@ -19,28 +19,29 @@ namespace meltfront::verification
   {
     Markup picture(const ReportContext &context, const CaseRuns &runs)
     {
-      const CaseRecord &record = *runs.record;
+      const StoredCase &record = *runs.record;
       const RunRecord *run = run_to_picture(runs);
       const double front = front_at_end(runs);
-      const bool exact = !record.exact.empty() && std::isfinite(record.front_exact_end);
-      std::string caption = record.steady ? "The scene."
-                                          : fmt::format("The scene at t = {}{}.",
-                                                        plain_number(record.end_time, 6),
-                                                        unit_of(record, " s"));
+      const bool exact = std::isfinite(exact_front_at_end(record));
+      std::string caption = steady(record)
+                                ? "The scene."
+                                : fmt::format("The scene at t = {}{}.",
+                                              plain_number(record.scene.end_time, 6),
+                                              unit_of(record, " s"));
       if(std::isfinite(front))
         caption += fmt::format(" The line is the {} front, at {}{}.",
                                exact ? "exact" : "computed", plain_number(front, 4),
                                unit_of(record, " m"));
-      if(run && !record.changes_phase)
+      if(run && !record.scene.changes_phase())
         caption += fmt::format(" Sites of {} at n = {}.", run->label, run->n);
       else if(run)
         caption
             += fmt::format(" Sites of {} at n = {}: filled where at least half is solid, "
                            "open where liquid.",
                            run->label, run->n);
-      else if(record.changes_phase)
+      else if(record.scene.changes_phase())
         caption += " Blue: solid; orange: liquid.";
-      if(!record.source_positions.empty())
+      if(!record.scene.sources.empty())
         caption += " Star: source.";
       if(record.measurement.picture_mark == 0)
         caption += restated(record, "particles");
@@ -51,9 +52,9 @@ namespace meltfront::verification
         caption += fmt::format(" Black dots: the front that {} tracked at n = {}.",
                                tracked->label, tracked->n);
       }
-      return context.plots.figure(record.name + "-scene",
+      return context.plots.figure(record.name() + "-scene",
                                   scene_picture_script(record, content),
-                                  "The scene of " + record.name, text(caption));
+                                  "The scene of " + record.name(), text(caption));
     }
 
     /** Tracked fronts at the marks and at the end in one picture. */
@@ -62,30 +63,29 @@ namespace meltfront::verification
       const RunRecord *run = tracked_run(runs);
       if(!run || run->frames.size() < 2)
         return {};
-      const CaseRecord &record = *runs.record;
+      const StoredCase &record = *runs.record;
       std::string times;
       for(const FrontFrame &frame : run->frames)
         times += (times.empty() ? "" : ", ") + plain_number(frame.time, 4);
       SceneContent content;
       content.tracked = run->frames;
       return context.plots.figure(
-          record.name + "-fronts", scene_picture_script(record, content),
-          "Fronts over time, " + record.name,
+          record.name() + "-fronts", scene_picture_script(record, content),
+          "Fronts over time, " + record.name(),
           text(fmt::format("The front that {} tracked at n = {}, at t = {}{}; black: the "
                            "last.",
                            run->label, run->n, times, unit_of(record, " s"))));
     }
 
-    Markup exact_solution(const CaseRecord &record)
+    Markup exact_solution(const StoredCase &record)
     {
-      std::string sentence = record.exact + ".";
+      std::string sentence = record.exact->description() + ".";
       sentence[0]
           = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
       Markup content = element("p", sentence);
       const double floor = record.measurement.front_floor;
-      if(std::isfinite(record.front_exact_end))
-        content += element("p", text("Its front at the end: ")
-                                    + number_markup(record.front_exact_end, 8)
+      if(const double front = exact_front_at_end(record); std::isfinite(front))
+        content += element("p", text("Its front at the end: ") + number_markup(front, 8)
                                     + text(unit_of(record, " m") + "."));
       if(floor > 0)
         content
@@ -93,7 +93,7 @@ namespace meltfront::verification
                                  "error below the floor of ")
                                 + number_markup(floor, 2)
                                 + text(unit_of(record, " m") + " means anything."));
-      else if(record.changes_phase)
+      else if(record.scene.changes_phase())
         content += element("p", "It is exact in this domain: the table has no floor.");
       return content;
     }
@@ -101,8 +101,8 @@ namespace meltfront::verification
     /** The exact solution, or what stands in its place. */
     Markup yardstick(const ReportContext &context, const CaseRuns &runs)
     {
-      const CaseRecord &record = *runs.record;
-      if(!record.exact.empty())
+      const StoredCase &record = *runs.record;
+      if(record.exact)
         return element("h3", "Exact solution") + exact_solution(record);
       if(record.reference)
         return element("h3", "Reference") + reference_of_case(context, runs);
@@ -117,7 +117,7 @@ namespace meltfront::verification
       if(!runs.has("front_square_slope"))
         return {};
       return context.plots.figure(
-          runs.record->name + "-front-squared",
+          runs.record->name() + "-front-squared",
           front_squared_against_time(runs, context.styles),
           text("Square of the front against time, each method's finest n; where a method "
                "ran with several seeds, their mean and a band of one standard "
@@ -127,17 +127,16 @@ namespace meltfront::verification
     Markup front_plots(const ReportContext &context, const CaseRuns &runs)
     {
       return pair(context.plots.figure(
-                      runs.record->name + "-front",
+                      runs.record->name() + "-front",
                       front_against_time(runs, context.styles),
                       text("Front against time, each method's finest run.")),
                   context.plots.figure(
-                      runs.record->name + "-front-error",
-                      runs.record->exact.empty()
+                      runs.record->name() + "-front-error",
+                      !runs.record->exact
                           ? solid_against_time(runs, context.styles)
                           : front_error_against_time(runs, context.styles),
-                      text(runs.record->exact.empty()
-                               ? "Volume that is solid against time."
-                               : "Its error against time.")))
+                      text(!runs.record->exact ? "Volume that is solid against time."
+                                               : "Its error against time.")))
              + front_squared(context, runs) + front_frames(context, runs);
     }
 
@@ -155,7 +154,7 @@ namespace meltfront::verification
       if(!chosen)
         return {};
       return context.plots.figure(
-          runs.record->name + "-front-resolutions", front_of_resolutions(runs, *chosen),
+          runs.record->name() + "-front-resolutions", front_of_resolutions(runs, *chosen),
           text("Front against time of " + chosen->label + " at all its resolutions."
                + restated(*runs.record, "front")));
     }
@@ -163,7 +162,7 @@ namespace meltfront::verification
     Markup budget(const ReportContext &context, const CaseRuns &runs)
     {
       return context.plots.figure(
-          runs.record->name + "-budget", budget_against_time(runs, context.styles),
+          runs.record->name() + "-budget", budget_against_time(runs, context.styles),
           text("Defect of the heat budget, relative to its largest term; "
                "drawn at 10⁻¹⁷ where it is less."));
     }
@@ -179,11 +178,11 @@ namespace meltfront::verification
     /** Of a scene without a front; a profile only where one coordinate tells all. */
     Markup temperature_alone(const ReportContext &context, const CaseRuns &runs)
     {
-      const CaseRecord &record = *runs.record;
+      const StoredCase &record = *runs.record;
       Markup content;
-      if(record.dimension == 1)
+      if(record.scene.domain.dimension == 1)
         content += profiles_of_case(context, runs);
-      if(!record.steady)
+      if(!steady(record))
         content += budget(context, runs);
       return content.empty() ? content : element("h3", "Temperature") + content;
     }
@@ -192,7 +191,7 @@ namespace meltfront::verification
 
   Markup case_chapter(const ReportContext &context, const CaseRuns &runs)
   {
-    const CaseRecord &record = *runs.record;
+    const StoredCase &record = *runs.record;
     if(moves_particles(record))
       return solid_chapter(context, runs);
     if(carries_front(record))
@@ -205,8 +204,8 @@ namespace meltfront::verification
     content += effects_and_parameters(context, runs) + yardstick(context, runs)
                + element("h3", "Convergence") + convergence(context, runs)
                + error_plots(context, runs)
-               + (record.changes_phase ? front_and_heat(context, runs)
-                                       : temperature_alone(context, runs))
+               + (record.scene.changes_phase() ? front_and_heat(context, runs)
+                                               : temperature_alone(context, runs))
                + printed(context, runs) + criteria(context, record) + limits(runs);
     return chapter_of(record, content);
   }

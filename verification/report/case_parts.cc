@@ -20,13 +20,13 @@ namespace meltfront::verification
                            : element("details", element("summary", summary) + content);
   }
 
-  Markup chapter_head(const CaseRecord &record)
+  Markup chapter_head(const StoredCase &record)
   {
-    std::string tags = record.name;
+    std::string tags = record.name();
     for(const std::string &tag : record.tags)
       tags += " · " + tag;
     Markup content = element("p", {{"class", "tags"}}, text(tags))
-                     + element("h2", record.title.empty() ? record.name : record.title);
+                     + element("h2", record.title.empty() ? record.name() : record.title);
     if(!record.description.empty())
       content += element("p", record.description);
     return content;
@@ -73,14 +73,14 @@ namespace meltfront::verification
                text("Orders are in n, the number along a side, fitted to the printed "
                     "and to the measured numbers in the same way."))
            + table_markup(table)
-           + linked_csv(context, runs.record->name + "-printed", printed_csv(runs));
+           + linked_csv(context, runs.record->name() + "-printed", printed_csv(runs));
   }
 
-  Markup criteria(const ReportContext &context, const CaseRecord &record)
+  Markup criteria(const ReportContext &context, const StoredCase &record)
   {
     std::vector<CriterionResult> own;
     for(const CriterionResult &criterion : context.result.criteria)
-      if(criterion.case_name == record.name)
+      if(criterion.case_name == record.name())
         own.push_back(criterion);
     return own.empty()
                ? Markup()
@@ -134,8 +134,9 @@ namespace meltfront::verification
     return content + folded("Schemes and their parameters", parameters(runs));
   }
 
-  Markup chapter_of(const CaseRecord &record, const Markup &content)
+  Markup chapter_of(const StoredCase &record, const Markup &content)
   {
-    return element("section", {{"id", case_anchor(record.name)}}, content) + Markup("\n");
+    return element("section", {{"id", case_anchor(record.name())}}, content)
+           + Markup("\n");
   }
 } // namespace meltfront::verification

@@ -16,7 +16,7 @@ namespace meltfront::verification
   Markup folded(const std::string &summary, const Markup &content);
 
   /** Name, tags, title and description of a case. */
-  Markup chapter_head(const CaseRecord &record);
+  Markup chapter_head(const StoredCase &record);
 
   /** What each label's finest run was made with; nothing where no run finished. */
   Markup parameters(const CaseRuns &runs);
@@ -34,14 +34,14 @@ namespace meltfront::verification
   Markup printed(const ReportContext &context, const CaseRuns &runs);
 
   /** The case's acceptance criteria, with a heading; nothing without any. */
-  Markup criteria(const ReportContext &context, const CaseRecord &record);
+  Markup criteria(const ReportContext &context, const StoredCase &record);
 
   /** The case's limits, and its runs that did not finish with their reasons, equal ones
    * once. */
   Markup limits(const CaseRuns &runs);
 
   /** The section of a case. */
-  Markup chapter_of(const CaseRecord &record, const Markup &content);
+  Markup chapter_of(const StoredCase &record, const Markup &content);
 } // namespace meltfront::verification
 
 #endif

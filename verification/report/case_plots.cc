@@ -54,7 +54,7 @@ namespace meltfront::verification
       }
     }
 
-    std::string error_label(const CaseRecord &record, const std::string &error)
+    std::string error_label(const StoredCase &record, const std::string &error)
     {
       if(error.starts_with("shape"))
         return "mismatch of the region, relative";
@@ -69,13 +69,13 @@ namespace meltfront::verification
 
     /** The abscissa of a level; of a run without a description, the h that it would have
      * had. */
-    double abscissa_of(const Level &level, const CaseRecord &record,
+    double abscissa_of(const Level &level, const StoredCase &record,
                        const std::string &name)
     {
       if(level.finished || name != "h")
         return level.value(name);
       const double h = level.runs.front()->description.spacing;
-      return h > 0 ? h : domain_side(record) / level.n;
+      return h > 0 ? h : record.scene.domain.side() / level.n;
     }
 
     /** The errors of one label, and marks for what did not finish. */
@@ -115,8 +115,8 @@ namespace meltfront::verification
                     const std::string &abscissa, double scale)
     {
       const bool resolution = abscissa == "h" || abscissa == "dt";
-      const bool few_steps
-          = abscissa == "dt" && runs.has("front_end") && runs.record->changes_phase;
+      const bool few_steps = abscissa == "dt" && runs.has("front_end")
+                             && runs.record->scene.changes_phase();
       const std::string error = few_steps ? "front_end" : main_error(*runs.record);
       Plot plot;
       plot.x.logarithmic = plot.y.logarithmic = true;
@@ -139,7 +139,7 @@ namespace meltfront::verification
   Plot error_against_spacing(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot = error_plot(runs, styles, "h", 1);
-    plot.description = "Error against spacing, " + runs.record->name;
+    plot.description = "Error against spacing, " + runs.record->name();
     plot.x.label = with_unit("spacing h", unit_of(*runs.record, "m"));
     if(has_several_levels(runs))
       plot.guides = {{1, "h"}, {2, "h"}};
@@ -149,7 +149,7 @@ namespace meltfront::verification
   Plot error_against_time_step(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot = error_plot(runs, styles, "dt", 1);
-    plot.description = "Error against time step, " + runs.record->name;
+    plot.description = "Error against time step, " + runs.record->name();
     plot.x.label = with_unit("time step dt", unit_of(*runs.record, "s"));
     if(has_several_levels(runs))
       plot.guides = {{2, "dt"}, {4, "dt"}};
@@ -159,7 +159,7 @@ namespace meltfront::verification
   Plot error_against_cost(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot = error_plot(runs, styles, "cpu_seconds", 1);
-    plot.description = "Error against CPU time, " + runs.record->name;
+    plot.description = "Error against CPU time, " + runs.record->name();
     plot.x.label = "CPU time t (s)";
     if(has_several_levels(runs))
       plot.guides = {{-0.5, "t"}, {-1, "t"}};
@@ -169,8 +169,8 @@ namespace meltfront::verification
   Plot small_work_precision(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot = error_plot(runs, styles, "cpu_seconds", 1 / main_error_scale(runs));
-    plot.description = "Relative error against CPU time, " + runs.record->name;
-    plot.heading = runs.record->name;
+    plot.description = "Relative error against CPU time, " + runs.record->name();
+    plot.heading = runs.record->name();
     plot.small = true;
     plot.x.label = "CPU time (s)";
     plot.y.label = "relative error";
@@ -180,7 +180,7 @@ namespace meltfront::verification
   Plot front_against_time(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot;
-    plot.description = "Front against time, " + runs.record->name;
+    plot.description = "Front against time, " + runs.record->name();
     plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
     plot.y.label = with_unit("front", unit_of(*runs.record, "m"));
     add_finest(plot, runs, styles,
@@ -193,7 +193,7 @@ namespace meltfront::verification
   Plot front_of_resolutions(const CaseRuns &runs, const LabelRuns &label)
   {
     Plot plot;
-    plot.description = "Front against time of all resolutions, " + runs.record->name;
+    plot.description = "Front against time of all resolutions, " + runs.record->name();
     plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
     plot.y.label = with_unit("front", unit_of(*runs.record, "m"));
     std::vector<std::string> names;
@@ -221,7 +221,7 @@ namespace meltfront::verification
   Plot front_error_against_time(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot;
-    plot.description = "Front error against time, " + runs.record->name;
+    plot.description = "Front error against time, " + runs.record->name();
     plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
     plot.y.label = with_unit("|front − exact front|", unit_of(*runs.record, "m"));
     plot.y.logarithmic = true;
@@ -235,7 +235,7 @@ namespace meltfront::verification
   Plot solid_against_time(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot;
-    plot.description = "Volume that is solid against time, " + runs.record->name;
+    plot.description = "Volume that is solid against time, " + runs.record->name();
     plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
     plot.y.label = with_unit("solid", unit_of(*runs.record, volume_unit(*runs.record)));
     add_finest(plot, runs, styles,
@@ -247,7 +247,7 @@ namespace meltfront::verification
   Plot budget_against_time(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot;
-    plot.description = "Defect of the heat budget against time, " + runs.record->name;
+    plot.description = "Defect of the heat budget against time, " + runs.record->name();
     plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
     plot.y.label = "relative heat budget defect";
     plot.y.logarithmic = true;

@@ -141,13 +141,13 @@ namespace meltfront::verification
     }
   } // namespace
 
-  CaseRuns collect_runs(const MatrixResult &result, const CaseRecord &record)
+  CaseRuns collect_runs(const MatrixResult &result, const StoredCase &record)
   {
     CaseRuns collected;
     collected.record = &record;
     for(const RunRecord &run : result.runs)
     {
-      if(run.case_name != record.name)
+      if(run.case_name != record.name())
         continue;
       LabelRuns &label = find_or_add(collected.labels, [&run](const LabelRuns &candidate)
                                      { return candidate.label == run.label; });
@@ -175,45 +175,56 @@ namespace meltfront::verification
   std::vector<CaseRuns> collect_runs(const MatrixResult &result)
   {
     std::vector<CaseRuns> all;
-    for(const CaseRecord &record : result.cases)
+    for(const StoredCase &record : result.cases)
       all.push_back(collect_runs(result, record));
     return all;
   }
 
-  bool radial_front(const CaseRecord &record)
+  bool radial_front(const StoredCase &record)
   {
-    if(record.symmetry == "none")
-      return !record.exact.empty() && !record.exact.starts_with("planar");
-    return record.symmetry != "planar";
+    cases::Symmetry symmetry = record.scene.symmetry;
+    if(symmetry == cases::Symmetry::none)
+      symmetry = record.exact ? record.exact->symmetry() : cases::Symmetry::planar;
+    return symmetry != cases::Symmetry::planar;
   }
 
-  bool moves_particles(const CaseRecord &record)
+  bool moves_particles(const StoredCase &record)
   {
-    return record.moving && record.moving->solid;
+    return record.scene.problem == cases::ProblemKind::particle_solid;
   }
 
-  bool carries_front(const CaseRecord &record)
+  bool carries_front(const StoredCase &record)
   {
-    return record.moving && !record.moving->solid;
+    return record.scene.problem == cases::ProblemKind::interface_advection;
   }
 
-  std::string main_error(const CaseRecord &record)
+  bool steady(const StoredCase &record)
   {
-    if(record.moving)
+    return record.scene.problem == cases::ProblemKind::poisson;
+  }
+
+  double exact_front_at_end(const StoredCase &record)
+  {
+    return record.exact ? record.exact->front(record.scene.end_time) : std::nan("");
+  }
+
+  std::string main_error(const StoredCase &record)
+  {
+    if(!record.scene.conducts_heat())
       return carries_front(record) ? "shape_mismatch_end" : "energy_error";
-    if(!record.changes_phase)
+    if(!record.scene.changes_phase())
       return "temperature_rmse";
-    return record.exact.empty() ? "solid_volume_end_error" : "front_rms";
+    return !record.exact ? "solid_volume_end_error" : "front_rms";
   }
 
   double main_error_scale(const CaseRuns &runs)
   {
     if(moves_particles(*runs.record))
       return std::nan(""); // nothing is known that it could be relative to
-    if(!runs.record->changes_phase)
+    if(!runs.record->scene.changes_phase())
       return 1; // errors of temperatures and shapes are relative
-    if(!runs.record->exact.empty())
-      return std::abs(runs.record->front_exact_end);
+    if(runs.record->exact)
+      return std::abs(exact_front_at_end(*runs.record));
     for(const LabelRuns &label : runs.labels)
       for(const Level &level : label.levels)
         if(level.finished && is_reference(*runs.record, *level.finished))
@@ -221,7 +232,7 @@ namespace meltfront::verification
     return std::nan("");
   }
 
-  std::string restated(const CaseRecord &record, const std::string &figure)
+  std::string restated(const StoredCase &record, const std::string &figure)
   {
     const auto found = record.printed_figures.find(figure);
     return found == record.printed_figures.end()
@@ -229,14 +240,14 @@ namespace meltfront::verification
                : fmt::format(" Restates {}.", found->second);
   }
 
-  std::string volume_unit(const CaseRecord &record)
+  std::string volume_unit(const StoredCase &record)
   {
     constexpr const char *units[] = {"m", "m²", "m³"};
     return units[measure_dimension(record) - 1];
   }
 
-  std::string unit_of(const CaseRecord &record, const std::string &unit)
+  std::string unit_of(const StoredCase &record, const std::string &unit)
   {
-    return record.units == "SI" ? unit : "";
+    return record.scene.units == "SI" ? unit : "";
   }
 } // namespace meltfront::verification

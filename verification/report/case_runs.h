@@ -53,7 +53,7 @@ namespace meltfront::verification
 
   struct CaseRuns
   {
-    const CaseRecord *record = nullptr;
+    const StoredCase *record = nullptr;
     std::vector<LabelRuns> labels; ///< in the matrix's order
 
     const LabelRuns *find(const std::string &label) const;
@@ -67,21 +67,27 @@ namespace meltfront::verification
   };
 
   /** Whether a case is about a particle solid. */
-  bool moves_particles(const CaseRecord &record);
+  bool moves_particles(const StoredCase &record);
 
   /** Whether a case is about a front that a velocity carries along. */
-  bool carries_front(const CaseRecord &record);
+  bool carries_front(const StoredCase &record);
+
+  /** Whether no time passes in a case. */
+  bool steady(const StoredCase &record);
+
+  /** The exact front at the end time (m); NaN where there is none. */
+  double exact_front_at_end(const StoredCase &record);
 
   /** The error that diagrams of a case show: `front_rms`; where there is no exact
    * solution `solid_volume_end_error`; of a front that is carried along
    * `shape_mismatch_end`; of a particle solid `energy_error`. */
-  std::string main_error(const CaseRecord &record);
+  std::string main_error(const StoredCase &record);
 
   /** What it is relative to: the exact front at the end (m), or the reference's solid
    * volume there; NaN where there is neither. */
   double main_error_scale(const CaseRuns &runs);
 
-  CaseRuns collect_runs(const MatrixResult &result, const CaseRecord &record);
+  CaseRuns collect_runs(const MatrixResult &result, const StoredCase &record);
 
   std::vector<CaseRuns> collect_runs(const MatrixResult &result);
 
@@ -92,17 +98,17 @@ namespace meltfront::verification
    * True if the front is a circle or a sphere about the origin: in a cylindrical or
    * spherical scene, and in one without symmetry whose exact solution is not planar.
    */
-  bool radial_front(const CaseRecord &record);
+  bool radial_front(const StoredCase &record);
 
   /** ` Restates FIGURE.` where the plot of that name restates a printed one, else
    * nothing. */
-  std::string restated(const CaseRecord &record, const std::string &figure);
+  std::string restated(const StoredCase &record, const std::string &figure);
 
   /** The unit of the solid's volume: m, m² or m³. */
-  std::string volume_unit(const CaseRecord &record);
+  std::string volume_unit(const StoredCase &record);
 
   /** A unit, or nothing for a case in normalised quantities. */
-  std::string unit_of(const CaseRecord &record, const std::string &unit);
+  std::string unit_of(const StoredCase &record, const std::string &unit);
 } // namespace meltfront::verification
 
 #endif

@@ -7,7 +7,7 @@ namespace meltfront::verification
 {
   Markup convergence(const ReportContext &context, const CaseRuns &runs)
   {
-    const CaseRecord &record = *runs.record;
+    const StoredCase &record = *runs.record;
     const Table table = convergence_table(runs);
     const auto key
         = [&context](const std::string &label) { return context.styles.key(label); };
@@ -21,13 +21,13 @@ namespace meltfront::verification
                     "their standard error: in h, or in dt where only the time step was "
                     "refined. Levels whose error is at round-off (10⁻¹³ of the domain's "
                     "side, 10⁻¹³ where relative) are left out of the fit. "
-                    + std::string(record.changes_phase
+                    + std::string(record.scene.changes_phase()
                                       ? "Errors of the front are root mean squares over "
                                         "the run; bold"
                                       : "Bold")
                     + " is the least of a column."))
            + (several ? table_markup(orders, key) : Markup()) + table_markup(table, key)
-           + linked_csv(context, record.name, convergence_csv(runs))
+           + linked_csv(context, record.name(), convergence_csv(runs))
            + (rates.empty() ? Markup()
                             : folded("Rates between neighbouring resolutions",
                                      table_markup(rates, key)));
@@ -35,7 +35,7 @@ namespace meltfront::verification
 
   Markup error_plots(const ReportContext &context, const CaseRuns &runs)
   {
-    const std::string &name = runs.record->name;
+    const std::string &name = runs.record->name();
     const Plot cost = error_against_cost(runs, context.styles);
     const std::string note
         = cost.failed.empty() ? "" : " A cross marks a run that failed or was refused.";

@@ -116,7 +116,7 @@ namespace meltfront::verification
     return name;
   }
 
-  OrderFit order_of(const CaseRecord &record, const LabelRuns &runs,
+  OrderFit order_of(const StoredCase &record, const LabelRuns &runs,
                     const std::string &quantity)
   {
     const RunRecord *finest = runs.finest();
@@ -168,7 +168,7 @@ namespace meltfront::verification
       double best; ///< NaN: nothing is marked
     };
 
-    bool asked_for(const CaseRecord &record, const Quantity &quantity)
+    bool asked_for(const StoredCase &record, const Quantity &quantity)
     {
       const auto names_it
           = [&quantity](const auto &entry) { return entry.quantity == quantity.name; };
@@ -189,7 +189,7 @@ namespace meltfront::verification
                            [](const LabelRuns &label)
                            { return label.refinement.in_time(); });
       case Shown::without_exact:
-        return runs.record->exact.empty() || asked_for(*runs.record, quantity);
+        return !runs.record->exact || asked_for(*runs.record, quantity);
       default:
         return asked_for(*runs.record, quantity)
                || quantity.name == main_error(*runs.record);
@@ -197,7 +197,7 @@ namespace meltfront::verification
     }
 
     /** The unit of a column in the case's own measure. */
-    std::string unit_in(const CaseRecord &record, const Quantity &quantity)
+    std::string unit_in(const StoredCase &record, const Quantity &quantity)
     {
       if(quantity.unit == "volume")
         return unit_of(record, volume_unit(record));
@@ -230,7 +230,7 @@ namespace meltfront::verification
       return cell;
     }
 
-    std::vector<Cell> order_row(const CaseRecord &record, const LabelRuns &runs,
+    std::vector<Cell> order_row(const StoredCase &record, const LabelRuns &runs,
                                 const std::vector<FilledColumn> &columns)
     {
       std::vector<Cell> row{{std::string("order")}};

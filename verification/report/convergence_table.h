@@ -43,7 +43,7 @@ namespace meltfront::verification
    * where the label refines that. An order over fewer than four levels is given in
    * OrderFit but is not printed by order_cell().
    */
-  OrderFit order_of(const CaseRecord &record, const LabelRuns &runs,
+  OrderFit order_of(const StoredCase &record, const LabelRuns &runs,
                     const std::string &quantity);
 
   /** `h^1.57 +- 0.05`, or a dash where the order says nothing; how many levels at

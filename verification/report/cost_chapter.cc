@@ -56,7 +56,7 @@ namespace meltfront::verification
       {
         if(!has_relative_error(runs))
           continue;
-        Markup row = element("td", case_link(runs.record->name));
+        Markup row = element("td", case_link(runs.record->name()));
         for(const double wanted : wanted_errors(context))
           row += cost_cell(context, cheapest(runs, wanted));
         rows += element("tr", row) + Markup("\n");
@@ -76,8 +76,8 @@ namespace meltfront::verification
           {
             const CostAtError found = cheapest(runs, wanted);
             const bool reached = found.reach != Reach::not_reached;
-            csv += fmt::format("{},{:g},{},{},{}\n", csv_field(runs.record->name), wanted,
-                               csv_field(found.label),
+            csv += fmt::format("{},{:g},{},{},{}\n", csv_field(runs.record->name()),
+                               wanted, csv_field(found.label),
                                reached ? fmt::format("{:.6g}", found.cost) : "nan",
                                words[static_cast<int>(found.reach)]);
           }
@@ -120,7 +120,7 @@ namespace meltfront::verification
             if(!level.finished)
               continue;
             const cases::Cost &cost = level.finished->cost;
-            group.label = fmt::format("{}, {}", runs.record->name, label.label);
+            group.label = fmt::format("{}, {}", runs.record->name(), label.label);
             group.rows.push_back(
                 {{NumberText{grouped(cost.steps > 0 ? cost.work / cost.steps : 0), {}}},
                  {NumberText{grouped(cost.steps), {}}},

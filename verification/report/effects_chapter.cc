@@ -136,7 +136,7 @@ namespace meltfront::verification
     for(const CaseRuns &runs : context.runs)
       if(const auto *decisions = decisions_of(runs); decisions && !decisions->empty())
       {
-        Markup row = element("td", case_link(runs.record->name));
+        Markup row = element("td", case_link(runs.record->name()));
         for(const Effect effect : effects)
           row += effect_cell(runs, decision_on(*decisions, effect));
         rows += element("tr", row) + Markup("\n");

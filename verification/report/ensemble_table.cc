@@ -16,20 +16,21 @@ namespace meltfront::verification
     const double nan = std::nan("");
 
     /** Names and meanings of all that may stand in the table. */
-    std::vector<cases::Outcome> table_outcomes(const CaseRecord &record)
+    std::vector<cases::Outcome> table_outcomes(const StoredCase &record)
     {
       std::vector<cases::Outcome> list;
       const std::vector<double> &marks = record.measurement.marks;
-      const double step = record.moving->solid->time_step;
+      const double step = record.scene.particle_solid->time_step;
       const auto solid = [&](const std::string &suffix, double time)
       {
-        list.push_back({"solid_" + suffix,
-                        fmt::format("solid particles at step {:.0f}",
-                                    std::round((time - record.start_time) / step))});
+        list.push_back(
+            {"solid_" + suffix,
+             fmt::format("solid particles at step {:.0f}",
+                         std::round((time - record.scene.start_time) / step))});
       };
       for(std::size_t mark = 0; mark < marks.size(); ++mark)
         solid(std::to_string(mark + 1), marks[mark]);
-      solid("end", record.end_time);
+      solid("end", record.scene.end_time);
       list.insert(list.end(), cases::outcomes().begin(), cases::outcomes().end());
       return list;
     }
@@ -39,7 +40,7 @@ namespace meltfront::verification
       return quantity.starts_with("fluid_end_");
     }
 
-    double printed_value(const CaseRecord &record, const std::string &label, int n,
+    double printed_value(const StoredCase &record, const std::string &label, int n,
                          const std::string &quantity)
     {
       for(const cases::PrintedValue &printed : record.printed)
@@ -50,13 +51,13 @@ namespace meltfront::verification
     }
 
     const CriterionResult *criterion_on(const MatrixResult &result,
-                                        const CaseRecord &record,
+                                        const StoredCase &record,
                                         const std::string &label, int n,
                                         const std::string &quantity)
     {
       const std::string words = fmt::format("{} at n={}", quantity, n);
       for(const CriterionResult &criterion : result.criteria)
-        if(criterion.case_name == record.name && label_matches(criterion.method, label)
+        if(criterion.case_name == record.name() && label_matches(criterion.method, label)
            && (criterion.quantity == words || criterion.quantity == "median " + words))
           return &criterion;
       return nullptr;
@@ -203,7 +204,7 @@ namespace meltfront::verification
 
   std::vector<EnsembleGroup> ensemble(const MatrixResult &result, const CaseRuns &runs)
   {
-    const CaseRecord &record = *runs.record;
+    const StoredCase &record = *runs.record;
     const bool several = runs.labels.size() > 1;
     std::vector<EnsembleGroup> groups;
     for(const LabelRuns &label : runs.labels)

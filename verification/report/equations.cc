@@ -3,37 +3,43 @@
 #include <verification/report/equations.h>
 
 #include <verification/report/case_runs.h>
+#include <verification/report/scene_words.h>
 #include <verification/report/table.h>
 
 namespace meltfront::verification
 {
   namespace
   {
-    bool radial(const CaseRecord &record)
+    bool radial(const StoredCase &record)
     {
-      return record.symmetry == "cylindrical" || record.symmetry == "spherical";
+      return record.scene.symmetry == cases::Symmetry::cylindrical
+             || record.scene.symmetry == cases::Symmetry::spherical;
     }
 
-    Markup coordinate_symbol(const CaseRecord &record)
+    Markup coordinate_symbol(const StoredCase &record)
     {
-      return symbol(radial(record) ? "r" : (record.symmetry == "planar" ? "x" : "n"));
+      return symbol(radial(record)
+                        ? "r"
+                        : (record.scene.symmetry == cases::Symmetry::planar ? "x" : "n"));
     }
 
     /** The Laplacian of T in the coordinate that the solution depends on. */
-    Markup laplacian(const CaseRecord &record)
+    Markup laplacian(const StoredCase &record)
     {
       const Markup temperature = symbol("T"), r = symbol("r");
-      if(record.symmetry == "planar")
+      if(record.scene.symmetry == cases::Symmetry::planar)
         return fraction(text("∂") + element("sup", "2") + temperature,
                         text("∂") + symbol("x") + element("sup", "2"));
       if(!radial(record))
         return text("∇") + element("sup", "2") + temperature;
-      const Markup power = record.symmetry == "spherical" ? r + element("sup", "2") : r;
+      const Markup power = record.scene.symmetry == cases::Symmetry::spherical
+                               ? r + element("sup", "2")
+                               : r;
       return fraction(text("1"), power) + fraction(text("∂"), text("∂") + r) + text(" (")
              + power + text(" ") + derivative(temperature, r) + text(")");
     }
 
-    Markup heat_equation(const CaseRecord &record, const cases::PhaseProperties &phase,
+    Markup heat_equation(const StoredCase &record, const cases::PhaseProperties &phase,
                          const std::string &index)
     {
       const Markup rate = derivative(symbol("T"), symbol("t"));
@@ -45,18 +51,19 @@ namespace meltfront::verification
     }
 
     /** A gradient at the front, taken on one of its sides. */
-    Markup gradient_at_front(const CaseRecord &record, const std::string &phase)
+    Markup gradient_at_front(const StoredCase &record, const std::string &phase)
     {
       return derivative(symbol("T"), coordinate_symbol(record))
              + element("sub", {{"class", "side"}}, text(phase));
     }
 
-    Markup stefan_condition(const CaseRecord &record)
+    Markup stefan_condition(const StoredCase &record)
     {
-      const cases::Material &material = record.material;
-      const Markup speed = record.symmetry == "none" ? symbol("V", "n")
-                                                     : fraction(text("d") + symbol("s"),
-                                                                text("d") + symbol("t"));
+      const cases::Material &material = record.scene.material;
+      const Markup speed
+          = record.scene.symmetry == cases::Symmetry::none
+                ? symbol("V", "n")
+                : fraction(text("d") + symbol("s"), text("d") + symbol("t"));
       const Markup solid = gradient_at_front(record, "solid");
       const Markup liquid = gradient_at_front(record, "liquid");
       return symbol("ρ", "s") + symbol("L") + text(" ") + speed + text(" = ")
@@ -69,29 +76,29 @@ namespace meltfront::verification
     }
 
     /** Conduction alone: one substance, perhaps with an inclusion. */
-    Markup conduction_equation(const CaseRecord &record)
+    Markup conduction_equation(const StoredCase &record)
     {
       const Markup flux
           = text("∇·(") + symbol("k") + text(" ∇") + symbol("T") + text(")");
-      const cases::PhaseProperties &solid = record.material.solid;
+      const cases::PhaseProperties &solid = record.scene.material.solid;
       const Markup release
-          = record.heat_release.empty() ? Markup() : text(" + ") + symbol("q");
-      const Markup rate = record.steady ? text("0")
-                                        : symbol("ρ") + symbol("c") + text(" ")
-                                              + derivative(symbol("T"), symbol("t"));
+          = record.scene.heat_release ? text(" + ") + symbol("q") : Markup();
+      const Markup rate = steady(record) ? text("0")
+                                         : symbol("ρ") + symbol("c") + text(" ")
+                                               + derivative(symbol("T"), symbol("t"));
       Markup numbers = symbol("k") + text(" = ") + equation_number(solid.conductivity);
-      if(!record.inclusion.empty())
-        numbers += text(", " + record.inclusion);
-      if(!record.steady)
+      if(record.scene.inclusion)
+        numbers += text(", " + words(*record.scene.inclusion));
+      if(!steady(record))
         numbers += text(", ") + symbol("ρ") + symbol("c") + text(" = ")
                    + equation_number(solid.volumetric_heat_capacity());
-      if(!record.heat_release.empty())
-        numbers += text(", ") + symbol("q") + text(" = " + record.heat_release);
+      if(const auto &release = record.scene.heat_release)
+        numbers += text(", ") + symbol("q") + text(" = " + release->expression);
       return equation_line("", rate + text(" = ") + flux + release)
              + equation_line("", numbers);
     }
 
-    Markup conditions(const CaseRecord &record)
+    Markup conditions(const StoredCase &record)
     {
       Markup rows;
       const auto add
@@ -104,28 +111,27 @@ namespace meltfront::verification
           rows += element("dt", what) + element("dd", items) + Markup("\n");
       };
       const std::string seconds = unit_of(record, " s");
-      if(!record.steady)
+      if(!steady(record))
       {
-        add("start",
-            {"t = " + plain_number(record.start_time, 6) + seconds
-             + (record.initial_state.empty() ? "" : ": " + record.initial_state)});
-        add("end", {"t = " + plain_number(record.end_time, 6) + seconds});
+        add("start", {"t = " + plain_number(record.scene.start_time, 6) + seconds + ": "
+                      + words(record.scene.initial)});
+        add("end", {"t = " + plain_number(record.scene.end_time, 6) + seconds});
       }
-      add("walls", record.boundaries);
-      add("sources", record.sources);
+      add("walls", wall_words(record.scene));
+      add("sources", source_words(record.scene));
       return element("dl", {{"class", "conditions"}}, rows);
     }
   } // namespace
 
-  Markup equations(const CaseRecord &record)
+  Markup equations(const StoredCase &record)
   {
-    if(record.alloy)
+    if(record.scene.alloy)
       return element("div", {{"class", "equations"}}, alloy_equations(record))
              + conditions(record);
-    if(!record.changes_phase)
+    if(!record.scene.changes_phase())
       return element("div", {{"class", "equations"}}, conduction_equation(record))
              + conditions(record);
-    const cases::Material &material = record.material;
+    const cases::Material &material = record.scene.material;
     const std::string degrees = unit_of(record, " (K or °C)");
     Markup melting = equation_number(material.melting_temperature);
     Markup curved = symbol("T", "m");
@@ -138,14 +144,15 @@ namespace meltfront::verification
     Markup result
         = equation_line("solid", heat_equation(record, material.solid, "s"))
           + equation_line("liquid", heat_equation(record, material.liquid, "l"));
-    result
-        += equation_line("front", stefan_condition(record))
-           + equation_line("", symbol("T") + text(" = ") + curved + text(" = ") + melting
-                                   + text(degrees + " at the front"
-                                          + (record.symmetry == "none"
-                                                 ? ", n its normal into the liquid"
-                                                 : "")));
-    if(material.solid.density != material.liquid.density && record.symmetry == "planar")
+    result += equation_line("front", stefan_condition(record))
+              + equation_line("",
+                              symbol("T") + text(" = ") + curved + text(" = ") + melting
+                                  + text(degrees + " at the front"
+                                         + (record.scene.symmetry == cases::Symmetry::none
+                                                ? ", n its normal into the liquid"
+                                                : "")));
+    if(material.solid.density != material.liquid.density
+       && record.scene.symmetry == cases::Symmetry::planar)
       result += equation_line(
           "motion",
           text("the liquid moves with ") + symbol("u") + text(" = (1 − ")
@@ -157,10 +164,10 @@ namespace meltfront::verification
     return element("div", {{"class", "equations"}}, result) + conditions(record);
   }
 
-  Markup material_table(const CaseRecord &record)
+  Markup material_table(const StoredCase &record)
   {
-    const cases::PhaseProperties &solid = record.material.solid;
-    const cases::PhaseProperties &liquid = record.material.liquid;
+    const cases::PhaseProperties &solid = record.scene.material.solid;
+    const cases::PhaseProperties &liquid = record.scene.material.liquid;
     Table table;
     table.columns = {{"property", "", false},
                      {"unit", "", false},
@@ -184,10 +191,10 @@ namespace meltfront::verification
     add("diffusivity k/(ρc)", "m²/s", solid.diffusivity(), liquid.diffusivity());
     group.rows.push_back({{std::string("latent heat L")},
                           {unit_of(record, "J/kg")},
-                          {prose_number(record.material.latent_heat, 6)},
+                          {prose_number(record.scene.material.latent_heat, 6)},
                           {std::string()},
                           {std::string()}});
-    if(record.alloy)
+    if(record.scene.alloy)
       add_alloy_properties(record, group);
     return table_markup(table);
   }

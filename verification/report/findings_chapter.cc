@@ -80,7 +80,7 @@ namespace meltfront::verification
                                           + element("tbody", rows)));
     }
 
-    std::string axis_label(const CaseRecord &record, const std::string &quantity)
+    std::string axis_label(const StoredCase &record, const std::string &quantity)
     {
       if(quantity == "cpu_seconds")
         return "CPU time (s)"; // also where the case's own quantities have no unit
@@ -97,7 +97,7 @@ namespace meltfront::verification
       return quantity;
     }
 
-    Curve curve_of(const CaseRecord &record, const LabelRuns &runs,
+    Curve curve_of(const StoredCase &record, const LabelRuns &runs,
                    const Picture &picture)
     {
       Curve curve;
@@ -120,7 +120,7 @@ namespace meltfront::verification
       plot.x.logarithmic = plot.y.logarithmic = true;
       std::vector<const CaseRuns *> chosen;
       for(const CaseRuns &runs : all)
-        if(label_matches(picture.cases, runs.record->name))
+        if(label_matches(picture.cases, runs.record->name()))
           chosen.push_back(&runs);
       for(const CaseRuns *runs : chosen)
       {
@@ -132,7 +132,7 @@ namespace meltfront::verification
           {
             plot.curves.push_back(curve_of(*runs->record, label, picture));
             plot.curves.back().label
-                = chosen.size() == 1 ? label.label : runs->record->name;
+                = chosen.size() == 1 ? label.label : runs->record->name();
           }
       }
       shorten_labels(plot);

@@ -22,9 +22,9 @@ namespace meltfront::verification
               {"aria-label", words}};
     }
 
-    std::string name_of(const CaseRecord &record, const ParticleFrame &frame)
+    std::string name_of(const StoredCase &record, const ParticleFrame &frame)
     {
-      return fmt::format("{}, step {}", record.name, frame.step);
+      return fmt::format("{}, step {}", record.name(), frame.step);
     }
 
     /** As many frames as make a page of reasonable size. */
@@ -47,7 +47,7 @@ namespace meltfront::verification
     return found == runs.end() ? nullptr : *found;
   }
 
-  Markup frames_in_page(const CaseRecord &record, const RunRecord &run)
+  Markup frames_in_page(const StoredCase &record, const RunRecord &run)
   {
     const FrameDrawing drawing(record, run.particle_frames, DrawingColours::of_page());
     Markup figures;
@@ -58,7 +58,7 @@ namespace meltfront::verification
     return element("div", {{"class", "frames"}}, figures);
   }
 
-  std::string frames_as_file(const CaseRecord &record,
+  std::string frames_as_file(const StoredCase &record,
                              const std::vector<ParticleFrame> &frames)
   {
     const DrawingColours colours = DrawingColours::of_file();
@@ -84,7 +84,7 @@ namespace meltfront::verification
     return svg + "</svg>\n";
   }
 
-  Markup animation_in_page(const CaseRecord &record, const RunRecord &run)
+  Markup animation_in_page(const StoredCase &record, const RunRecord &run)
   {
     const std::vector<std::size_t> shown = animated_frames(run.animation);
     if(shown.size() < fewest_pictures)
@@ -106,7 +106,7 @@ namespace meltfront::verification
           name, period, seconds_per_picture * static_cast<double>(i) - period,
           drawing.frame(run.animation[shown[i]]));
     return element("div", {{"class", "animation"}},
-                   element("svg", view_of(drawing, record.name + ", the run in motion"),
+                   element("svg", view_of(drawing, record.name() + ", the run in motion"),
                            Markup(svg)));
   }
 

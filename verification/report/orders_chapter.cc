@@ -28,7 +28,7 @@ namespace meltfront::verification
                       [&chosen](const LabelRuns &label) { return !chosen(label); });
         const Table table = orders_table(some);
         if(!table.empty())
-          content += element("h4", case_link(runs.record->name))
+          content += element("h4", case_link(runs.record->name()))
                      + table_markup(table, [&context](const std::string &label)
                                     { return context.styles.key(label); });
       }

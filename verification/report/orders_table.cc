@@ -12,10 +12,10 @@ namespace meltfront::verification
     std::vector<std::string> ordered_quantities(const CaseRuns &runs)
     {
       std::vector<std::string> wanted{"front_end", "front_rms", "temperature_l2"};
-      if(runs.record->exact.empty())
+      if(!runs.record->exact)
         wanted = {"solid_volume_end_error", "solid_volume_rms_error",
                   "front_mode_end_error"};
-      if(!runs.record->changes_phase)
+      if(!runs.record->scene.changes_phase())
         wanted = {"temperature_rmse", "temperature_l2", "temperature_max"};
       std::erase_if(wanted, [&runs](const std::string &name) { return !runs.has(name); });
       return wanted;

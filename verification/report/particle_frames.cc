@@ -71,10 +71,10 @@ namespace meltfront::verification
     return {"#1b1f23", "#5c646c", plot_colours::solid, plot_colours::liquid, "#ffffff"};
   }
 
-  FrameDrawing::FrameDrawing(const CaseRecord &record,
+  FrameDrawing::FrameDrawing(const StoredCase &record,
                              const std::vector<ParticleFrame> &frames,
                              const DrawingColours &colours)
-    : solid(*record.moving->solid)
+    : solid(*record.scene.particle_solid)
     , colours(colours)
     , x0(0)
     , x1(1)

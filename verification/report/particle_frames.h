@@ -1,8 +1,8 @@
 #ifndef meltfront_verification_report_particle_frames_h
 #define meltfront_verification_report_particle_frames_h
 
-#include <verification/matrix/case_record.h>
 #include <verification/matrix/run_record.h>
+#include <verification/matrix/stored_case.h>
 #include <verification/report/markup.h>
 
 #include <string>
@@ -33,7 +33,7 @@ namespace meltfront::verification
      * @param frames what the window is chosen from: it holds all of them, but for
      * particles that fly farther than 1.3 of the solid's width beside it
      */
-    FrameDrawing(const CaseRecord &record, const std::vector<ParticleFrame> &frames,
+    FrameDrawing(const StoredCase &record, const std::vector<ParticleFrame> &frames,
                  const DrawingColours &colours);
 
     double width() const;
@@ -69,10 +69,10 @@ namespace meltfront::verification
   const RunRecord *run_with_frames(const std::vector<const RunRecord *> &runs);
 
   /** All frames of a run in a grid, as a part of the page. */
-  Markup frames_in_page(const CaseRecord &record, const RunRecord &run);
+  Markup frames_in_page(const StoredCase &record, const RunRecord &run);
 
   /** The same as a file of its own. */
-  std::string frames_as_file(const CaseRecord &record,
+  std::string frames_as_file(const StoredCase &record,
                              const std::vector<ParticleFrame> &frames);
 
   /**
@@ -80,7 +80,7 @@ namespace meltfront::verification
    * last one where less motion is preferred and on paper. Fewer of them the more
    * particles there are; nothing for fewer than ten.
    */
-  Markup animation_in_page(const CaseRecord &record, const RunRecord &run);
+  Markup animation_in_page(const StoredCase &record, const RunRecord &run);
 
   /** Rules of the style sheet for frames. */
   const char *frame_style();

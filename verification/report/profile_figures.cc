@@ -16,7 +16,7 @@ namespace meltfront::verification
     int marks_with_profiles(const CaseRuns &runs)
     {
       std::size_t most = 0;
-      if(!runs.record->alloy)
+      if(!runs.record->scene.alloy)
         return 0;
       for(const LabelRuns &label : runs.labels)
         if(const RunRecord *run = label.finest())
@@ -27,7 +27,7 @@ namespace meltfront::verification
     /** The sites at the mark of which the case wants a picture. */
     Markup picture_at_mark(const ReportContext &context, const CaseRuns &runs)
     {
-      const CaseRecord &record = *runs.record;
+      const StoredCase &record = *runs.record;
       const RunRecord *run = run_to_picture(runs);
       if(record.measurement.picture_mark == 0 || !run || run->mark_profiles.empty())
         return {};
@@ -38,8 +38,9 @@ namespace meltfront::verification
           run->mark_profiles, {},
           [mark](const RunProfile &profile) { return std::abs(profile.time - mark); });
       return context.plots.figure(
-          record.name + "-mark", scene_picture_script(record, {&shown, std::nan(""), {}}),
-          "The scene of " + record.name + " at a mark",
+          record.name() + "-mark",
+          scene_picture_script(record, {&shown, std::nan(""), {}}),
+          "The scene of " + record.name() + " at a mark",
           text(fmt::format(
               "Sites of {} at n = {} at t = {}{}: filled where at least half is "
               "solid, open where liquid.{}",
@@ -49,7 +50,7 @@ namespace meltfront::verification
 
     Markup row_of_figures(const ReportContext &context, const CaseRuns &runs, int mark)
     {
-      const CaseRecord &record = *runs.record;
+      const StoredCase &record = *runs.record;
       const bool end = mark == profile_at_end;
       const std::string when
           = end ? "at the end"
@@ -63,7 +64,7 @@ namespace meltfront::verification
         if(nothing_to_draw(plot))
           return {};
         std::string file
-            = record.name + "-" + name + (end ? "" : fmt::format("-{}", mark + 1));
+            = record.name() + "-" + name + (end ? "" : fmt::format("-{}", mark + 1));
         std::replace(file.begin(), file.end(), ' ', '-');
         return context.plots.figure(
             file, plot,
@@ -73,7 +74,7 @@ namespace meltfront::verification
       return element(
                  "div", {{"class", "pair"}},
                  figure(ProfileQuantity::temperature, "temperature", "Temperature")
-                     + (!record.changes_phase
+                     + (!record.scene.changes_phase()
                             ? Markup()
                             : figure(
                                 ProfileQuantity::solid_fraction, "solid fraction",

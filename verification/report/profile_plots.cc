@@ -10,7 +10,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    std::string coordinate_name(const CaseRecord &record)
+    std::string coordinate_name(const StoredCase &record)
     {
       return radial_front(record) ? "r" : "x";
     }
@@ -71,7 +71,7 @@ namespace meltfront::verification
     const ProfileColumn &column = column_of(quantity);
     Plot plot;
     plot.description = fmt::format("{} over {}, {}", column.name,
-                                   coordinate_name(*runs.record), runs.record->name);
+                                   coordinate_name(*runs.record), runs.record->name());
     plot.x.label = with_unit(coordinate_name(*runs.record), unit_of(*runs.record, "m"));
     plot.y.label = with_unit(column.name, unit_of(*runs.record, column.unit));
     const RunProfile *exact = nullptr;
@@ -96,12 +96,12 @@ namespace meltfront::verification
     return plot;
   }
 
-  Plot run_profile(const RunRecord &run, const CaseRecord &record)
+  Plot run_profile(const RunRecord &run, const StoredCase &record)
   {
     const MethodStyles styles({run.label});
     const RunProfile &profile = run.profile;
     Plot plot;
-    plot.description = "Temperature at the end, " + record.name;
+    plot.description = "Temperature at the end, " + record.name();
     plot.x.label = with_unit(coordinate_name(record), unit_of(record, "m"));
     plot.y.label = with_unit("temperature", unit_of(record, "K or °C"));
     if(!profile.temperature_exact.empty())

@@ -25,7 +25,7 @@ namespace meltfront::verification
                     ProfileQuantity quantity, int mark = profile_at_end);
 
   /** Temperature of one run at the end over its coordinate, with the exact one. */
-  Plot run_profile(const RunRecord &run, const CaseRecord &record);
+  Plot run_profile(const RunRecord &run, const StoredCase &record);
 } // namespace meltfront::verification
 
 #endif

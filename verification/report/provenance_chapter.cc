@@ -93,17 +93,17 @@ namespace meltfront::verification
                      element("table", element("tbody", rows)));
     }
 
-    Markup case_files(const std::vector<CaseRecord> &records)
+    Markup case_files(const std::vector<StoredCase> &records)
     {
       Markup content;
       std::set<std::string> varied;
-      for(const CaseRecord &record : records)
+      for(const StoredCase &record : records)
       {
         // Of the variations of a case one text says it all, beside their table.
         if(!record.variation.empty() && !varied.insert(record.variation_of).second)
           continue;
         const Markup summary
-            = text(record.name + "  ")
+            = text(record.name() + "  ")
               + element("span", {{"class", "hash"}}, text("SHA-256 " + record.hash));
         content += element("details",
                            element("summary", summary) + element("pre", record.text));

@@ -84,19 +84,19 @@ namespace meltfront::verification
 
   Markup reference_of_case(const ReportContext &context, const CaseRuns &runs)
   {
-    const CaseRecord &record = *runs.record;
+    const StoredCase &record = *runs.record;
     Markup content = element(
         "p",
         fmt::format("There is no exact solution: runs are held against {} at n = {}.",
                     record.reference->label, record.reference->n));
-    const auto trusts = trusts_of(context, record.name);
+    const auto trusts = trusts_of(context, record.name());
     if(trusts.empty())
       return content
              + element("p",
                        "It did not run or did not finish: nothing was compared with it.");
     content += element("h4", "How far the reference can be trusted")
                + table_markup(trust_table(trusts))
-               + linked_csv(context, record.name + "-reference", trust_csv(trusts))
+               + linked_csv(context, record.name() + "-reference", trust_csv(trusts))
                + element("p", {{"class", "nothing"}},
                          text("GCI: the grid convergence index, 1.25 times the distance "
                               "from Richardson's limit (three times the spread where the "

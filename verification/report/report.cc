@@ -56,7 +56,7 @@ namespace meltfront::verification
       if(!context.runs.empty())
         links += element("span", {{"class", "bar"}}, Markup());
       for(const CaseRuns &runs : context.runs)
-        links += link(case_anchor(runs.record->name), runs.record->name);
+        links += link(case_anchor(runs.record->name()), runs.record->name());
       return element("nav", element("div", links));
     }
 
@@ -66,7 +66,7 @@ namespace meltfront::verification
       for(const CaseRuns &runs : context.runs)
       {
         const std::string file
-            = context.directory + "/tables/" + plain_name(runs.record->name);
+            = context.directory + "/tables/" + plain_name(runs.record->name());
         const bool solid = moves_particles(*runs.record);
         const std::vector<EnsembleGroup> groups
             = solid ? ensemble(context.result, runs) : std::vector<EnsembleGroup>();

@@ -24,7 +24,7 @@ namespace meltfront::verification
    *
    * @throws cases::OutputError as write_report().
    */
-  void write_run_page(const RunRecord &run, const CaseRecord &record,
+  void write_run_page(const RunRecord &run, const StoredCase &record,
                       const std::string &directory);
 } // namespace meltfront::verification
 

@@ -35,14 +35,15 @@ namespace meltfront::verification
     }
 
     /** Sites that fill an area, not only a line. */
-    bool fills_a_plane(const RunRecord &run, const CaseRecord &record)
+    bool fills_a_plane(const RunRecord &run, const StoredCase &record)
     {
-      return run.description.dimension > 1 && record.shape != "slab"
+      return run.description.dimension > 1
+             && record.scene.domain.shape != cases::DomainShape::slab
              && !run.profile.picture_x.empty();
     }
   } // namespace
 
-  void write_run_page(const RunRecord &run, const CaseRecord &record,
+  void write_run_page(const RunRecord &run, const StoredCase &record,
                       const std::string &directory)
   {
     make_directory(directory);
@@ -54,7 +55,7 @@ namespace meltfront::verification
       return;
     }
     std::string script;
-    if(carries_front(record) && record.dimension == 2)
+    if(carries_front(record) && record.scene.domain.dimension == 2)
       script = carried_front_script(record, run.frames);
     else if(fills_a_plane(run, record))
     {

@@ -3,13 +3,13 @@
 #include <verification/report/gnuplot.h>
 #include <verification/report/method_styles.h>
 #include <verification/report/plot_layout.h>
+#include <verification/report/scene_words.h>
 #include <verification/report/tracked_front.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <numbers>
 #include <tuple>
@@ -40,12 +40,6 @@ namespace meltfront::verification
       }
     };
 
-    /** A disk or a ball, with or without a hole. */
-    bool round(const CaseRecord &record)
-    {
-      return record.shape == "ball" || record.shape == "shell";
-    }
-
     bool has_sites(const RunRecord *run)
     {
       return run && run->profile.picture_x.size() > 1
@@ -69,24 +63,24 @@ namespace meltfront::verification
       frame.y1 = frame.y0 + height;
     }
 
-    Frame frame_of(const CaseRecord &record, const RunRecord *run)
+    Frame frame_of(const StoredCase &record, const RunRecord *run)
     {
       Frame frame{};
-      if(round(record))
+      if(record.scene.domain.round())
       {
-        frame.x0 = frame.y0 = -record.radius;
-        frame.x1 = frame.y1 = record.radius;
+        frame.x0 = frame.y0 = -record.scene.domain.radius;
+        frame.x1 = frame.y1 = record.scene.domain.radius;
       }
       else
       {
-        frame.x0 = record.lower[0];
-        frame.x1 = record.upper[0];
-        frame.y0 = record.lower[1];
-        frame.y1 = record.upper[1];
+        frame.x0 = record.scene.domain.lower[0];
+        frame.x1 = record.scene.domain.upper[0];
+        frame.y0 = record.scene.domain.lower[1];
+        frame.y1 = record.scene.domain.upper[1];
       }
       if(!(frame.x1 > frame.x0))
         frame.x1 = frame.x0 + 1;
-      if(record.shape == "slab" || !(frame.y1 > frame.y0))
+      if(record.scene.domain.shape == cases::DomainShape::slab || !(frame.y1 > frame.y0))
         set_strip(frame, run);
       const double aspect = (frame.y1 - frame.y0) / (frame.x1 - frame.x0);
       frame.width = std::min(canvas_width - 2 * margin, tallest / aspect);
@@ -97,41 +91,14 @@ namespace meltfront::verification
       return frame;
     }
 
-    /** What is drawn of a boundary: its wall's look, and the words beside it. */
-    struct Wall
+    /** How a wall is drawn. */
+    std::string look_of(cases::BoundaryKind kind)
     {
-      std::string side;
-      std::string words;
-      std::string look;
-    };
-
-    /** The words of a record in the room beside a wall: `T = -10`. */
-    std::string brief(const std::string &words)
-    {
-      const std::string fixed = "fixed temperature ", exact = "temperature of the exact";
-      if(words.starts_with(exact))
-        return "exact temperature";
-      if(!words.starts_with(fixed))
-        return words;
-      const std::string value = words.substr(fixed.size());
-      char *end = nullptr;
-      const double number = std::strtod(value.c_str(), &end);
-      return "T = " + (*end == 0 ? fmt::format("{:.4g}", number) : value);
-    }
-
-    Wall wall_of(const std::string &boundary)
-    {
-      const std::size_t colon = boundary.find(": ");
-      Wall wall{boundary.substr(0, colon), "", ""};
-      if(colon != std::string::npos)
-        wall.words = brief(boundary.substr(colon + 2));
-      if(wall.words.starts_with("insulated"))
-        wall.look = fmt::format("lw 2 dt (3,3) lc rgb '{}'", plot_colours::axis);
-      else if(wall.words.starts_with("periodic"))
-        wall.look = fmt::format("lw 1 dt (8,6) lc rgb '{}'", plot_colours::axis);
-      else
-        wall.look = "lw 4 lc rgb 'black'";
-      return wall;
+      if(kind == cases::BoundaryKind::insulated)
+        return fmt::format("lw 2 dt (3,3) lc rgb '{}'", plot_colours::axis);
+      if(kind == cases::BoundaryKind::periodic)
+        return fmt::format("lw 1 dt (8,6) lc rgb '{}'", plot_colours::axis);
+      return "lw 4 lc rgb 'black'";
     }
 
     void write_canvas(Script out, const Frame &frame)
@@ -150,54 +117,58 @@ namespace meltfront::verification
           frame.y0, frame.y1);
     }
 
-    void write_walls(Script out, const CaseRecord &record, const Frame &frame)
+    /** The walls, and beside each the words on what it prescribes. */
+    void write_walls(Script out, const StoredCase &record, const Frame &frame)
     {
-      const auto line = [&](double x0, double y0, double x1, double y1, const Wall &wall)
+      using cases::Side;
+      const cases::Domain &domain = record.scene.domain;
+      for(const Side side : record.scene.sides())
       {
-        fmt::format_to(out, "set arrow from graph {},{} to graph {},{} nohead front {}\n",
-                       x0, y0, x1, y1, wall.look);
-      };
-      const bool strip = record.shape == "slab";
-      const auto words = [&](const Wall &wall, std::size_t room)
-      { return gnuplot_text(shortened(wall.words, room)); };
-      const auto room
-          = [](double pixels) { return static_cast<std::size_t>(pixels / 7.5); };
-      for(const std::string &boundary : record.boundaries)
-      {
-        const Wall wall = wall_of(boundary);
-        if(wall.side == "x_min" || wall.side == "x_max")
+        const cases::Boundary &boundary = record.scene.boundary(side);
+        const auto line = [&](double x0, double y0, double x1, double y1)
         {
-          const int at = wall.side == "x_max";
-          line(at, 0, at, 1, wall);
-          if(strip) // beside a low strip there is no room: above and below it
+          fmt::format_to(out,
+                         "set arrow from graph {},{} to graph {},{} nohead front {}\n",
+                         x0, y0, x1, y1, look_of(boundary.kind));
+        };
+        const auto words = [&](double room)
+        {
+          return gnuplot_text(
+              shortened(short_words(boundary), static_cast<std::size_t>(room / 7.5)));
+        };
+        if(side == Side::x_min || side == Side::x_max)
+        {
+          const int at = side == Side::x_max;
+          line(at, 0, at, 1);
+          // Beside a low strip there is no room: above and below it.
+          if(domain.shape == cases::DomainShape::slab)
             fmt::format_to(out, "set label {} at graph {},{} {} offset {},{}\n",
-                           words(wall, room(frame.width)), at, 1 - at,
-                           at ? "right" : "left", at ? 0.5 : -0.5, at ? -0.9 : 0.9);
+                           words(frame.width), at, 1 - at, at ? "right" : "left",
+                           at ? 0.5 : -0.5, at ? -0.9 : 0.9);
           else
             fmt::format_to(out,
                            "set label {} at graph {},0.5 center rotate by 90 offset "
                            "{},0\n",
-                           words(wall, room(frame.height)), at, at ? 1.9 : -1.7);
+                           words(frame.height), at, at ? 1.9 : -1.7);
         }
-        else if(wall.side == "y_min" || wall.side == "y_max")
+        else if(side == Side::y_min || side == Side::y_max)
         {
-          const int at = wall.side == "y_max";
-          line(0, at, 1, at, wall);
+          const int at = side == Side::y_max;
+          line(0, at, 1, at);
           fmt::format_to(out, "set label {} at graph 0.5,{} center offset 0,{}\n",
-                         words(wall, room(frame.width)), at, at ? 0.9 : -0.9);
+                         words(frame.width), at, at ? 0.9 : -0.9);
         }
-        else if(wall.side == "inner")
-          fmt::format_to(
-              out, "set label {} at graph 0.5,0.5 center front\n",
-              words(wall, room(frame.width * record.inner_radius / record.radius)));
-        else if(wall.side == "outer")
+        else if(side == Side::inner)
+          fmt::format_to(out, "set label {} at graph 0.5,0.5 center front\n",
+                         words(frame.width * domain.inner_radius / domain.radius));
+        else if(side == Side::outer)
           fmt::format_to(out, "set label {} at graph 0.5,1 center offset 0,0.9\n",
-                         words(wall, room(canvas_width - 20)));
+                         words(canvas_width - 20));
       }
     }
 
     /** A length of 1, 2 or 5 times a power of ten, about a quarter of the width. */
-    void write_scale(Script out, const CaseRecord &record, const Frame &frame)
+    void write_scale(Script out, const StoredCase &record, const Frame &frame)
     {
       const double wanted = (frame.x1 - frame.x0) / 4;
       double length = std::pow(10, std::floor(std::log10(wanted)));
@@ -237,18 +208,26 @@ namespace meltfront::verification
       fmt::format_to(out, "end_of_data\n");
     }
 
-    void write_outline(Script out, const CaseRecord &record)
+    /** The corners of a polygon; evenly spread points on a curve of many vertices. */
+    void write_outline(Script out, const cases::Outline &outline)
     {
+      constexpr int most_points = 400;
       fmt::format_to(out, "$outline << end_of_data\n");
-      const std::size_t n = record.outline_x.size();
-      for(std::size_t i = 0; i <= n; ++i)
-        fmt::format_to(out, "{:.8g} {:.8g}\n", record.outline_x[i % n],
-                       record.outline_y[i % n]);
+      const auto write = [&out](const auto &points)
+      {
+        for(std::size_t i = 0; i <= points.size(); ++i)
+          fmt::format_to(out, "{:.8g} {:.8g}\n", points[i % points.size()][0],
+                         points[i % points.size()][1]);
+      };
+      if(outline.vertices().size() > most_points)
+        write(outline.points(most_points));
+      else
+        write(outline.vertices());
       fmt::format_to(out, "end_of_data\n");
     }
 
     /** The phases as areas on either side of the front. */
-    void write_areas(Script out, const CaseRecord &record, const RunRecord *run,
+    void write_areas(Script out, const StoredCase &record, const RunRecord *run,
                      double front)
     {
       bool solid_first = true;
@@ -265,9 +244,9 @@ namespace meltfront::verification
                        "'{}' behind\n",
                        radius, colour);
       };
-      if(round(record))
-        circle(record.radius, outer);
-      else if(record.outline_x.empty())
+      if(record.scene.domain.round())
+        circle(record.scene.domain.radius, outer);
+      else if(!record.scene.domain.outline)
         fmt::format_to(out,
                        "set object rectangle from graph 0,0 to graph 1,1 fs solid "
                        "noborder fc rgb '{}' behind\n",
@@ -279,8 +258,8 @@ namespace meltfront::verification
                        "set object rectangle from graph 0,0 to {:.8g},graph 1 fs solid "
                        "noborder fc rgb '{}' behind\n",
                        front, inner);
-      if(record.shape == "shell")
-        circle(record.inner_radius, plot_colours::page);
+      if(record.scene.domain.shape == cases::DomainShape::shell)
+        circle(record.scene.domain.inner_radius, plot_colours::page);
     }
 
     /** The sites of one phase as data; returns how many there are. */
@@ -306,17 +285,18 @@ namespace meltfront::verification
     }
 
     /** The markers' size, from the area that each site has. */
-    double point_size(const RunRecord &run, const Frame &frame, const CaseRecord &record)
+    double point_size(const RunRecord &run, const Frame &frame, const StoredCase &record)
     {
-      const double hole = record.inner_radius / record.radius;
-      const double covered = round(record) ? std::numbers::pi / 4 * (1 - hole * hole) : 1;
+      const double hole = record.scene.domain.inner_radius / record.scene.domain.radius;
+      const double covered
+          = record.scene.domain.round() ? std::numbers::pi / 4 * (1 - hole * hole) : 1;
       const double area
           = covered * frame.width * frame.height / run.profile.picture_x.size();
       constexpr double radius_of_size_one = 4.5;
       return std::clamp(0.35 * std::sqrt(area), 0.9, 7.) / radius_of_size_one;
     }
 
-    std::string write_front(Script out, const CaseRecord &record, const Frame &frame,
+    std::string write_front(Script out, const StoredCase &record, const Frame &frame,
                             double front)
     {
       const std::string look = " with lines lw 2.4 lc rgb 'black'";
@@ -354,17 +334,17 @@ namespace meltfront::verification
 
   double front_at_end(const CaseRuns &runs)
   {
-    if(!runs.record->exact.empty() && std::isfinite(runs.record->front_exact_end))
-      return runs.record->front_exact_end;
+    if(const double exact = exact_front_at_end(*runs.record); std::isfinite(exact))
+      return exact;
     const RunRecord *run = runs.finest();
     return run ? run->series.front.back() : std::nan("");
   }
 
-  std::string scene_picture_script(const CaseRecord &record, const SceneContent &content)
+  std::string scene_picture_script(const StoredCase &record, const SceneContent &content)
   {
     const RunRecord *run = content.run;
     double front = content.front;
-    if(record.symmetry == "none" && record.exact.empty())
+    if(record.scene.symmetry == cases::Symmetry::none && !record.exact)
       front = std::nan(""); // its shape is not known
     const Frame frame = frame_of(record, run);
     std::string script;
@@ -388,28 +368,29 @@ namespace meltfront::verification
     }
     else
       write_areas(out, record, run, front);
-    if(round(record))
+    if(record.scene.domain.round())
       for(const auto &[name, radius] :
-          {std::pair("rim", record.radius), std::pair("hole", record.inner_radius)})
+          {std::pair("rim", record.scene.domain.radius),
+           std::pair("hole", record.scene.domain.inner_radius)})
         if(radius > 0)
         {
           write_circle(out, name, radius, frame, 0, 2 * std::numbers::pi);
           plots.push_back(fmt::format("${} with lines lw 4 lc rgb 'black'", name));
         }
-    if(!record.outline_x.empty())
+    if(record.scene.domain.outline)
     {
-      write_outline(out, record);
+      write_outline(out, *record.scene.domain.outline);
       plots.emplace_back("$outline with lines lw 4 lc rgb 'black'");
     }
     if(std::isfinite(front))
       plots.push_back(write_front(out, record, frame, front));
     for(const std::string &plot : write_tracked_fronts(script, content.tracked))
       plots.push_back(plot);
-    for(const cases::Position &source : record.source_positions)
+    for(const cases::PointSource &source : record.scene.sources)
       fmt::format_to(out,
                      "set label '' at {:.8g},{:.8g} point pt 3 ps 1.6 lw 2.4 lc rgb "
                      "'black' front\n",
-                     source[0], source[1]);
+                     source.position[0], source.position[1]);
     std::string command;
     for(const std::string &plot : plots)
       command += (command.empty() ? "plot " : ", \\\n     ") + plot;

@@ -23,7 +23,7 @@ namespace meltfront::verification
    * prescribed on them, its sources, the front at the end, a scale, and the particles of
    * a run, solid ones filled and liquid ones open.
    */
-  std::string scene_picture_script(const CaseRecord &record, const SceneContent &content);
+  std::string scene_picture_script(const StoredCase &record, const SceneContent &content);
 
   /** The run whose sites suit a picture: the finest one with few enough of them; null if
    * no run has any. */

@@ -41,7 +41,7 @@ namespace meltfront::verification
   Plot front_squared_against_time(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot;
-    plot.description = "Square of the front against time, " + runs.record->name;
+    plot.description = "Square of the front against time, " + runs.record->name();
     plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
     plot.y.label = with_unit("square of the front", unit_of(*runs.record, "m²"));
     const auto square = [](const RunSeries &series, const std::size_t i)

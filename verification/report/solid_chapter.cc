@@ -24,9 +24,9 @@ namespace meltfront::verification
       return nullptr;
     }
 
-    std::string how_drawn(const CaseRecord &record, const RunRecord &run)
+    std::string how_drawn(const StoredCase &record, const RunRecord &run)
     {
-      const cases::ParticleSolid &solid = *record.moving->solid;
+      const cases::ParticleSolid &solid = *record.scene.particle_solid;
       std::string words
           = fmt::format("{}, n = {}, seed {}. Lines: solid particles nearer than {}; "
                         "points: fluid ones, with an arrow where they move faster than "
@@ -39,10 +39,10 @@ namespace meltfront::verification
       return words;
     }
 
-    Markup frames(const ReportContext &context, const CaseRecord &record,
+    Markup frames(const ReportContext &context, const StoredCase &record,
                   const RunRecord &run)
     {
-      const std::string file = "plots/" + plain_name(record.name) + "-frames.svg";
+      const std::string file = "plots/" + plain_name(record.name()) + "-frames.svg";
       write_file(context.directory + "/" + file,
                  frames_as_file(record, run.particle_frames));
       return element("h3", "Frames") + frames_in_page(record, run)
@@ -56,7 +56,7 @@ namespace meltfront::verification
     }
 
     /** The run in motion, or its last frame where it cannot be animated. */
-    Markup moving_picture(const CaseRecord &record, const RunRecord *run)
+    Markup moving_picture(const StoredCase &record, const RunRecord *run)
     {
       if(!run)
         return element("p", {{"class", "nothing"}},
@@ -93,7 +93,7 @@ namespace meltfront::verification
                                    "the outcome has a value."))
                     : Markup())
              + ensemble_markup(groups)
-             + linked_csv(context, runs.record->name, ensemble_csv(groups));
+             + linked_csv(context, runs.record->name(), ensemble_csv(groups));
     }
 
     /** Which particles are fluid at the end in how many runs. */
@@ -134,7 +134,7 @@ namespace meltfront::verification
       const Markup figure
           = element("h3", "Solid particles over time")
             + context.plots.figure(
-                runs.record->name + "-solid", plot,
+                runs.record->name() + "-solid", plot,
                 text(std::string("Mean over the runs; band: one standard deviation.")
                      + (printed ? " Black: the report's frames." : "")));
       return ranking.empty() ? figure : pair(element("div", figure), ranking);
@@ -148,7 +148,7 @@ namespace meltfront::verification
         return {};
       return element("h3", "Energy")
              + pair(context.plots.figure(
-                        runs.record->name + "-energy",
+                        runs.record->name() + "-energy",
                         energy_over_time_step(runs, context.styles),
                         text("Largest change of the energy against the time step; grey: "
                              "reference slope.")),
@@ -158,7 +158,7 @@ namespace meltfront::verification
 
   Markup solid_chapter(const ReportContext &context, const CaseRuns &runs)
   {
-    const CaseRecord &record = *runs.record;
+    const StoredCase &record = *runs.record;
     const RunRecord *run = pictured_run(runs);
     Markup content = chapter_head(record);
     content

@@ -1,3 +1,5 @@
+#include <cases/shape.h>
+#include <cases/velocity_field.h>
 #include <verification/report/equation_markup.h>
 #include <verification/report/number_text.h>
 #include <verification/report/solid_equations.h>
@@ -138,9 +140,9 @@ namespace meltfront::verification
       return element("dt", what) + element("dd", words) + Markup("\n");
     }
 
-    Markup solid_conditions(const CaseRecord &record)
+    Markup solid_conditions(const StoredCase &record)
     {
-      const cases::ParticleSolid &solid = *record.moving->solid;
+      const cases::ParticleSolid &solid = *record.scene.particle_solid;
       Markup start = text(words_of_arrangement(solid));
       if(solid.disturbance > 0)
         start += text("; each coordinate disturbed by ")
@@ -148,13 +150,14 @@ namespace meltfront::verification
                  + text(" (standard deviation), otherwise for every seed");
       const Markup source
           = solid.heating ? condition("source", source_words(*solid.heating)) : Markup();
-      const double steps = (record.end_time - record.start_time) / solid.time_step;
+      const double steps
+          = (record.scene.end_time - record.scene.start_time) / solid.time_step;
       return element(
           "dl", {{"class", "conditions"}},
           condition("moved", text("particles of mass 1 that bind each other; "
                                   "Boltzmann's constant is 1"))
               + condition("start", start) + source
-              + condition("end", text("t = " + plain_number(record.end_time, 6)
+              + condition("end", text("t = " + plain_number(record.scene.end_time, 6)
                                       + fmt::format(", after {} steps",
                                                     grouped(std::lround(steps)))))
               + condition(
@@ -171,9 +174,9 @@ namespace meltfront::verification
     }
   } // namespace
 
-  Markup solid_equations(const CaseRecord &record)
+  Markup solid_equations(const StoredCase &record)
   {
-    const cases::ParticleSolid &solid = *record.moving->solid;
+    const cases::ParticleSolid &solid = *record.scene.particle_solid;
     Markup lines = equation_line("(2.1–3)", leapfrog(solid))
                    + equation_line("(2.4–8)", forces(solid));
     if(solid.base)
@@ -189,7 +192,7 @@ namespace meltfront::verification
            + solid_conditions(record);
   }
 
-  Markup carried_equations(const CaseRecord &record)
+  Markup carried_equations(const StoredCase &record)
   {
     const Markup phi = symbol("φ");
     const Markup equation = derivative(phi, symbol("t")) + text(" + ") + symbol("u")
@@ -200,9 +203,12 @@ namespace meltfront::verification
                    + equation_line("", text("the region is where ") + phi + text(" > 0")))
            + element(
                "dl", {{"class", "conditions"}},
-               condition("region", text(record.moving->region))
-                   + condition("velocity", text(record.moving->velocity))
-                   + condition("start", text("t = " + plain_number(record.start_time, 6)))
-                   + condition("end", text("t = " + plain_number(record.end_time, 6))));
+               condition("region", text(record.scene.interface->shape->description()))
+                   + condition("velocity",
+                               text(record.scene.interface->velocity->description()))
+                   + condition("start",
+                               text("t = " + plain_number(record.scene.start_time, 6)))
+                   + condition("end",
+                               text("t = " + plain_number(record.scene.end_time, 6))));
   }
 } // namespace meltfront::verification

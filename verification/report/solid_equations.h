@@ -1,7 +1,7 @@
 #ifndef meltfront_verification_report_solid_equations_h
 #define meltfront_verification_report_solid_equations_h
 
-#include <verification/matrix/case_record.h>
+#include <verification/matrix/stored_case.h>
 #include <verification/report/markup.h>
 
 namespace meltfront::verification
@@ -11,11 +11,11 @@ namespace meltfront::verification
    * base and source by their numbers in D. Greenspan, A particle model of the Stefan
    * problem, 1976; what is solid; where the particles start.
    */
-  Markup solid_equations(const CaseRecord &record);
+  Markup solid_equations(const StoredCase &record);
 
   /** A front that a velocity carries along: the level set's equation, region, velocity,
    * times. */
-  Markup carried_equations(const CaseRecord &record);
+  Markup carried_equations(const StoredCase &record);
 } // namespace meltfront::verification
 
 #endif

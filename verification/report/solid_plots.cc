@@ -20,7 +20,7 @@ namespace meltfront::verification
     }
 
     /** The frames of a paper that say how many particles are solid. */
-    Curve printed_points(const CaseRecord &record)
+    Curve printed_points(const StoredCase &record)
     {
       Curve curve;
       curve.label = "printed";
@@ -32,7 +32,7 @@ namespace meltfront::verification
           const bool end = mark == marks.size();
           if(printed.quantity != (end ? "solid_end" : fmt::format("solid_{}", mark + 1)))
             continue;
-          curve.x.push_back(end ? record.end_time : marks[mark]);
+          curve.x.push_back(end ? record.scene.end_time : marks[mark]);
           curve.y.push_back(printed.value);
         }
       return curve;
@@ -71,7 +71,7 @@ namespace meltfront::verification
   Plot solid_particles_over_time(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot;
-    plot.description = "Solid particles against time, " + runs.record->name;
+    plot.description = "Solid particles against time, " + runs.record->name();
     plot.x.label = with_unit("time", unit_of(*runs.record, "s"));
     plot.y.label = "solid particles";
     for(const LabelRuns &label : runs.labels)
@@ -97,7 +97,7 @@ namespace meltfront::verification
   Plot energy_over_time_step(const CaseRuns &runs, const MethodStyles &styles)
   {
     Plot plot;
-    plot.description = "Error of the energy against time step, " + runs.record->name;
+    plot.description = "Error of the energy against time step, " + runs.record->name();
     plot.x.logarithmic = plot.y.logarithmic = true;
     plot.x.label = with_unit("time step dt", unit_of(*runs.record, "s"));
     plot.y.label = "largest change of the energy";

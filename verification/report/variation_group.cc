@@ -16,6 +16,21 @@ namespace meltfront::verification
       return key.substr(key.rfind('/') + 1);
     }
 
+    /** Heat capacity of the phase at the wall x = 0 times that wall's difference from the
+     * melting point, over the latent heat; NaN without a plane exact solution. */
+    double stefan_number(const cases::Case &c)
+    {
+      if(!c.exact || !c.exact->has_front() || !c.scene.changes_phase()
+         || c.exact->symmetry() != cases::Symmetry::planar)
+        return std::nan("");
+      const cases::Material &material = c.scene.material;
+      const cases::PhaseProperties &phase
+          = c.exact->solid_at_origin() ? material.solid : material.liquid;
+      const double wall = c.exact->temperature(0., c.scene.end_time);
+      return phase.specific_heat_capacity * std::abs(wall - material.melting_temperature)
+             / material.latent_heat;
+    }
+
     /** How an axis is shown: by the pure number that a key decides, where there is one,
      * else by the key's own value. */
     struct ShownValue
@@ -24,14 +39,15 @@ namespace meltfront::verification
       std::string value;
     };
 
-    ShownValue shown(const CaseRecord &record,
+    ShownValue shown(const StoredCase &record,
                      const std::pair<std::string, std::string> &setting)
     {
       const auto &[key, value] = setting;
-      const cases::Material &material = record.material;
+      const cases::Material &material = record.scene.material;
       const auto number = [](double ratio) { return plain_number(ratio, 4); };
-      if(key == "Scene/Material/latent heat" && std::isfinite(record.stefan_number))
-        return {"Stefan number", number(record.stefan_number)};
+      if(const double stefan = stefan_number(record);
+         key == "Scene/Material/latent heat" && std::isfinite(stefan))
+        return {"Stefan number", number(stefan)};
       if(key.ends_with("/conductivity"))
         return {"k_s/k_l",
                 number(material.solid.conductivity / material.liquid.conductivity)};
@@ -40,7 +56,7 @@ namespace meltfront::verification
       return {last_part(key), value};
     }
 
-    bool same_keys(const VariationGroup &group, const CaseRecord &record)
+    bool same_keys(const VariationGroup &group, const StoredCase &record)
     {
       return group.base == record.variation_of
              && std::ranges::equal(group.axes, record.variation,
@@ -49,7 +65,7 @@ namespace meltfront::verification
     }
 
     VariationGroup &group_of(std::vector<VariationGroup> &groups,
-                             const CaseRecord &record)
+                             const StoredCase &record)
     {
       for(VariationGroup &group : groups)
         if(same_keys(group, record))
@@ -92,7 +108,7 @@ namespace meltfront::verification
     std::vector<VariationGroup> groups;
     for(const CaseRuns &runs : variations)
     {
-      const CaseRecord &record = *runs.record;
+      const StoredCase &record = *runs.record;
       VariationGroup &group = group_of(groups, record);
       Variation &variation = group.variations.emplace_back();
       variation.runs = &runs;
@@ -106,7 +122,7 @@ namespace meltfront::verification
     return groups;
   }
 
-  double front_peclet_number(const CaseRecord &record, const RunRecord &run)
+  double front_peclet_number(const StoredCase &record, const RunRecord &run)
   {
     const auto diffusivity = [](const cases::PhaseProperties &phase)
     { return phase.conductivity / (phase.density * phase.specific_heat_capacity); };
@@ -118,8 +134,8 @@ namespace meltfront::verification
       speed = std::fmax(speed, std::abs(front[i] - front[i - 1])
                                    / (series.time[i] - series.time[i - 1]));
     return speed * run.description.spacing
-           / std::min(diffusivity(record.material.solid),
-                      diffusivity(record.material.liquid));
+           / std::min(diffusivity(record.scene.material.solid),
+                      diffusivity(record.scene.material.liquid));
   }
 
   std::vector<RunWarning> warnings_of(const LabelRuns &label)

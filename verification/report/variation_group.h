@@ -45,7 +45,7 @@ namespace meltfront::verification
    * the thermal layer at the front, alpha/V, is thinner than the spacing. NaN without a
    * front.
    */
-  double front_peclet_number(const CaseRecord &record, const RunRecord &run);
+  double front_peclet_number(const StoredCase &record, const RunRecord &run);
 
   /** Something that runs noted between snapshots, and at which n. */
   struct RunWarning

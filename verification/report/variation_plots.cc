@@ -53,7 +53,7 @@ namespace meltfront::verification
     void write_cell(Script out, const Variation &variation, const LabelRuns &runs,
                     std::size_t row)
     {
-      const CaseRecord &record = *variation.runs->record;
+      const StoredCase &record = *variation.runs->record;
       const double x = static_cast<double>(variation.place[1]) + 0.5,
                    y = static_cast<double>(row) + 0.5;
       const RunRecord *finest = runs.finest();
@@ -92,9 +92,9 @@ namespace meltfront::verification
     }
   } // namespace
 
-  double relative_front_error(const CaseRecord &record, const Level &level)
+  double relative_front_error(const StoredCase &record, const Level &level)
   {
-    return level.value("front_rms") / std::abs(record.front_exact_end);
+    return level.value("front_rms") / std::abs(exact_front_at_end(record));
   }
 
   std::string variation_map_script(const VariationGroup &group, const std::string &label)

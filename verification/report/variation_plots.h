@@ -10,7 +10,7 @@ namespace meltfront::verification
 {
   /** The error of the front of a case (root mean square over the run) over the exact
    * front at the end. */
-  double relative_front_error(const CaseRecord &record, const Level &level);
+  double relative_front_error(const StoredCase &record, const Level &level);
 
   /**
    * A script that draws the map of a group with two axes: for each pair of values the

@@ -88,7 +88,7 @@ namespace meltfront::verification
                              const LabelRuns &runs, const std::set<int> &all_n,
                              Notes &notes)
     {
-      const CaseRecord &record = *variation.runs->record;
+      const StoredCase &record = *variation.runs->record;
       std::vector<Cell> row;
       for(std::size_t i = 0; i < group.axes.size(); ++i)
         row.push_back({group.axes[i].values[variation.place[i]]});
@@ -116,7 +116,7 @@ namespace meltfront::verification
     Table table_of(const VariationGroup &group, const std::string &label, Notes &notes)
     {
       const std::set<int> all_n = resolutions(group, label);
-      const CaseRecord &first = *group.variations.front().runs->record;
+      const StoredCase &first = *group.variations.front().runs->record;
       Table table;
       table.group_heading = "method";
       for(const VariationAxis &axis : group.axes)
@@ -152,7 +152,7 @@ namespace meltfront::verification
         for(const LabelRuns &runs : variation.runs->labels)
           for(const Level &level : runs.levels)
           {
-            csv += csv_field(variation.runs->record->name);
+            csv += csv_field(variation.runs->record->name());
             for(std::size_t i = 0; i < group.axes.size(); ++i)
               csv.append(",").append(csv_field(group.axes[i].values[variation.place[i]]));
             csv += fmt::format(",{},{},{:.12g},{:.12g}", csv_field(runs.label), level.n,

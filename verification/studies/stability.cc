@@ -18,12 +18,6 @@ namespace meltfront::verification
       return found == run.quantities.end() ? std::nan("") : found->second;
     }
 
-    double side(const CaseRecord &record)
-    {
-      return record.shape == "ball" ? 2 * record.radius
-                                    : record.upper[0] - record.lower[0];
-    }
-
     bool beyond_limit(const RunRecord &run)
     {
       const auto factor = run.options.find("step_factor");
@@ -37,7 +31,7 @@ namespace meltfront::verification
     }
 
     /** Why a finished run does not count as held; empty if it does. */
-    std::string objection(const RunRecord &run, const CaseRecord &record)
+    std::string objection(const RunRecord &run, const StoredCase &record)
     {
       if(beyond_limit(run))
         return "a step beyond the stability limit was returned as a result";
@@ -51,12 +45,12 @@ namespace meltfront::verification
                            largest_defect);
       const double backstep = quantity(run, "front_backsteps");
       if(record.measurement.monotone_front
-         && !(backstep <= largest_backstep * side(record)))
+         && !(backstep <= largest_backstep * record.scene.domain.side()))
         return fmt::format("the front moved back by {:.2e} m", backstep);
       return {};
     }
 
-    StabilityVerdict judge(const RunRecord &run, const CaseRecord &record)
+    StabilityVerdict judge(const RunRecord &run, const StoredCase &record)
     {
       StabilityVerdict verdict{run.case_name, run.label, run.n, "held", ""};
       if(run.status == RunStatus::refused)
@@ -80,9 +74,9 @@ namespace meltfront::verification
     std::vector<StabilityVerdict> verdicts;
     for(const RunRecord &run : result.runs)
     {
-      const auto record
-          = std::find_if(result.cases.begin(), result.cases.end(),
-                         [&run](const CaseRecord &c) { return c.name == run.case_name; });
+      const auto record = std::find_if(result.cases.begin(), result.cases.end(),
+                                       [&run](const StoredCase &c)
+                                       { return c.name() == run.case_name; });
       if(record != result.cases.end())
         verdicts.push_back(judge(run, *record));
     }

@@ -58,7 +58,7 @@ namespace meltfront::verification
       cases::Case c = tests::slab_case("slab");
       c.criteria = criteria;
       MatrixResult result;
-      result.cases = {make_case_record(c)};
+      result.cases = {StoredCase{c}};
       result.runs = std::move(runs);
       evaluate(result);
       return result;

@@ -22,7 +22,44 @@
 
 namespace meltfront::verification::tests
 {
-  /** A slab whose solution is LinearProfile: front at 0.5 sqrt(t), from 0 to 1 s. */
+  /** The text of a slab from 0 to 1 s between walls at -1 and 1. */
+  inline std::string slab_text(const std::string &title)
+  {
+    return "set title = " + title + R"(
+subsection Scene
+  set symmetry = planar
+  set end time = 1
+  subsection Domain
+    set shape = slab
+    set length = 1
+  end
+  subsection Material
+    set latent heat = 1
+    set melting temperature = 0
+    subsection Solid
+      set conductivity = 1
+      set specific heat capacity = 1
+      set density = 1
+    end
+  end
+  subsection Initial state
+    set temperature = 1
+  end
+  subsection Walls
+    subsection x_min
+      set kind = fixed temperature
+      set temperature = -1
+    end
+    subsection x_max
+      set kind = fixed temperature
+      set temperature = 1
+    end
+  end
+end
+)";
+  }
+
+  /** The same whose solution is LinearProfile: front at 0.5 sqrt(t). */
   inline cases::Case slab_case(const std::string &name)
   {
     cases::Case c;
@@ -34,7 +71,7 @@ namespace meltfront::verification::tests
           = cases::Boundary{cases::BoundaryKind::fixed_temperature,
                             cases::Field::uniform(temperature), false};
     c.title = "A slab";
-    c.text = "set title = " + name;
+    c.text = slab_text(name);
     c.exact = std::make_shared<LinearProfile>(cases::Symmetry::planar);
     return c;
   }

@@ -1,3 +1,4 @@
+#include <cases/case_file/criterion_parser.h>
 #include <cases/error.h>
 #include <verification/matrix/criteria.h>
 #include <verification/matrix/finding.h>
@@ -13,20 +14,11 @@ namespace meltfront::verification::tests
 {
   namespace
   {
-    CaseRecord case_named(const std::string &name)
-    {
-      CaseRecord record;
-      record.name = name;
-      record.shape = "slab";
-      record.upper = {1, 0, 0};
-      return record;
-    }
-
     /** Errors factor * h^order on four levels. */
     void add_runs(MatrixResult &result, const std::string &case_name, double factor,
                   double order)
     {
-      result.cases.push_back(case_named(case_name));
+      result.cases.push_back({slab_case(case_name)});
       for(const int n : {10, 20, 40, 80})
       {
         RunRecord &run = result.runs.emplace_back();
@@ -136,7 +128,9 @@ namespace meltfront::verification::tests
 
   TEST(Findings, ComeBackFromJson)
   {
-    Finding finding{"Order {1}.", {{"bar[k=*]", order_between(1, INFINITY)}}};
+    Finding finding{
+        "Order {1}.",
+        {{"bar[k=*]", cases::parse_criterion("sph: order of front_rms >= 1")}}};
     const nlohmann::json stored = finding;
     const auto read = nlohmann::json::parse(stored.dump()).get<Finding>();
     EXPECT_EQ(read.claim, finding.claim);

@@ -1,7 +1,6 @@
 #include <cases/outcomes.h>
 #include <cases/shape.h>
 #include <cases/velocity_field.h>
-#include <verification/matrix/case_record.h>
 #include <verification/matrix/criteria.h>
 #include <verification/matrix/json_values.h>
 #include <verification/matrix/motion_observer.h>
@@ -139,57 +138,5 @@ namespace meltfront::verification
     const auto known = table_value_names();
     for(const auto &[name, value] : record.quantities)
       EXPECT_NE(std::ranges::find(known, name), known.end()) << name;
-  }
-
-  TEST(CaseRecord, OfAParticleSolidComesBackFromItsFile)
-  {
-    cases::Case c = solid_case({1, 2});
-    cases::ParticleSolid &solid = *c.scene.particle_solid;
-    solid.arrangement = cases::SolidArrangement::rectangle;
-    solid.rows = 9;
-    solid.test = cases::SolidTest::temperature;
-    solid.corners = {1, 7};
-    solid.gravity = 32;
-    solid.law.repulsion_exponent = 10;
-    solid.base = cases::SolidBase{0.1, cases::HotBase{5, 1.5, 0.025}};
-    solid.heating
-        = cases::PointHeating{{0.2, 5.7, 0}, {{50000, 0.008}, {30000, 0.0095}}, -2, 2.5};
-    const CaseRecord record = make_case_record(c);
-    const nlohmann::json json = record;
-    const auto read = json.get<CaseRecord>();
-    EXPECT_EQ(nlohmann::json(read).dump(), json.dump());
-    ASSERT_TRUE(read.moving && read.moving->solid);
-    EXPECT_EQ(read.moving->problem, "particle solid");
-    EXPECT_EQ(read.moving->solid->arrangement, cases::SolidArrangement::rectangle);
-    EXPECT_EQ(read.moving->solid->rows, 9);
-    EXPECT_EQ(read.moving->solid->heating->stages.at(1).steps, 30000);
-    EXPECT_EQ(read.moving->solid->heating->power, -2);
-    EXPECT_EQ(read.moving->solid->base->hot->slope, 0.025);
-    EXPECT_EQ(read.moving->solid->corners, (std::vector<int>{1, 7}));
-  }
-
-  TEST(CaseRecord, OfACarriedFrontHoldsTheExactFronts)
-  {
-    cases::Case c;
-    c.scene.problem = cases::ProblemKind::interface_advection;
-    c.scene.domain.shape = cases::DomainShape::box;
-    c.scene.domain.dimension = 2;
-    c.scene.domain.upper = {1, 1, 0};
-    c.scene.interface = cases::InterfaceAdvection{
-        std::make_shared<cases::Ball>(2, cases::Position{0.3, 0.5, 0}, 0.1),
-        std::make_shared<cases::RigidMotion>(cases::Position{0.4, 0, 0}, 0,
-                                             cases::Position{})};
-    c.measurement.marks = {0.5};
-    const nlohmann::json json = make_case_record(c);
-    const auto read = json.get<CaseRecord>();
-    EXPECT_EQ(nlohmann::json(read).dump(), json.dump());
-    ASSERT_EQ(read.moving->exact_fronts.size(), 2u);
-    for(const FrontFrame &front : read.moving->exact_fronts)
-    {
-      ASSERT_GT(front.x.size(), 100u);
-      for(std::size_t i = 0; i < front.x.size(); ++i)
-        EXPECT_NEAR(std::hypot(front.x[i] - 0.3 - 0.4 * front.time, front.y[i] - 0.5),
-                    0.1, 1e-4);
-    }
   }
 } // namespace meltfront::verification

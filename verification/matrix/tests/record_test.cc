@@ -151,43 +151,6 @@ namespace meltfront::verification
       EXPECT_EQ(read.message.substr(0, 9), "bad byte ");
     }
 
-    TEST(CaseRecord, ComesBackFromItsFile)
-    {
-      cases::Case c = tests::slab_case("slab");
-      c.tags = {"plane", "exact"};
-      c.limits = {"none"};
-      c.scene.sources.push_back({{0.25, 0, 0},
-                                 "-3*t",
-                                 [](double t) { return -3 * t; },
-                                 [](double t) { return -1.5 * t * t; }});
-      cases::Criterion criterion;
-      criterion.method = "sph";
-      criterion.quantity = "front_rms";
-      criterion.statistic = cases::Statistic::order;
-      criterion.n_from = 20;
-      criterion.n_to = 50;
-      criterion.lower = 1.25;
-      criterion.known_shortfall = "1.2 measured";
-      c.criteria = {criterion};
-      c.printed = {{"Paper, Table 1", "sph", "front_rms", 20, 0.01063}};
-      c.measurement.front_floor = 3e-5;
-      const CaseRecord record = make_case_record(c);
-      const auto read
-          = nlohmann::json::parse(nlohmann::json(record).dump()).get<CaseRecord>();
-      EXPECT_EQ(nlohmann::json(read).dump(), nlohmann::json(record).dump());
-      EXPECT_EQ(read.hash, sha256(c.text));
-      EXPECT_EQ(read.shape, "slab");
-      EXPECT_EQ(read.symmetry, "planar");
-      EXPECT_EQ(read.boundaries.at(0), "x_min: fixed temperature -1");
-      EXPECT_EQ(read.sources.at(0), "at (0.25): -3*t W/m");
-      EXPECT_EQ(read.front_exact_end, 0.5);
-      EXPECT_EQ(read.criteria.at(0).statistic, cases::Statistic::order);
-      EXPECT_EQ(read.criteria.at(0).n_to, 50);
-      EXPECT_EQ(read.criteria.at(0).upper, infinity);
-      EXPECT_EQ(read.measurement.temperature_to, infinity);
-      EXPECT_EQ(read.printed.at(0).value, 0.01063);
-    }
-
     TEST(Sha256, AgreesWithTheStandard)
     {
       // FIPS 180-4, example of a one-block message.
@@ -205,9 +168,6 @@ namespace meltfront::verification
       EXPECT_THROW(read_json(directory.path("nothing.json")), cases::OutputError);
       write_atomically(directory.path("half.json"), "{\"a\": ");
       EXPECT_THROW(read_json(directory.path("half.json")), cases::OutputError);
-      EXPECT_THROW(load_matrix_result(directory.path()), cases::OutputError);
-      write_atomically(directory.path("matrix.json"), "{}");
-      EXPECT_THROW(load_matrix_result(directory.path()), cases::OutputError);
     }
   } // namespace
 } // namespace meltfront::verification

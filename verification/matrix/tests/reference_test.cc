@@ -44,7 +44,7 @@ namespace meltfront::verification
       c.exact = nullptr;
       c.reference = cases::Reference{"fine[degree=2,scheme=a]", reference_n};
       MatrixResult result;
-      result.cases = {make_case_record(c)};
+      result.cases = {StoredCase{c}};
       result.runs = std::move(runs);
       return result;
     }
@@ -164,38 +164,6 @@ namespace meltfront::verification
            "solid_volume_rms_error", "solid_volume_1", "iterations_per_step", "dt",
            "most_iterations", "front_points_max", "solid_volume_backsteps"})
         EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
-    }
-
-    TEST(Reference, IsPartOfTheCasesRecord)
-    {
-      cases::Case c = tests::slab_case("disk");
-      c.reference = cases::Reference{"fine", 64};
-      c.measurement.front_mode = 4;
-      c.measurement.marks = {0.1, 0.25};
-      c.measurement.events = {cases::TimedEvent::all_frozen};
-      c.measurement.mirror = 1;
-      c.scene.domain.inner_radius = 0.2;
-      c.scene.domain.reference_length = 3;
-      c.scene.domain.outline = std::make_shared<const cases::Outline>(
-          std::vector<cases::Outline::Point>{{0, 0}, {1, 0}, {0.5, 2}});
-      c.scene.initial.front = cases::Field::uniform(-1);
-      c.scene.initial.front->expression = "x-0.5";
-      const CaseRecord record = make_case_record(c);
-      EXPECT_NE(record.initial_state.find("solid where x-0.5 < 0"), std::string::npos);
-      const auto read
-          = nlohmann::json::parse(nlohmann::json(record).dump()).get<CaseRecord>();
-      EXPECT_EQ(nlohmann::json(read).dump(), nlohmann::json(record).dump());
-      ASSERT_TRUE(read.reference);
-      EXPECT_EQ(read.reference->label, "fine");
-      EXPECT_EQ(read.reference->n, 64);
-      EXPECT_EQ(read.measurement.marks, c.measurement.marks);
-      EXPECT_EQ(read.measurement.front_mode, 4);
-      EXPECT_EQ(read.measurement.events, c.measurement.events);
-      EXPECT_EQ(read.measurement.mirror, 1);
-      EXPECT_EQ(read.inner_radius, 0.2);
-      EXPECT_EQ(read.reference_length, 3);
-      EXPECT_EQ(read.outline_x, (std::vector{0., 1., 0.5}));
-      EXPECT_EQ(read.outline_y, (std::vector{0., 0., 2.}));
     }
   } // namespace
 } // namespace meltfront::verification

@@ -65,7 +65,7 @@ namespace meltfront::verification
     {
       cases::Case c = tests::slab_case("slab");
       c.scene.domain.upper[0] = 0.2;
-      const CaseRecord slab = make_case_record(c);
+      const StoredCase slab = StoredCase{c};
       EXPECT_DOUBLE_EQ(round_off_floor(slab, "front_end"), 2e-14);
       EXPECT_DOUBLE_EQ(round_off_floor(slab, "solid_volume_end_error"), 2e-14);
       EXPECT_DOUBLE_EQ(round_off_floor(slab, "front_rms_relative"), 1e-13);
@@ -73,9 +73,7 @@ namespace meltfront::verification
       c.scene = tests::scene_of(cases::DomainShape::shell, 2, cases::Symmetry::none);
       c.scene.domain.radius = 2;
       c.scene.domain.inner_radius = 0.5;
-      const CaseRecord shell = make_case_record(c);
-      EXPECT_EQ(shell.shape, "shell");
-      EXPECT_DOUBLE_EQ(domain_side(shell), 4);
+      const StoredCase shell = StoredCase{c};
       EXPECT_DOUBLE_EQ(round_off_floor(shell, "solid_volume_1_error"), 16e-13);
     }
 
@@ -95,7 +93,7 @@ namespace meltfront::verification
     double fitted_order(bool in_time, double order)
     {
       MatrixResult result;
-      result.cases = {make_case_record(tests::slab_case("slab"))};
+      result.cases = {StoredCase{tests::slab_case("slab")}};
       cases::Criterion criterion;
       criterion.method = "fitted";
       criterion.quantity = "front_end";

@@ -37,17 +37,16 @@ namespace meltfront::verification
       return frame;
     }
 
-    CaseRecord annulus_case()
+    StoredCase annulus_case()
     {
-      CaseRecord record = fixture::plane_case("annulus");
-      record.symmetry = "none";
-      record.shape = "shell";
-      record.dimension = 2;
-      record.radius = 1;
-      record.inner_radius = 0.2;
-      record.boundaries = {"outer: fixed temperature 1", "inner: fixed temperature -1"};
-      record.exact = "";
-      record.front_exact_end = std::nan("");
+      StoredCase record = fixture::plane_case("annulus");
+      cases::Scene &scene = record.scene;
+      scene.symmetry = cases::Symmetry::none;
+      scene.domain = {cases::DomainShape::shell, 2, {}, {}, 1, 0.2};
+      scene.boundaries = {};
+      for(const cases::Side side : {cases::Side::outer, cases::Side::inner})
+        fixture::set_wall(record, side, cases::BoundaryKind::fixed_temperature, "1");
+      record.exact = nullptr;
       record.measurement.front_mode = 4;
       record.measurement.marks = {0.5};
       record.reference = cases::Reference{"fem-fitted", 80};
@@ -103,7 +102,7 @@ namespace meltfront::verification
     const CaseRuns *runs_of(const std::vector<CaseRuns> &all, const std::string &name)
     {
       for(const CaseRuns &runs : all)
-        if(runs.record->name == name)
+        if(runs.record->name() == name)
           return &runs;
       return nullptr;
     }

@@ -13,10 +13,9 @@ namespace
   {
     MatrixResult result;
     result.hard_cases = true;
-    CaseRecord record;
-    record.name = "hard";
-    record.shape = "slab";
-    record.upper = {1, 0, 0};
+    StoredCase record;
+    record.scene.name = "hard";
+    record.scene.domain.upper = {1, 0, 0};
     result.cases = {record};
     RunRecord run;
     run.case_name = "hard";
