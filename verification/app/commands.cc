@@ -5,17 +5,17 @@
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
 #include <verification/app/methods.h>
-#include <verification/matrix/child_process.h>
-#include <verification/matrix/criteria.h>
-#include <verification/matrix/json_values.h>
-#include <verification/matrix/label.h>
+#include <verification/judge/criteria.h>
+#include <verification/judge/stability.h>
 #include <verification/matrix/matrix_file.h>
 #include <verification/matrix/matrix_files.h>
-#include <verification/matrix/memory_limit.h>
-#include <verification/matrix/run_one.h>
 #include <verification/matrix/runner.h>
-#include <verification/report/report.h>
-#include <verification/studies/stability.h>
+#include <verification/record/json_values.h>
+#include <verification/record/label.h>
+#include <verification/report/page/report.h>
+#include <verification/run/child_process.h>
+#include <verification/run/memory_limit.h>
+#include <verification/run/run_one.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

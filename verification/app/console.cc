@@ -1,7 +1,7 @@
 #include <verification/app/console.h>
-#include <verification/matrix/criteria.h>
-#include <verification/matrix/reference.h>
-#include <verification/matrix/refinement.h>
+#include <verification/judge/criteria.h>
+#include <verification/judge/reference.h>
+#include <verification/judge/refinement.h>
 
 #include <fmt/format.h>
 

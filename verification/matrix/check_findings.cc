@@ -1,7 +1,7 @@
 #include <cases/error.h>
-#include <verification/matrix/criteria.h>
-#include <verification/matrix/label.h>
+#include <verification/judge/criteria.h>
 #include <verification/matrix/matrix.h>
+#include <verification/record/label.h>
 
 #include <fmt/format.h>
 

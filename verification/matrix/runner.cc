@@ -1,12 +1,12 @@
 #include <cases/error.h>
-#include <verification/matrix/child_process.h>
 #include <verification/matrix/directory_lock.h>
-#include <verification/matrix/hash.h>
-#include <verification/matrix/json_values.h>
 #include <verification/matrix/matrix_files.h>
-#include <verification/matrix/memory_limit.h>
 #include <verification/matrix/progress.h>
 #include <verification/matrix/runner.h>
+#include <verification/record/hash.h>
+#include <verification/record/json_values.h>
+#include <verification/run/child_process.h>
+#include <verification/run/memory_limit.h>
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #ifndef meltfront_verification_matrix_runner_h
 #define meltfront_verification_matrix_runner_h
 
+#include <verification/judge/matrix_result.h>
 #include <verification/matrix/matrix.h>
-#include <verification/matrix/matrix_result.h>
-#include <verification/matrix/run_one.h>
+#include <verification/run/run_one.h>
 
 #include <cstdio>
 #include <functional>

@@ -1,5 +1,5 @@
 #include <verification/matrix/runner.h>
-#include <verification/matrix/tests/fakes.h>
+#include <verification/run/tests/fakes.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include <verification/report/case_runs.h>
-#include <verification/report/report.h>
+#include <verification/report/chapters/variation_group.h>
+#include <verification/report/page/case_runs.h>
+#include <verification/report/page/report.h>
+#include <verification/report/plots/variation_plots.h>
 #include <verification/report/tests/fixture.h>
 #include <verification/report/tests/well_formed.h>
-#include <verification/report/variation_group.h>
-#include <verification/report/variation_plots.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #ifndef meltfront_verification_report_tests_fixture_h
 #define meltfront_verification_report_tests_fixture_h
 
-#include <verification/matrix/matrix_result.h>
-#include <verification/matrix/temporary_directory.h>
+#include <verification/judge/matrix_result.h>
+#include <verification/record/temporary_directory.h>
 
 #include <string>
 

@@ -1,12 +1,12 @@
 #include <cases/outcomes.h>
 #include <cases/shape.h>
 #include <cases/velocity_field.h>
-#include <verification/matrix/criteria.h>
-#include <verification/report/case_runs.h>
-#include <verification/report/ensemble_table.h>
-#include <verification/report/particle_frames.h>
-#include <verification/report/report.h>
-#include <verification/report/solid_plots.h>
+#include <verification/judge/criteria.h>
+#include <verification/report/page/case_runs.h>
+#include <verification/report/page/report.h>
+#include <verification/report/pictures/particle_frames.h>
+#include <verification/report/plots/solid_plots.h>
+#include <verification/report/tables/ensemble_table.h>
 #include <verification/report/tests/fixture.h>
 #include <verification/report/tests/well_formed.h>
 

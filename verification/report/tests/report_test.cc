@@ -1,5 +1,5 @@
 #include <cases/error.h>
-#include <verification/report/report.h>
+#include <verification/report/page/report.h>
 #include <verification/report/tests/fixture.h>
 #include <verification/report/tests/well_formed.h>
 

@@ -1,15 +1,15 @@
-#include <verification/matrix/reference.h>
-#include <verification/report/case_plots.h>
-#include <verification/report/chapters.h>
-#include <verification/report/convergence_table.h>
-#include <verification/report/cost_at_error.h>
-#include <verification/report/curve_labels.h>
-#include <verification/report/gnuplot.h>
-#include <verification/report/report.h>
-#include <verification/report/scene_picture.h>
+#include <verification/judge/reference.h>
+#include <verification/report/chapters/chapters.h>
+#include <verification/report/page/report.h>
+#include <verification/report/pictures/scene_picture.h>
+#include <verification/report/pictures/tracked_front.h>
+#include <verification/report/plots/case_plots.h>
+#include <verification/report/plots/curve_labels.h>
+#include <verification/report/plots/gnuplot.h>
+#include <verification/report/tables/convergence_table.h>
+#include <verification/report/tables/cost_at_error.h>
 #include <verification/report/tests/fixture.h>
 #include <verification/report/tests/well_formed.h>
-#include <verification/report/tracked_front.h>
 
 #include <gtest/gtest.h>
 
