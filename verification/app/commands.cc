@@ -10,6 +10,7 @@
 #include <verification/matrix/matrix_file.h>
 #include <verification/matrix/matrix_files.h>
 #include <verification/matrix/runner.h>
+#include <verification/measure/measure.h>
 #include <verification/record/json_values.h>
 #include <verification/record/label.h>
 #include <verification/report/page/report.h>
@@ -78,12 +79,11 @@ namespace meltfront::verification
     cases::Case load_checked_case(const std::string &name)
     {
       cases::Case c = cases::load_case(name);
-      const std::vector<std::string> quantities = table_value_names();
-      const auto check = [&c](const std::string &label, const std::string &where)
+      const auto check = [&c](const std::string &where, const auto &check_it)
       {
         try
         {
-          check_label(label, method_named);
+          check_it();
         }
         catch(const cases::InputError &error)
         {
@@ -91,18 +91,15 @@ namespace meltfront::verification
         }
       };
       if(c.reference)
-        check(c.reference->label, "reference");
+        check("reference", [&] { check_label(c.reference->label, method_named); });
       for(const cases::Criterion &criterion : c.criteria)
-      {
-        check(criterion.method, fmt::format("criterion '{}'", criterion.text));
-        if(criterion.statistic != cases::Statistic::failure
-           && std::find(quantities.begin(), quantities.end(), criterion.quantity)
-                  == quantities.end())
-          throw cases::InputError(fmt::format(
-              "{}: criterion '{}': there is no quantity '{}'; the nearest is '{}'",
-              c.file, criterion.text, criterion.quantity,
-              cases::nearest_name(criterion.quantity, quantities)));
-      }
+        check(fmt::format("criterion '{}'", criterion.text),
+              [&]
+              {
+                check_label(criterion.method, method_named);
+                if(criterion.statistic != cases::Statistic::failure)
+                  require_quantity(criterion.quantity);
+              });
       return c;
     }
 

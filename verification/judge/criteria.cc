@@ -1,9 +1,8 @@
 #include <verification/judge/criteria.h>
 #include <verification/judge/reference.h>
 #include <verification/judge/refinement.h>
+#include <verification/measure/measure.h>
 #include <verification/record/label.h>
-#include <verification/run/motion_observer.h>
-#include <verification/run/run_observer.h>
 
 #include <fmt/format.h>
 
@@ -186,22 +185,17 @@ namespace meltfront::verification
 
   std::map<std::string, double> run_columns(const RunRecord &run)
   {
-    const cases::Cost &cost = run.cost;
-    const auto number = [](auto value) { return static_cast<double>(value); };
-    const auto if_positive = [](double value) { return value > 0 ? value : nan; };
-    return {{"h", run.description.spacing},
-            {"dt", run.description.time_step},
-            {"unknowns", number(cost.unknowns)},
-            {"steps", number(cost.steps)},
-            {"work", number(cost.work)},
-            {"solver_iterations", number(cost.solver_iterations)},
-            {"iterations_per_step",
-             if_positive(number(cost.solver_iterations) / number(cost.steps))},
-            {"most_iterations", if_positive(number(cost.most_iterations))},
-            {"capped_steps", number(cost.capped_steps)},
-            {"cpu_seconds", cost.setup_cpu + cost.stepping_cpu},
-            {"wall_seconds", cost.setup_wall + cost.stepping_wall},
-            {"peak_memory_mb", run.peak_memory_mb}};
+    static const std::vector<Quantity> told = []
+    {
+      std::vector<Quantity> list = all_quantities();
+      std::erase_if(list, [](const Quantity &quantity) { return !quantity.of_run; });
+      return list;
+    }();
+    std::map<std::string, double> values;
+    for(const Quantity &quantity : told)
+      values[quantity.name]
+          = quantity.of_run({run.description, run.cost, run.peak_memory_mb});
+    return values;
   }
 
   double table_value(const RunRecord &run, const std::string &name)
@@ -213,18 +207,6 @@ namespace meltfront::verification
     const auto all = run_columns(run);
     const auto found = all.find(name);
     return found == all.end() ? nan : found->second;
-  }
-
-  std::vector<std::string> table_value_names()
-  {
-    std::vector<std::string> names = RunObserver::quantity_names();
-    for(const std::string &name : MotionObserver::quantity_names())
-      names.push_back(name);
-    for(const std::string &name : derived_quantity_names())
-      names.push_back(name);
-    for(const auto &[name, value] : run_columns(RunRecord()))
-      names.push_back(name);
-    return names;
   }
 
   void evaluate(MatrixResult &result)

@@ -9,20 +9,12 @@
 
 namespace meltfront::verification
 {
-  /**
-   * A number of a finished run by its column's name: a quantity, or `h`, `dt`,
-   * `unknowns`, `steps`, `work`, `solver_iterations`, `iterations_per_step` and
-   * `most_iterations` (of a method that iterates), `capped_steps`, `cpu_seconds`,
-   * `wall_seconds`, `peak_memory_mb`. NaN for a run that did not finish and for an
-   * unknown name.
-   */
+  /** A quantity of a finished run, as a measure's or told from its cost; NaN for a run
+   * that did not finish and for an unknown name. */
   double table_value(const RunRecord &run, const std::string &name);
 
-  /** What a table shows of a run beside its quantities, by name. */
+  /** The quantities that are told from a run's cost, by name. */
   std::map<std::string, double> run_columns(const RunRecord &run);
-
-  /** The names that table_value() knows: what a criterion may ask of. */
-  std::vector<std::string> table_value_names();
 
   /** What a criterion asks of: `front_rms at n=40`, `order of front_rms`. */
   std::string quantity_text(const cases::Criterion &criterion);

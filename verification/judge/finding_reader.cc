@@ -110,8 +110,8 @@ namespace meltfront::verification
       declare("caption", "", "What is to be seen in the picture.");
       declare("cases", "", "A case; * for any value of a varied key.");
       declare("runs", "", "Labels, with semicolons; * for any value of an option.");
-      declare("quantity", "front_rms", "Column of the table that is drawn.");
-      declare("against", "h", "Column of the table over which it is drawn.");
+      declare("quantity", "front_rms", "Quantity of the table that is drawn.");
+      declare("against", "h", "Quantity of the table over which it is drawn.");
     }
   }
 

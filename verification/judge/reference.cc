@@ -1,6 +1,7 @@
 #include <verification/judge/reference.h>
 #include <verification/judge/refinement.h>
 #include <verification/measure/formulas/run_statistics.h>
+#include <verification/measure/measure.h>
 #include <verification/record/label.h>
 
 #include <fmt/format.h>
@@ -15,7 +16,6 @@ namespace meltfront::verification
   {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     constexpr std::size_t levels_of_index = 3;
-    constexpr std::size_t fewest_times = 50;
     constexpr const char *series_error = "solid_volume_rms_error";
 
     double quantity(const RunRecord &run, const std::string &name)
@@ -76,9 +76,7 @@ namespace meltfront::verification
         errors.add(series.solid_volume[i]
                    - interpolated(reference.time, reference.solid_volume, series.time[i],
                                   tolerance));
-      return errors.samples() >= static_cast<long>(fewest_times)
-                 ? errors.root_mean_square()
-                 : nan;
+      return errors.mean_over_time();
     }
 
     void compare(RunRecord &run, const RunRecord &reference,
@@ -106,8 +104,9 @@ namespace meltfront::verification
           = [&](const RunRecord &run) { return run.case_name == record.name(); };
       for(RunRecord &run : result.runs)
         if(of_case(run) && run.status == RunStatus::finished)
-          for(const std::string &name : derived_quantity_names())
-            run.quantities[name] = nan;
+          for(const Quantity &known : all_quantities())
+            if(known.from_reference)
+              run.quantities[known.name] = nan;
       const auto levels = reference_levels(result, record);
       if(levels.empty())
       {
@@ -122,9 +121,9 @@ namespace meltfront::verification
                                    + " has fewer than two coarser runs beside it: its "
                                      "uncertainty is not known");
       std::vector<ReferenceTrust> trusts;
-      for(const std::string &name : compared_quantities())
-        if(std::isfinite(quantity(*levels.front(), name)))
-          trusts.push_back(trust_in(record, levels, name));
+      for(const Quantity &known : all_quantities())
+        if(known.compared && std::isfinite(quantity(*levels.front(), known.name)))
+          trusts.push_back(trust_in(record, levels, known.name));
       for(RunRecord &run : result.runs)
         if(of_case(run) && run.status == RunStatus::finished
            && !is_reference(record, run))
@@ -133,37 +132,11 @@ namespace meltfront::verification
     }
   } // namespace
 
-  const std::vector<std::string> &compared_quantities()
-  {
-    static const std::vector<std::string> names = []
-    {
-      std::vector<std::string> list{"solid_volume_end"};
-      for(int mark = 1; mark <= cases::most_marks; ++mark)
-        list.push_back(fmt::format("solid_volume_{}", mark));
-      list.emplace_back("front_mode_end");
-      for(const char *event : cases::timed_event_names)
-        list.emplace_back(event);
-      return list;
-    }();
-    return names;
-  }
-
-  std::vector<std::string> derived_quantity_names()
-  {
-    std::vector<std::string> names;
-    for(const std::string &name : compared_quantities())
-    {
-      names.push_back(name + "_error");
-      names.push_back(name + "_bars");
-    }
-    names.emplace_back(series_error);
-    return names;
-  }
-
   bool is_derived_quantity(const std::string &name)
   {
-    const std::vector<std::string> names = derived_quantity_names();
-    return std::ranges::find(names, name) != names.end();
+    const auto &known = all_quantities();
+    const auto found = std::ranges::find(known, name, &Quantity::name);
+    return found != known.end() && found->from_reference;
   }
 
   bool is_reference(const StoredCase &record, const RunRecord &run)

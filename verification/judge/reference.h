@@ -8,13 +8,7 @@
 
 namespace meltfront::verification
 {
-  /** The quantities that are compared with a reference: solid_volume_end, solid_volume_1
-   * to _4, front_mode_end. */
-  const std::vector<std::string> &compared_quantities();
-
-  /** The names of what compare_with_references() adds to a run's quantities. */
-  std::vector<std::string> derived_quantity_names();
-
+  /** Whether a quantity is a difference from a reference run. */
   bool is_derived_quantity(const std::string &name);
 
   /** Whether others of the case are held against this run. */
@@ -25,7 +19,7 @@ namespace meltfront::verification
    * run; adds to RunRecord::quantities, NaN where not defined and for the reference run
    * itself:
    *
-   * X_error = |X - X_ref| for every X of compared_quantities();
+   * X_error = |X - X_ref| for every X with Quantity::compared;
    * X_bars = X_error over the uncertainty of X_ref, the grid convergence index of the
    * three finest runs of the reference's label, itself the finest (extrapolate()): at or
    * below 1, the reference cannot tell the run from itself;

@@ -1,9 +1,5 @@
 #include <cases/error.h>
-#include <cases/outcomes.h>
-#include <verification/run/front_frame.h>
 #include <verification/run/motion_observer.h>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,22 +9,8 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    constexpr int samples_of_every_step = 200;
-
     constexpr int pictures_before_mark = 12, most_pictures = 60;
     constexpr std::size_t most_animated = 2000;
-
-    constexpr const char *interface_names[]
-        = {"volume_error", "front_l1",   "shape_mismatch", "shape_missing",
-           "shape_extra",  "normal_rms", "curvature_rms"};
-
-    std::array<double, std::size(interface_names)>
-    values_of(const InterfaceErrors &errors)
-    {
-      return {errors.volume, errors.front,  errors.mismatch, errors.missing,
-              errors.extra,  errors.normal, errors.curvature};
-    }
 
     /** Values for pictures: five digits of the largest, so that records stay small. */
     std::vector<double> rounded(std::span<const double> values)
@@ -82,43 +64,17 @@ namespace meltfront::verification
   MotionObserver::MotionObserver(const cases::Case &c, const cases::Scene &simulated,
                                  const std::string &method, cases::Observer *second,
                                  bool animated)
-    : the_case(c)
-    , scene(simulated)
-    , method(method)
-    , second(second)
-    , tolerance(1e-9 * (simulated.end_time - simulated.start_time))
-    , samples(c.measurement.samples == 0 ? samples_of_every_step : c.measurement.samples)
-    , last_time(nan)
+    : RunObserver(c, simulated, method, second)
   {
     if(animated && simulated.particle_solid)
       picture_times = times_of_pictures(simulated, c.measurement.marks);
   }
 
-  void MotionObserver::begin(const cases::RunDescription &description)
+  void MotionObserver::start()
   {
-    run_description = description;
     if(scene.interface)
       comparison.emplace(scene, description.spacing);
-    if(second)
-      second->begin(description);
-  }
-
-  bool MotionObserver::at_the_end(double time) const
-  {
-    return time >= scene.end_time - tolerance;
-  }
-
-  bool MotionObserver::sample_is_due(long step, double time) const
-  {
-    const double share
-        = (time - scene.start_time + tolerance) / (scene.end_time - scene.start_time);
-    return step == 0 || samples * share >= next_sample;
-  }
-
-  bool MotionObserver::mark_is_due(double time) const
-  {
-    const std::vector<double> &marks = the_case.measurement.marks;
-    return next_mark < marks.size() && time >= marks[next_mark] - tolerance;
+    start_measures(MeasuredScenes::in_motion, comparison ? &*comparison : nullptr);
   }
 
   bool MotionObserver::picture_is_due(double time) const
@@ -127,14 +83,12 @@ namespace meltfront::verification
            && time >= picture_times[next_picture] - tolerance;
   }
 
-  bool MotionObserver::wants(long step, double time)
+  bool MotionObserver::asks_for(long step, double time)
   {
-    const bool second_wants = second && second->wants(step, time);
-    return sample_is_due(step, time) || mark_is_due(time) || picture_is_due(time)
-           || second_wants;
+    return sample_is_due(step, time) || mark_is_due(time) || picture_is_due(time);
   }
 
-  void MotionObserver::judge(const cases::Snapshot &snapshot) const
+  void MotionObserver::look(const cases::Snapshot &snapshot)
   {
     for(const auto &values : {snapshot.positions, snapshot.velocity, snapshot.front})
       for(const std::span<const double> component : values)
@@ -143,62 +97,32 @@ namespace meltfront::verification
                                       "is not finite");
   }
 
-  void MotionObserver::observe(const cases::Snapshot &snapshot)
+  double MotionObserver::volume(const Sighting &sighting) const
   {
-    if(snapshot.step == last_step)
-      return;
-    judge(snapshot);
-    if(sample_is_due(snapshot.step, snapshot.time) || at_the_end(snapshot.time))
-      add_to_series(snapshot);
-    while(mark_is_due(snapshot.time))
+    const cases::Snapshot &snapshot = sighting.snapshot;
+    if(scene.particle_solid)
+      return std::accumulate(snapshot.solid_fraction.begin(),
+                             snapshot.solid_fraction.end(), 0.);
+    return sighting.in_series && snapshot.level_set && scene.domain.dimension == 2
+               ? comparison->volume(snapshot)
+               : std::nan("");
+  }
+
+  void MotionObserver::see(Sighting sighting)
+  {
+    const cases::Snapshot &snapshot = sighting.snapshot;
+    sighting.solid_volume = volume(sighting);
+    if(sighting.in_series)
     {
-      ++next_mark;
-      measure(snapshot, fmt::format("_{}", next_mark));
-      if(!mark_is_due(snapshot.time))
-        keep_frame(snapshot);
+      run_series.time.push_back(snapshot.time);
+      run_series.solid_volume.push_back(sighting.solid_volume);
     }
-    if(snapshot.step == 0)
+    observe_with_all(sighting);
+    if(snapshot.step == 0 || !sighting.marks.empty())
       keep_frame(snapshot);
     keep_picture(snapshot);
-    if(at_the_end(snapshot.time))
-    {
-      measure(snapshot, "_end");
+    if(sighting.at_end)
       keep_frame(snapshot);
-      ended = true;
-    }
-    if(second
-       && (second->wants(snapshot.step, snapshot.time) || snapshot.step == 0
-           || at_the_end(snapshot.time)))
-      second->observe(snapshot);
-    last_step = snapshot.step;
-    last_time = snapshot.time;
-  }
-
-  void MotionObserver::add_to_series(const cases::Snapshot &snapshot)
-  {
-    const double share = (snapshot.time - scene.start_time + tolerance)
-                         / (scene.end_time - scene.start_time);
-    next_sample = static_cast<int>(samples * share) + 1;
-    run_series.time.push_back(snapshot.time);
-    if(scene.particle_solid)
-      run_series.solid_volume.push_back(std::accumulate(
-          snapshot.solid_fraction.begin(), snapshot.solid_fraction.end(), 0.));
-    else if(snapshot.level_set && scene.domain.dimension == 2)
-      run_series.solid_volume.push_back(comparison->volume(snapshot));
-    else
-      run_series.solid_volume.push_back(nan);
-  }
-
-  void MotionObserver::measure(const cases::Snapshot &snapshot, const std::string &suffix)
-  {
-    if(scene.particle_solid)
-      values["solid" + suffix] = std::accumulate(snapshot.solid_fraction.begin(),
-                                                 snapshot.solid_fraction.end(), 0.);
-    if(!comparison || !snapshot.level_set)
-      return;
-    const auto errors = values_of(comparison->errors(snapshot));
-    for(std::size_t i = 0; i < errors.size(); ++i)
-      values[interface_names[i] + suffix] = errors[i];
   }
 
   void MotionObserver::keep_frame(const cases::Snapshot &snapshot)
@@ -206,7 +130,7 @@ namespace meltfront::verification
     if(!scene.particle_solid)
     {
       if(snapshot.step > 0)
-        add_front_frame(snapshot, run_description.spacing, front_frames);
+        keep_front(snapshot);
       return;
     }
     if(snapshot.dimension != 2)
@@ -226,62 +150,24 @@ namespace meltfront::verification
       animation.push_back(frame_of(snapshot));
   }
 
-  void MotionObserver::note(double time, const std::string &event)
-  {
-    run_events.push_back({time, event});
-    if(second)
-      second->note(time, event);
-  }
-
   void MotionObserver::outcome(const std::string &name, double value)
   {
-    values[name] = value;
+    told[name] = value;
     if(second)
       second->outcome(name, value);
   }
 
-  void MotionObserver::require_end() const
-  {
-    if(!ended)
-      throw cases::NumericalError(
-          method, last_step, last_time, "time",
-          fmt::format("was not taken to the end, {:.6g}", scene.end_time));
-  }
-
-  void MotionObserver::keep_course(RunRecord &record) const
-  {
-    record.description = run_description;
-    record.series = run_series;
-    record.events = run_events;
-  }
-
   void MotionObserver::keep_results(RunRecord &record) const
   {
-    record.frames = front_frames;
+    RunObserver::keep_results(record);
     record.particle_frames = particle_frames;
     record.animation = animation;
-    record.quantities = values;
   }
 
-  const std::vector<std::string> &MotionObserver::quantity_names()
+  Results MotionObserver::quantities() const
   {
-    static const std::vector<std::string> names = []
-    {
-      std::vector<std::string> list;
-      for(const cases::Outcome &outcome : cases::outcomes())
-        list.push_back(outcome.name);
-      std::vector<std::string> suffixes;
-      for(int mark = 1; mark <= cases::most_marks; ++mark)
-        suffixes.push_back(fmt::format("_{}", mark));
-      suffixes.emplace_back("_end");
-      for(const std::string &suffix : suffixes)
-      {
-        list.push_back("solid" + suffix);
-        for(const char *name : interface_names)
-          list.push_back(name + suffix);
-      }
-      return list;
-    }();
-    return names;
+    Results values = RunObserver::quantities();
+    values.insert(told.begin(), told.end());
+    return values;
   }
 } // namespace meltfront::verification

@@ -2,7 +2,8 @@
 #include <cases/out_of_memory.h>
 #include <verification/record/hash.h>
 #include <verification/record/provenance.h>
-#include <verification/run/run_measures.h>
+#include <verification/run/heat_observer.h>
+#include <verification/run/motion_observer.h>
 #include <verification/run/run_one.h>
 
 #include <fmt/format.h>
@@ -83,6 +84,19 @@ namespace meltfront::verification
       cases::require_affordable(method, demand, resolution.memory_limit);
     }
 
+    /** What the case's kind of problem is observed by. */
+    std::unique_ptr<RunObserver> observer_of(const cases::Case &c,
+                                             const cases::Scene &scene,
+                                             const cases::Method &method,
+                                             const cases::Capabilities &capabilities,
+                                             cases::Observer *second, bool animated)
+    {
+      if(scene.conducts_heat())
+        return std::make_unique<HeatObserver>(c, scene, method.name(), capabilities,
+                                              second);
+      return std::make_unique<MotionObserver>(c, scene, method.name(), second, animated);
+    }
+
     void solve(const cases::Case &c, const cases::Method &method,
                const cases::Resolution &resolution, cases::Observer *second,
                const RepeatPolicy &policy, RunRecord &record)
@@ -93,17 +107,17 @@ namespace meltfront::verification
       const cases::Capabilities capabilities
           = cases::require_capable(method, scene, effects, resolution.threads);
       require_affordable(method, scene, effects, resolution, record);
-      const auto measures = measures_of(c, scene, method.name(), capabilities, second,
-                                        resolution.seed == 1);
+      const auto observer
+          = observer_of(c, scene, method, capabilities, second, resolution.seed == 1);
       const auto keep_course = [&]
       {
-        measures->keep_course(record);
+        observer->keep_course(record);
         record.peak_memory_mb = peak_memory_mb();
       };
       try
       {
-        record.cost = method.solve(scene, effects, resolution, *measures);
-        measures->require_end();
+        record.cost = method.solve(scene, effects, resolution, *observer);
+        observer->require_end();
       }
       catch(...)
       {
@@ -111,7 +125,7 @@ namespace meltfront::verification
         throw;
       }
       keep_course();
-      measures->keep_results(record);
+      observer->keep_results(record);
       record.status = RunStatus::finished;
       // The first seed stands for the time of all; the others are there for their
       // results.

@@ -28,9 +28,9 @@ namespace meltfront::verification
    * Run one method on one case and measure it.
    *
    * The effects that the scene calls for are derived, the scene is reduced to them, and
-   * the method solves it while a RunObserver measures. A refusal gives a record of status
-   * `refused`, any other exception one of status `failed`, with the reason; nothing is
-   * thrown. A short run is repeated and the least of each time kept.
+   * the method solves it while a RunObserver observes it. A refusal gives a record of
+   * status `refused`, any other exception one of status `failed`, with the reason;
+   * nothing is thrown. A short run is repeated and the least of each time kept.
    *
    * Peak memory is that of the calling process (getrusage), so that it is the run's own
    * where the process was started for it.

@@ -1,4 +1,5 @@
 #include <verification/matrix/directory_lock.h>
+#include <verification/matrix/matrix_files.h>
 #include <verification/matrix/runner.h>
 #include <verification/record/json_values.h>
 #include <verification/run/child_process.h>

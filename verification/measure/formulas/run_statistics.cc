@@ -27,9 +27,9 @@ namespace meltfront::verification
     return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : nan;
   }
 
-  long ErrorStatistics::samples() const
+  double ErrorStatistics::mean_over_time() const
   {
-    return count;
+    return count >= fewest_times ? root_mean_square() : nan;
   }
 
   double ErrorStatistics::largest() const

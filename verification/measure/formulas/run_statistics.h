@@ -11,14 +11,17 @@ namespace meltfront::verification
   public:
     void add(double error);
 
+    /** Fewer times than that are no average over a run. */
+    static constexpr int fewest_times = 50;
+
     /** Root mean square; NaN for no error at all. */
     double root_mean_square() const;
 
+    /** Root mean square over times; NaN for fewer than fewest_times. */
+    double mean_over_time() const;
+
     /** Largest magnitude; NaN for no error at all. */
     double largest() const;
-
-    /** Errors gathered, NaN left out. */
-    long samples() const;
 
   private:
     long count = 0;

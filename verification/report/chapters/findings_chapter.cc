@@ -225,8 +225,6 @@ namespace meltfront::verification
                  + list("ol", sentences)
                  + folded("What each finding rests on", evidence_table(findings));
     content += pictures(context) + maps(context);
-    if(content.empty())
-      return content;
-    return element("section", {{"id", "findings"}}, element("h2", "Findings") + content);
+    return content.empty() ? content : element("h2", "Findings") + content;
   }
 } // namespace meltfront::verification

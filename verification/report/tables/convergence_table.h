@@ -2,6 +2,7 @@
 #define meltfront_verification_report_tables_convergence_table_h
 
 #include <verification/measure/formulas/order_fit.h>
+#include <verification/measure/measure.h>
 #include <verification/report/page/case_runs.h>
 #include <verification/report/tables/table.h>
 
@@ -10,28 +11,6 @@
 
 namespace meltfront::verification
 {
-  /** In which cases a quantity has a column. */
-  enum class Shown
-  {
-    always,        ///< where it has a value
-    when_asked,    ///< where a criterion or a printed value names it
-    without_exact, ///< where there is no exact solution, or when asked
-    in_time        ///< where some label refines the time step
-  };
-
-  /** What a column of the convergence table holds. */
-  struct Quantity
-  {
-    std::string name; ///< in RunRecord::quantities, run.json and the CSV
-    std::string heading;
-    std::string unit;   ///< `volume`: m, m^2 or m^3
-    bool error = false; ///< it has an order, and its least value is the best
-    bool whole = false; ///< a count
-    Shown shown = Shown::always;
-    int csv_rank = 0; ///< columns of the CSV stand in the order of their ranks
-    int digits = 3;   ///< significant, in the table
-  };
-
   /** The columns of convergence tables in their order, with units of SI. */
   const std::vector<Quantity> &table_quantities();
 

@@ -1,5 +1,5 @@
 #include <verification/run/front_frame.h>
-#include <verification/run/run_observer.h>
+#include <verification/run/heat_observer.h>
 #include <verification/run/tests/fakes.h>
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ namespace meltfront::verification
       cases::Case c = disk_case();
       c.measurement.samples = 50;
       c.measurement.marks = {0.3333, 0.5, 1};
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       const int taken = drive(observer, 1000, growing);
       EXPECT_LT(taken, 51 + 30);
       const auto values = observer.quantities();
@@ -111,7 +111,7 @@ namespace meltfront::verification
       cases::Case c = disk_case();
       c.measurement.samples = 50;
       c.measurement.events = {cases::TimedEvent::half_frozen};
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       // The first of two equal sites freezes until t = 0.8.
       const int taken = drive(observer, 1000,
                               [](double time)
@@ -131,7 +131,7 @@ namespace meltfront::verification
       for(const int direction : {0, 1})
       {
         c.measurement.mirror = direction;
-        RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+        HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
         drive(observer, 100, growing);
         const double asymmetry = observer.quantities().at("mirror_asymmetry");
         if(direction == 0)
@@ -144,18 +144,18 @@ namespace meltfront::verification
     TEST(SolidVolumeOverTime, TellsHowFarItFellBackOfItsNetChange)
     {
       const cases::Case c = disk_case();
-      RunObserver monotone(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver monotone(c, c.scene, "fake", tests::fake_capabilities());
       drive(monotone, 100, growing);
       EXPECT_EQ(monotone.quantities().at("solid_volume_backsteps"), 0);
-      RunObserver dented(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver dented(c, c.scene, "fake", tests::fake_capabilities());
       drive(dented, 100,
             [](double time) { return 0.2 + 0.5 * time - (time == 0.5) * 0.1; });
       EXPECT_NEAR(dented.quantities().at("solid_volume_backsteps"), (0.1 - 0.005) / 0.5,
                   1e-12);
-      RunObserver melting(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver melting(c, c.scene, "fake", tests::fake_capabilities());
       drive(melting, 100, [](double time) { return 0.8 - 0.5 * time; });
       EXPECT_EQ(melting.quantities().at("solid_volume_backsteps"), 0);
-      RunObserver standing(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver standing(c, c.scene, "fake", tests::fake_capabilities());
       drive(standing, 100, [](double) { return 0.5; });
       EXPECT_TRUE(std::isnan(standing.quantities().at("solid_volume_backsteps")));
     }
@@ -167,7 +167,7 @@ namespace meltfront::verification
       const auto exact = [](double time) { return 0.5 * std::sqrt(time); };
       const auto volume
           = [&](double time) { return pi * std::max(1e-12, exact(time) * exact(time)); };
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 200, volume,
             [&](double time) { return exact(time) + (time < 0.5 ? 1e-3 : -2e-3); });
       const auto values = observer.quantities();
@@ -176,7 +176,7 @@ namespace meltfront::verification
       EXPECT_NEAR(values.at("front_points_max"), 2e-3, 1e-12);
       EXPECT_NEAR(values.at("roundness_end"), 0, 1e-15);
       EXPECT_NEAR(values.at("front_rms"), 0, 1e-12);
-      RunObserver untracked(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver untracked(c, c.scene, "fake", tests::fake_capabilities());
       drive(untracked, 200, volume, exact, 0);
       for(const char *name : {"front_points_rms", "front_points_max", "roundness_end"})
         EXPECT_TRUE(std::isnan(untracked.quantities().at(name))) << name;
@@ -187,7 +187,7 @@ namespace meltfront::verification
     {
       cases::Case c = disk_case();
       c.measurement.marks = {0.25, 0.5, 1};
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(
           observer, 40, growing, [](double time) { return 0.2 + 0.1 * time; }, 1000);
       const auto &frames = observer.frames();
@@ -219,7 +219,7 @@ namespace meltfront::verification
       {
         cases::Capabilities capabilities = tests::fake_capabilities();
         capabilities.overshoot = {.at_twenty = 0.1, .order = 0};
-        RunObserver observer(c, c.scene, "fake", capabilities);
+        HeatObserver observer(c, c.scene, "fake", capabilities);
         cases::RunDescription description;
         description.spacing = 0.1;
         observer.begin(description);
@@ -242,11 +242,11 @@ namespace meltfront::verification
     TEST(FrontModeEnd, IsMeasuredWhereTheCaseAsksForIt)
     {
       cases::Case c = disk_case();
-      RunObserver unasked(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver unasked(c, c.scene, "fake", tests::fake_capabilities());
       drive(unasked, 100, growing);
       EXPECT_TRUE(std::isnan(unasked.quantities().at("front_mode_end")));
       c.measurement.front_mode = 1;
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 100, growing);
       // All solid lies at one site at phi = 0.
       EXPECT_NEAR(observer.quantities().at("front_mode_end"), std::sqrt(growing(1) / pi),

@@ -1,5 +1,5 @@
 #include <verification/run/end_profile.h>
-#include <verification/run/run_observer.h>
+#include <verification/run/heat_observer.h>
 #include <verification/run/tests/fakes.h>
 
 #include <gtest/gtest.h>
@@ -49,10 +49,10 @@ namespace meltfront::verification
       return 0.5 * std::sqrt(time);
     }
 
-    TEST(RunObserver, MeasuresAKnownErrorOfTheFront)
+    TEST(HeatObserver, MeasuresAKnownErrorOfTheFront)
     {
       const cases::Case c = tests::slab_case("slab");
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       // 1e-3 too far in the first half, 2e-3 short in the second.
       drive(observer, 200,
             [](double time)
@@ -74,20 +74,20 @@ namespace meltfront::verification
       EXPECT_TRUE(std::isnan(values.at("front_floor")));
     }
 
-    TEST(RunObserver, TakesTheLateErrorFromTheSecondHalfOnly)
+    TEST(HeatObserver, TakesTheLateErrorFromTheSecondHalfOnly)
     {
       const cases::Case c = tests::slab_case("slab");
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 200,
             [](double time) { return exact_front(time) + (time < 0.49 ? 1e-2 : 1e-4); });
       EXPECT_NEAR(observer.quantities().at("front_late_max_relative"), 2e-4, 1e-12);
       EXPECT_NEAR(observer.quantities().at("front_max"), 1e-2, 1e-12);
     }
 
-    TEST(RunObserver, FollowsThePapersTwoErrors)
+    TEST(HeatObserver, FollowsThePapersTwoErrors)
     {
       const cases::Case c = tests::slab_case("slab");
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 200, exact_front);
       // Cells of 0.02, h = 0.024: what the readings must be at each sampled time.
       double squares_ice = 0, squares_loss = 0;
@@ -111,10 +111,10 @@ namespace meltfront::verification
                   std::sqrt(squares_loss / frozen), 1e-9);
     }
 
-    TEST(RunObserver, MeasuresTheTemperatureAtTheEnd)
+    TEST(HeatObserver, MeasuresTheTemperatureAtTheEnd)
     {
       const cases::Case c = tests::slab_case("slab");
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 100, exact_front, 1,
             [](State &state, int step)
             {
@@ -131,11 +131,11 @@ namespace meltfront::verification
       EXPECT_NEAR(observer.profile().temperature_exact[10], 0.21 - 0.5, 1e-12);
     }
 
-    TEST(RunObserver, SamplesEveryStepOrOnTheClockOfRoots)
+    TEST(HeatObserver, SamplesEveryStepOrOnTheClockOfRoots)
     {
       cases::Case c = tests::slab_case("slab");
       c.measurement.samples = 0;
-      RunObserver every(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver every(c, c.scene, "fake", tests::fake_capabilities());
       // Off at one step only, which is none of the 200 that the series keeps.
       drive(every, 1000,
             [](double time) { return exact_front(time) + (time == 0.503 ? 0.01 : 0); });
@@ -146,63 +146,63 @@ namespace meltfront::verification
 
       c.measurement.samples = 50;
       c.measurement.square_root_clock = true;
-      RunObserver roots(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver roots(c, c.scene, "fake", tests::fake_capabilities());
       drive(roots, 100000, exact_front);
       ASSERT_EQ(roots.series().time.size(), 51u);
       for(int i = 0; i <= 50; ++i)
         EXPECT_NEAR(std::sqrt(roots.series().time[i]), i / 50., 1e-3);
     }
 
-    TEST(RunObserver, TakesEveryStepThereIsWhenTheyAreFew)
+    TEST(HeatObserver, TakesEveryStepThereIsWhenTheyAreFew)
     {
       const cases::Case c = tests::slab_case("slab");
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 7, exact_front);
       EXPECT_EQ(observer.series().time.size(), 8u);
       observer.require_end();
     }
 
-    TEST(RunObserver, MeasuresHowFarAFrontFallsBack)
+    TEST(HeatObserver, MeasuresHowFarAFrontFallsBack)
     {
       const cases::Case c = tests::slab_case("slab");
-      RunObserver monotone(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver monotone(c, c.scene, "fake", tests::fake_capabilities());
       drive(monotone, 100, exact_front);
       EXPECT_EQ(monotone.quantities().at("front_backsteps"), 0);
-      RunObserver wobbling(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver wobbling(c, c.scene, "fake", tests::fake_capabilities());
       drive(wobbling, 100,
             [](double time) { return exact_front(time) - (time == 0.5) * 0.1; });
       EXPECT_NEAR(wobbling.quantities().at("front_backsteps"),
                   exact_front(0.49) - exact_front(0.5) + 0.1, 1e-12);
       const auto retreat = [](double time) { return 0.5 - 0.1 * time; };
-      RunObserver astray(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver astray(c, c.scene, "fake", tests::fake_capabilities());
       drive(astray, 100, retreat);
       EXPECT_NEAR(astray.quantities().at("front_backsteps"), 0.1, 1e-12)
           << "the exact front advances";
       cases::Case unknown = c;
       unknown.exact = nullptr;
-      RunObserver melting(unknown, unknown.scene, "fake", tests::fake_capabilities());
+      HeatObserver melting(unknown, unknown.scene, "fake", tests::fake_capabilities());
       drive(melting, 100, retreat);
       EXPECT_EQ(melting.quantities().at("front_backsteps"), 0);
     }
 
-    TEST(RunObserver, GivesNoMeanOfFewerThanFiftyTimes)
+    TEST(HeatObserver, GivesNoMeanOfFewerThanFiftyTimes)
     {
       const cases::Case c = tests::slab_case("slab");
-      RunObserver few(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver few(c, c.scene, "fake", tests::fake_capabilities());
       drive(few, 49, exact_front);
       EXPECT_TRUE(std::isnan(few.quantities().at("front_rms")));
       EXPECT_NEAR(few.quantities().at("front_end"), 0, 1e-15);
-      RunObserver enough(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver enough(c, c.scene, "fake", tests::fake_capabilities());
       drive(enough, 50, exact_front);
       EXPECT_NEAR(enough.quantities().at("front_rms"), 0, 1e-15);
     }
 
-    TEST(RunObserver, LeavesUndefinedWhatNeedsAnExactSolution)
+    TEST(HeatObserver, LeavesUndefinedWhatNeedsAnExactSolution)
     {
       cases::Case c = tests::slab_case("slab");
       c.exact = nullptr;
       c.measurement.front_floor = 3e-5;
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 100, exact_front);
       const auto values = observer.quantities();
       for(const char *name : {"front_rms", "front_end", "front_max", "temperature_l2",
@@ -217,7 +217,7 @@ namespace meltfront::verification
     long failing_step(const std::function<void(State &, int)> &disturb)
     {
       const cases::Case c = tests::slab_case("slab");
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       try
       {
         drive(observer, 100, exact_front, 1, disturb);
@@ -230,7 +230,7 @@ namespace meltfront::verification
       return -1;
     }
 
-    TEST(RunObserver, StopsARunThatBreaksABound)
+    TEST(HeatObserver, StopsARunThatBreaksABound)
     {
       const auto at_step_30 = [](const std::function<void(State &)> &change)
       {
@@ -261,10 +261,10 @@ namespace meltfront::verification
                 -1);
     }
 
-    TEST(RunObserver, KeepsTheWorstBudget)
+    TEST(HeatObserver, KeepsTheWorstBudget)
     {
       const cases::Case c = tests::slab_case("slab");
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 100, exact_front, 1,
             [](State &state, int step)
             {
@@ -278,28 +278,28 @@ namespace meltfront::verification
     }
 
     // Such a study reports the order of whatever the initial state was made with.
-    TEST(RunObserver, RefusesARunThatEndsWhenItStarts)
+    TEST(HeatObserver, RefusesARunThatEndsWhenItStarts)
     {
       cases::Case c = tests::slab_case("slab");
       c.scene.end_time = c.scene.start_time;
-      EXPECT_THROW(RunObserver(c, c.scene, "fake", tests::fake_capabilities()),
+      EXPECT_THROW(HeatObserver(c, c.scene, "fake", tests::fake_capabilities()),
                    cases::InputError);
       c.scene.end_time = 1;
       c.measurement.samples = 20;
-      EXPECT_THROW(RunObserver(c, c.scene, "fake", tests::fake_capabilities()),
+      EXPECT_THROW(HeatObserver(c, c.scene, "fake", tests::fake_capabilities()),
                    cases::InputError);
     }
 
-    TEST(RunObserver, NoticesARunThatDoesNotReachItsEnd)
+    TEST(HeatObserver, NoticesARunThatDoesNotReachItsEnd)
     {
       const cases::Case c = tests::slab_case("slab");
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities());
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(observer, 100, exact_front, 0.99);
       EXPECT_THROW(observer.require_end(), cases::NumericalError);
       EXPECT_TRUE(std::isnan(observer.quantities().at("front_end")));
     }
 
-    TEST(RunObserver, HandsASecondObserverWhatItWants)
+    TEST(HeatObserver, HandsASecondObserverWhatItWants)
     {
       class EveryTenth : public cases::Observer
       {
@@ -321,7 +321,7 @@ namespace meltfront::verification
       } second;
       cases::Case c = tests::slab_case("slab");
       c.measurement.samples = 50;
-      RunObserver observer(c, c.scene, "fake", tests::fake_capabilities(), &second);
+      HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities(), &second);
       drive(observer, 100, exact_front);
       EXPECT_EQ(second.begun, 1);
       EXPECT_EQ(second.steps,
