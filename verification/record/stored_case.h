@@ -16,9 +16,10 @@ namespace meltfront::verification
    */
   struct StoredCase : cases::Case
   {
-    std::string hash;         ///< SHA-256 of the text
-    std::string variation_of; ///< the case that a matrix varies to this one; empty: none
-    cases::CaseSettings variation; ///< what the matrix gives other values
+    std::string hash{}; ///< SHA-256 of the text
+    std::string
+        variation_of{}; ///< the case that a matrix varies to this one; empty: none
+    cases::CaseSettings variation{}; ///< what the matrix gives other values
 
     const std::string &name() const
     {

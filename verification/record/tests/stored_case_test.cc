@@ -1,6 +1,7 @@
 #include <cases/case_file/case_file.h>
 #include <verification/record/hash.h>
 #include <verification/record/json_values.h>
+#include <verification/record/stored_case.h>
 #include <verification/run/tests/fakes.h>
 
 #include <gtest/gtest.h>
