@@ -8,55 +8,32 @@ namespace meltfront::verification
 {
   namespace
   {
-    Markup filled(const Markup &equation)
+    Markup enthalpy(const cases::Material &m)
     {
-      return element("span", {{"class", "filled"}}, equation);
+      const Markup melting = math("($T − #)", {equation_number(m.melting_temperature)});
+      return math("$H = $f $c_s($T − $T_m) + (1 − $f) [$c_l($T − $T_m) + $L]")
+             + filled(math("$H = $f ## + (1 − $f) [## + #]",
+                           {factor(m.solid.specific_heat_capacity), melting,
+                            factor(m.liquid.specific_heat_capacity), melting,
+                            equation_number(m.latent_heat)}));
     }
 
-    Markup excess()
+    Markup lever_rule(const cases::Scene &scene)
     {
-      return text("(") + symbol("T") + text(" − ") + symbol("T", "m") + text(")");
-    }
-
-    Markup heat()
-    {
-      return symbol("ρ") + text(" ") + derivative(symbol("H"), symbol("t"))
-             + text(" = ∇·(") + symbol("k") + text(" ∇") + symbol("T") + text(")");
-    }
-
-    Markup enthalpy(const StoredCase &record)
-    {
-      const cases::Material &m = record.scene.material;
-      const Markup melting = text("(") + symbol("T") + text(" − ")
-                             + equation_number(m.melting_temperature) + text(")");
-      return symbol("H") + text(" = ") + symbol("f") + text(" ") + symbol("c", "s")
-             + excess() + text(" + (1 − ") + symbol("f") + text(") [") + symbol("c", "l")
-             + excess() + text(" + ") + symbol("L") + text("]")
-             + filled(symbol("H") + text(" = ") + symbol("f") + text(" ")
-                      + factor(m.solid.specific_heat_capacity) + melting
-                      + text(" + (1 − ") + symbol("f") + text(") [")
-                      + factor(m.liquid.specific_heat_capacity) + melting + text(" + ")
-                      + equation_number(m.latent_heat) + text("]"));
-    }
-
-    Markup lever_rule(const StoredCase &record)
-    {
-      Markup sum;
-      bool curved = false;
-      for(std::size_t s = 0; s < record.scene.alloy->solutes.size(); ++s)
+      Markup liquidus
+          = math("$T = #", {equation_number(scene.material.melting_temperature)});
+      int number = 0;
+      for(const cases::Solute &solute : scene.alloy->solutes)
       {
-        const cases::Solute &solute = record.scene.alloy->solutes[s];
-        curved = curved || solute.liquidus_curve;
-        sum += text(" − ") + equation_number(solute.liquidus_slope) + text(" ")
-               + symbol("C", std::to_string(s + 1));
+        if(solute.liquidus_curve)
+        {
+          liquidus = text(" the liquidus " + scene.alloy->solutes[0].liquidus);
+          break;
+        }
+        liquidus += math(" − # $C_" + std::to_string(++number),
+                         {equation_number(solute.liquidus_slope)});
       }
-      const Markup liquidus
-          = curved
-                ? text(" the liquidus " + record.scene.alloy->solutes[0].liquidus)
-                : symbol("T") + text(" = ")
-                      + equation_number(record.scene.material.melting_temperature) + sum;
-      return liquidus + text(" where 0 < ") + symbol("f")
-             + text(" < 1; all solute stays in the liquid");
+      return liquidus + math(" where 0 < $f < 1; all solute stays in the liquid");
     }
 
     double crystal_density(const cases::Scene &scene)
@@ -65,47 +42,41 @@ namespace meltfront::verification
       return density > 0 ? density : scene.material.liquid.density;
     }
 
-    Markup conductivity(const StoredCase &record)
+    Markup conductivity(const cases::Scene &scene)
     {
-      const cases::Material &m = record.scene.material;
-      const double expansion = m.liquid.density / crystal_density(record.scene);
-      const Markup theta = symbol("θ");
-      return symbol("k") + text(" = ") + theta + text(" ") + symbol("k", "s")
-             + text(" + (1 − ") + theta + text(") ") + symbol("k", "l")
-             + filled(symbol("k") + text(" = ") + factor(m.solid.conductivity) + theta
-                      + text(" + ") + factor(m.liquid.conductivity) + text("(1 − ")
-                      + theta + text("), ") + theta + text(" = ") + factor(expansion)
-                      + symbol("f"));
+      const cases::Material &m = scene.material;
+      return math("$k = $θ $k_s + (1 − $θ) $k_l")
+             + filled(math("$k = #$θ + #(1 − $θ), $θ = #$f",
+                           {factor(m.solid.conductivity), factor(m.liquid.conductivity),
+                            factor(m.liquid.density / crystal_density(scene))}));
     }
 
     Markup solute(const cases::Solute &solute, std::size_t number)
     {
-      const std::string index = std::to_string(number);
-      const Markup in_liquid = symbol("C", index);
+      const std::string in_liquid = "$C_" + std::to_string(number);
+      const std::string rate = "\\d{(1 − $f) " + in_liquid + "}{$t}";
       if(!(solute.diffusivity > 0))
-        return derivative(text("(1 − ") + symbol("f") + text(") ") + in_liquid,
-                          symbol("t"))
-               + text(" = 0");
-      return derivative(text("(1 − ") + symbol("f") + text(") ") + in_liquid, symbol("t"))
-             + text(" = ∇·[(1 − ") + symbol("θ") + text(") ")
-             + equation_number(solute.diffusivity) + text(" ∇") + in_liquid + text("]");
+        return math(rate + " = 0");
+      return math(rate + " = ∇·[(1 − $θ) # ∇" + in_liquid + "]",
+                  {equation_number(solute.diffusivity)});
     }
   } // namespace
 
   Markup alloy_equations(const StoredCase &record)
   {
-    Markup result = equation_line("heat", heat())
-                    + equation_line("enthalpy", enthalpy(record))
-                    + equation_line("liquidus", lever_rule(record))
-                    + equation_line("mush", conductivity(record));
-    for(std::size_t s = 0; s < record.scene.alloy->solutes.size(); ++s)
-      result += equation_line(record.scene.alloy->solutes[s].name,
-                              solute(record.scene.alloy->solutes[s], s + 1));
-    if(std::isfinite(record.scene.alloy->eutectic_temperature))
-      result += equation_line(
-          "eutectic", text("the rest freezes at ")
-                          + equation_number(record.scene.alloy->eutectic_temperature)
-                          + text(unit_of(record, " (K or °C)")));
+    const cases::Scene &scene = record.scene;
+    Markup result = equation_line("heat", math("$ρ \\d{$H}{$t} = ∇·($k ∇$T)"))
+                    + equation_line("enthalpy", enthalpy(scene.material))
+                    + equation_line("liquidus", lever_rule(scene))
+                    + equation_line("mush", conductivity(scene));
+    std::size_t number = 0;
+    for(const cases::Solute &one : scene.alloy->solutes)
+      result += equation_line(one.name, solute(one, ++number));
+    if(std::isfinite(scene.alloy->eutectic_temperature))
+      result += equation_line("eutectic",
+                              text("the rest freezes at ")
+                                  + equation_number(scene.alloy->eutectic_temperature)
+                                  + text(unit_of(record, " (K or °C)")));
     return result
            + element("p", {{"class", "nothing"}},
                      text("f: mass fraction of solid; θ: its volume fraction; C: mass "

@@ -25,6 +25,15 @@ namespace meltfront::verification
     std::vector<std::string> labels() const;
   };
 
+  /** A chapter of the page. */
+  struct Chapter
+  {
+    const char *anchor;
+    const char *word;                                ///< in the navigation
+    Markup (*content)(const ReportContext &context); ///< empty: nothing is to be shown
+  };
+
+  /** What stands above all chapters. */
   Markup verdict_chapter(const ReportContext &context);
 
   /** The matrix's findings and its pictures, and maps of what it varies; empty where it

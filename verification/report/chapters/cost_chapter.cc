@@ -196,6 +196,6 @@ namespace meltfront::verification
                       "run that failed or was refused."))
              + solids;
     }
-    return element("section", {{"id", "cost"}}, content);
+    return content;
   }
 } // namespace meltfront::verification

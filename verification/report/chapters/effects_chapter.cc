@@ -158,7 +158,7 @@ namespace meltfront::verification
                   "takes: ")
                  + element("a", {{"href", "capabilities.txt"}}, text("capabilities.txt"))
                  + text(". All else is refused."));
-    return element("section", {{"id", "effects"}}, content);
+    return content;
   }
 
   Markup effects_of_case(const ReportContext &context, const CaseRuns &runs)

@@ -4,16 +4,20 @@
 #include <verification/report/page/markup.h>
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace meltfront::verification
 {
-  /** An italic letter with an index. */
-  Markup symbol(const std::string &name, const std::string &index = "");
+  /**
+   * An equation from a pattern: `$x`, `$x_s`, `$x_{k+1}` is an italic letter with an
+   * index, `^{2}` a power, `\f{A}{B}` a fraction, `\d{A}{B}` the derivative of A by B
+   * with round d's, `#` the next of the arguments; all else is plain text.
+   */
+  Markup math(std::string_view pattern, const std::vector<Markup> &arguments = {});
 
-  Markup fraction(const Markup &above, const Markup &below);
-
-  /** dT/dx and the like, with round d's. */
-  Markup derivative(const Markup &of, const Markup &by);
+  /** The same with numbers in place of its letters, below it. */
+  Markup filled(const Markup &equation);
 
   /** A number of four digits. */
   Markup equation_number(double value);
@@ -23,6 +27,9 @@ namespace meltfront::verification
 
   /** An equation on a line of its own, with a word on what it holds for. */
   Markup equation_line(const std::string &where, const Markup &equation);
+
+  /** A condition beside its name, in a list of such. */
+  Markup condition(const std::string &what, const Markup &words);
 } // namespace meltfront::verification
 
 #endif

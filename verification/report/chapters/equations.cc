@@ -16,85 +16,65 @@ namespace meltfront::verification
              || record.scene.symmetry == cases::Symmetry::spherical;
     }
 
-    Markup coordinate_symbol(const StoredCase &record)
-    {
-      return symbol(radial(record)
-                        ? "r"
-                        : (record.scene.symmetry == cases::Symmetry::planar ? "x" : "n"));
-    }
-
     /** The Laplacian of T in the coordinate that the solution depends on. */
     Markup laplacian(const StoredCase &record)
     {
-      const Markup temperature = symbol("T"), r = symbol("r");
       if(record.scene.symmetry == cases::Symmetry::planar)
-        return fraction(text("∂") + element("sup", "2") + temperature,
-                        text("∂") + symbol("x") + element("sup", "2"));
-      if(!radial(record))
-        return text("∇") + element("sup", "2") + temperature;
-      const Markup power = record.scene.symmetry == cases::Symmetry::spherical
-                               ? r + element("sup", "2")
-                               : r;
-      return fraction(text("1"), power) + fraction(text("∂"), text("∂") + r) + text(" (")
-             + power + text(" ") + derivative(temperature, r) + text(")");
+        return math("\\f{∂^{2}$T}{∂$x^{2}}");
+      if(record.scene.symmetry == cases::Symmetry::spherical)
+        return math("\\f{1}{$r^{2}}\\f{∂}{∂$r} ($r^{2} \\d{$T}{$r})");
+      return math(radial(record) ? "\\f{1}{$r}\\f{∂}{∂$r} ($r \\d{$T}{$r})" : "∇^{2}$T");
     }
 
     Markup heat_equation(const StoredCase &record, const cases::PhaseProperties &phase,
-                         const std::string &index)
+                         const char *pattern)
     {
-      const Markup rate = derivative(symbol("T"), symbol("t"));
-      return symbol("ρ", index) + symbol("c", index) + text(" ") + rate + text(" = ")
-             + symbol("k", index) + text(" ") + laplacian(record)
-             + element("span", {{"class", "filled"}},
-                       factor(phase.volumetric_heat_capacity()) + rate + text(" = ")
-                           + factor(phase.conductivity) + laplacian(record));
+      const Markup right = laplacian(record);
+      return math(pattern, {right})
+             + filled(math("#\\d{$T}{$t} = ##", {factor(phase.volumetric_heat_capacity()),
+                                                 factor(phase.conductivity), right}));
     }
 
     /** A gradient at the front, taken on one of its sides. */
     Markup gradient_at_front(const StoredCase &record, const std::string &phase)
     {
-      return derivative(symbol("T"), coordinate_symbol(record))
+      const bool planar = record.scene.symmetry == cases::Symmetry::planar;
+      return math(radial(record) ? "\\d{$T}{$r}"
+                  : planar       ? "\\d{$T}{$x}"
+                                 : "\\d{$T}{$n}")
              + element("sub", {{"class", "side"}}, text(phase));
     }
 
     Markup stefan_condition(const StoredCase &record)
     {
       const cases::Material &material = record.scene.material;
-      const Markup speed
-          = record.scene.symmetry == cases::Symmetry::none
-                ? symbol("V", "n")
-                : fraction(text("d") + symbol("s"), text("d") + symbol("t"));
+      const Markup speed = math(
+          record.scene.symmetry == cases::Symmetry::none ? "$V_n" : "\\f{d$s}{d$t}");
       const Markup solid = gradient_at_front(record, "solid");
       const Markup liquid = gradient_at_front(record, "liquid");
-      return symbol("ρ", "s") + symbol("L") + text(" ") + speed + text(" = ")
-             + symbol("k", "s") + text(" ") + solid + text(" − ") + symbol("k", "l")
-             + text(" ") + liquid
-             + element("span", {{"class", "filled"}},
-                       factor(material.solid.density * material.latent_heat) + speed
-                           + text(" = ") + factor(material.solid.conductivity) + solid
-                           + text(" − ") + factor(material.liquid.conductivity) + liquid);
+      return math("$ρ_s$L # = $k_s # − $k_l #", {speed, solid, liquid})
+             + filled(math("## = ## − ##",
+                           {factor(material.solid.density * material.latent_heat), speed,
+                            factor(material.solid.conductivity), solid,
+                            factor(material.liquid.conductivity), liquid}));
     }
 
     /** Conduction alone: one substance, perhaps with an inclusion. */
     Markup conduction_equation(const StoredCase &record)
     {
-      const Markup flux
-          = text("∇·(") + symbol("k") + text(" ∇") + symbol("T") + text(")");
-      const cases::PhaseProperties &solid = record.scene.material.solid;
-      const Markup release
-          = record.scene.heat_release ? text(" + ") + symbol("q") : Markup();
-      const Markup rate = steady(record) ? text("0")
-                                         : symbol("ρ") + symbol("c") + text(" ")
-                                               + derivative(symbol("T"), symbol("t"));
-      Markup numbers = symbol("k") + text(" = ") + equation_number(solid.conductivity);
-      if(record.scene.inclusion)
-        numbers += text(", " + words(*record.scene.inclusion));
+      const cases::Scene &scene = record.scene;
+      const cases::PhaseProperties &solid = scene.material.solid;
+      Markup numbers = math("$k = #", {equation_number(solid.conductivity)});
+      if(scene.inclusion)
+        numbers += text(", " + words(*scene.inclusion));
       if(!steady(record))
-        numbers += text(", ") + symbol("ρ") + symbol("c") + text(" = ")
-                   + equation_number(solid.volumetric_heat_capacity());
-      if(const auto &release = record.scene.heat_release)
-        numbers += text(", ") + symbol("q") + text(" = " + release->expression);
-      return equation_line("", rate + text(" = ") + flux + release)
+        numbers
+            += math(", $ρ$c = #", {equation_number(solid.volumetric_heat_capacity())});
+      if(scene.heat_release)
+        numbers += math(", $q = #", {text(scene.heat_release->expression)});
+      return equation_line("", math(steady(record) ? "0 = ∇·($k ∇$T)"
+                                                   : "$ρ$c \\d{$T}{$t} = ∇·($k ∇$T)")
+                                   + (scene.heat_release ? math(" + $q") : Markup()))
              + equation_line("", numbers);
     }
 
@@ -133,34 +113,32 @@ namespace meltfront::verification
              + conditions(record);
     const cases::Material &material = record.scene.material;
     const std::string degrees = unit_of(record, " (K or °C)");
-    Markup melting = equation_number(material.melting_temperature);
-    Markup curved = symbol("T", "m");
+    Markup curved, melting = equation_number(material.melting_temperature);
     if(material.gibbs_thomson_coefficient != 0)
     {
-      curved += text(" − ") + symbol("Γ") + symbol("κ");
-      melting += text(" − ") + equation_number(material.gibbs_thomson_coefficient)
-                 + text(" ") + symbol("κ");
+      curved = math(" − $Γ$κ");
+      melting += math(" − # $κ", {equation_number(material.gibbs_thomson_coefficient)});
     }
     Markup result
-        = equation_line("solid", heat_equation(record, material.solid, "s"))
-          + equation_line("liquid", heat_equation(record, material.liquid, "l"));
-    result += equation_line("front", stefan_condition(record))
-              + equation_line("",
-                              symbol("T") + text(" = ") + curved + text(" = ") + melting
-                                  + text(degrees + " at the front"
-                                         + (record.scene.symmetry == cases::Symmetry::none
-                                                ? ", n its normal into the liquid"
-                                                : "")));
+        = equation_line("solid", heat_equation(record, material.solid,
+                                               "$ρ_s$c_s \\d{$T}{$t} = $k_s #"))
+          + equation_line("liquid", heat_equation(record, material.liquid,
+                                                  "$ρ_l$c_l \\d{$T}{$t} = $k_l #"));
+    result
+        += equation_line("front", stefan_condition(record))
+           + equation_line(
+               "", math("$T = $T_m# = # at the front", {curved, melting + text(degrees)})
+                       + text(record.scene.symmetry == cases::Symmetry::none
+                                  ? ", n its normal into the liquid"
+                                  : ""));
     if(material.solid.density != material.liquid.density
        && record.scene.symmetry == cases::Symmetry::planar)
       result += equation_line(
           "motion",
-          text("the liquid moves with ") + symbol("u") + text(" = (1 − ")
-              + symbol("ρ", "s") + text("/") + symbol("ρ", "l") + text(") d")
-              + symbol("s") + text("/d") + symbol("t") + text(" = ")
-              + equation_number(1 - material.solid.density / material.liquid.density)
-              + text(" d") + symbol("s") + text("/d") + symbol("t")
-              + text(" where that effect is on"));
+          math(
+              "the liquid moves with $u = (1 − $ρ_s/$ρ_l) d$s/d$t = # d$s/d$t where that "
+              "effect is on",
+              {equation_number(1 - material.solid.density / material.liquid.density)}));
     return element("div", {{"class", "equations"}}, result) + conditions(record);
   }
 

@@ -50,12 +50,11 @@ namespace meltfront::verification
       content += element("h3", "Orders of the elements by degree") + by_degree;
     if(content.empty())
       return content;
-    return element("section", {{"id", "orders"}},
-                   element("h2", "Orders of schemes and elements")
-                       + element("p", "Exponents fitted over at least four levels, of dt "
-                                      "where the spacing was kept and of h elsewhere, "
-                                      "without levels at round-off; the least error that "
-                                      "was reached, and what it took.")
-                       + content);
+    return element("h2", "Orders of schemes and elements")
+           + element("p", "Exponents fitted over at least four levels, of dt where the "
+                          "spacing was kept and of h elsewhere, without levels at "
+                          "round-off; the least error that was reached, and what it "
+                          "took.")
+           + content;
   }
 } // namespace meltfront::verification

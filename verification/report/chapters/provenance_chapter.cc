@@ -117,6 +117,6 @@ namespace meltfront::verification
     Markup content = element("h2", "Provenance") + environment(context.result);
     if(!context.result.cases.empty())
       content += element("h3", "Case files") + case_files(context.result.cases);
-    return element("section", {{"id", "provenance"}}, content);
+    return content;
   }
 } // namespace meltfront::verification

@@ -12,106 +12,70 @@ namespace meltfront::verification
 {
   namespace
   {
-    Markup filled(const Markup &equation)
-    {
-      return element("span", {{"class", "filled"}}, equation);
-    }
-
-    Markup power(const Markup &base, const std::string &exponent)
-    {
-      return base + element("sup", exponent);
-    }
-
-    Markup half_step(const std::string &letter, const std::string &index)
-    {
-      return symbol(letter, index);
-    }
-
     Markup leapfrog(const cases::ParticleSolid &solid)
     {
-      return half_step("v", "½") + text(" = ") + symbol("v", "0") + text(" + ½ Δ")
-             + symbol("t") + text(" ") + symbol("a", "0") + text(",  ")
-             + symbol("v", "k+½") + text(" = ") + symbol("v", "k−½") + text(" + Δ")
-             + symbol("t") + text(" ") + symbol("a", "k") + text(",  ")
-             + symbol("r", "k+1") + text(" = ") + symbol("r", "k") + text(" + Δ")
-             + symbol("t") + text(" ") + symbol("v", "k+½")
-             + filled(text("Δ") + symbol("t") + text(" = ")
-                      + equation_number(solid.time_step));
+      return math("$v_½ = $v_0 + ½ Δ$t $a_0,  $v_{k+½} = $v_{k−½} + Δ$t $a_k,  "
+                  "$r_{k+1} = $r_k + Δ$t $v_{k+½}")
+             + filled(math("Δ$t = #", {equation_number(solid.time_step)}));
     }
 
     Markup forces(const cases::ParticleSolid &solid)
     {
       const cases::PairLaw &law = solid.law;
-      const auto sum = [&](const Markup &attraction, const Markup &repulsion,
-                           const std::string &beta, const std::string &alpha)
-      {
-        return text("Σ") + element("sub", std::string("j≠i")) + text(" [ −")
-               + fraction(attraction, power(symbol("r"), beta)) + text(" + ")
-               + fraction(repulsion, power(symbol("r"), alpha)) + text(" ] ")
-               + fraction(symbol("r", "i") + text(" − ") + symbol("r", "j"), symbol("r"));
-      };
-      Markup numbers
-          = sum(equation_number(law.attraction), equation_number(law.repulsion),
-                plain_number(law.attraction_exponent, 4),
-                plain_number(law.repulsion_exponent, 4));
-      if(solid.gravity != 0)
-        numbers += text(" − ") + equation_number(solid.gravity) + text(" ")
-                   + symbol("e", "y");
-      numbers += text(",  no force where ") + symbol("r") + text(" > ")
-                 + equation_number(law.cutoff);
-      return symbol("a", "i") + text(" = ") + sum(symbol("G"), symbol("H"), "β", "α")
-             + (solid.gravity != 0
-                    ? text(" − ") + symbol("g") + text(" ") + symbol("e", "y")
-                    : Markup())
-             + filled(symbol("a", "i") + text(" = ") + numbers);
+      const auto power
+          = [](double exponent) { return element("sup", plain_number(exponent, 4)); };
+      const std::string direction = "\\f{$r_i − $r_j}{$r}";
+      const Markup over_others = element("sub", std::string("j≠i")) + text(" ");
+      const bool falls = solid.gravity != 0;
+      return math("$a_i = Σ#[ −\\f{$G}{$r^{β}} + \\f{$H}{$r^{α}} ] " + direction
+                      + (falls ? " − $g $e_y" : ""),
+                  {over_others})
+             + filled(
+                 math("$a_i = Σ#[ −\\f{#}{$r#} + \\f{#}{$r#} ] " + direction,
+                      {over_others, equation_number(law.attraction),
+                       power(law.attraction_exponent), equation_number(law.repulsion),
+                       power(law.repulsion_exponent)})
+                 + (falls ? math(" − # $e_y", {equation_number(solid.gravity)})
+                          : Markup())
+                 + math(",  no force where $r > #", {equation_number(law.cutoff)}));
     }
 
     Markup base(const cases::SolidBase &base)
     {
-      Markup gamma = text("γ = ") + equation_number(base.restitution);
+      Markup gamma = math("γ = #", {equation_number(base.restitution)});
       if(base.hot)
       {
-        gamma = text("γ = ") + equation_number(base.hot->left);
+        const Markup half_width = equation_number(base.hot->half_width);
+        gamma = math("γ = #", {equation_number(base.hot->left)});
         if(base.hot->slope != 0)
-          gamma += text(" − ") + equation_number(base.hot->slope) + text(" (")
-                   + symbol("x") + text(" + ") + equation_number(base.hot->half_width)
-                   + text(")");
-        gamma += text(" where |") + symbol("x") + text("| < ")
-                 + equation_number(base.hot->half_width) + text(", ")
-                 + equation_number(base.restitution) + text(" elsewhere");
+          gamma += math(" − # ($x + #)", {equation_number(base.hot->slope), half_width});
+        gamma += math(" where |$x| < #, # elsewhere",
+                      {half_width, equation_number(base.restitution)});
       }
-      return text("where ") + symbol("y") + text(" < 0:  ") + symbol("y") + text(" → −")
-             + symbol("y") + text(",  ") + symbol("v", "x") + text(" → 0,  ")
-             + symbol("v", "y") + text(" → −γ ") + symbol("v", "y") + filled(gamma);
+      return math("where $y < 0:  $y → −$y,  $v_x → 0,  $v_y → −γ $v_y") + filled(gamma);
     }
 
     /** Gamma over R to the power, or times it where the power is negative. */
     Markup intensity(double exponent)
     {
-      const Markup distance
-          = std::abs(exponent) == 1
-                ? symbol("R")
-                : power(symbol("R"), plain_number(std::abs(exponent), 3));
       if(exponent == 0)
         return text("Γ");
-      return exponent > 0 ? fraction(text("Γ"), distance) : text("Γ ") + distance;
+      const double size = std::abs(exponent);
+      const Markup power = size == 1 ? Markup() : element("sup", plain_number(size, 3));
+      return math(exponent > 0 ? "\\f{Γ}{$R#}" : "Γ $R#", {power});
     }
 
     Markup heating(const cases::PointHeating &heating)
     {
-      return text("where ") + symbol("R") + text(" = |") + symbol("r") + text(" − ")
-             + symbol("s") + text("| < ") + equation_number(heating.reach) + text(":  ")
-             + symbol("v") + text(" → ") + symbol("v") + text(" + ")
-             + intensity(heating.power) + text(" ")
-             + fraction(symbol("r") + text(" − ") + symbol("s"), symbol("R"))
+      return math("where $R = |$r − $s| < #:  $v → $v + # \\f{$r − $s}{$R}",
+                  {equation_number(heating.reach), intensity(heating.power)})
              + filled(text("in every step"));
     }
 
     Markup source_words(const cases::PointHeating &heating)
     {
-      Markup words = symbol("s") + text(" = (") + number_markup(heating.position[0], 4)
-                     + text(", ") + number_markup(heating.position[1], 4)
-                     + text("), Γ = ");
+      Markup words = math("$s = (#, #), Γ = ", {number_markup(heating.position[0], 4),
+                                                number_markup(heating.position[1], 4)});
       for(std::size_t i = 0; i < heating.stages.size(); ++i)
         words += text(i == 0 ? "" : ", then ")
                  + number_markup(heating.stages[i].strength, 4)
@@ -133,11 +97,6 @@ namespace meltfront::verification
       default:
         return "a bar of a crystal between two walls";
       }
-    }
-
-    Markup condition(const std::string &what, const Markup &words)
-    {
-      return element("dt", what) + element("dd", words) + Markup("\n");
     }
 
     Markup solid_conditions(const StoredCase &record)
@@ -194,13 +153,9 @@ namespace meltfront::verification
 
   Markup carried_equations(const StoredCase &record)
   {
-    const Markup phi = symbol("φ");
-    const Markup equation = derivative(phi, symbol("t")) + text(" + ") + symbol("u")
-                            + text(" · ∇") + phi + text(" = 0");
-    return element(
-               "div", {{"class", "equations"}},
-               equation_line("front", equation)
-                   + equation_line("", text("the region is where ") + phi + text(" > 0")))
+    return element("div", {{"class", "equations"}},
+                   equation_line("front", math("\\d{$φ}{$t} + $u · ∇$φ = 0"))
+                       + equation_line("", math("the region is where $φ > 0")))
            + element(
                "dl", {{"class", "conditions"}},
                condition("region", text(record.scene.interface->shape->description()))

@@ -145,12 +145,10 @@ namespace meltfront::verification
       rows += element("tr", row) + Markup("\n");
     }
     const Markup reasons = footnotes.list_of_reasons();
-    return element(
-        "section", {{"id", "stability"}},
-        element("h2", "What stays stable") + summary(verdicts)
-            + element("div", {{"class", "scroll"}},
-                      element("table", element("thead", element("tr", head))
-                                           + element("tbody", rows)))
-            + (reasons.empty() ? Markup() : element("h3", "Reasons") + reasons));
+    return element("h2", "What stays stable") + summary(verdicts)
+           + element("div", {{"class", "scroll"}},
+                     element("table", element("thead", element("tr", head))
+                                          + element("tbody", rows)))
+           + (reasons.empty() ? Markup() : element("h3", "Reasons") + reasons);
   }
 } // namespace meltfront::verification

@@ -198,16 +198,14 @@ namespace meltfront::verification
     }
     if(content.empty())
       return content;
-    return element(
-        "section", {{"id", "variations"}},
-        element("h2", "Cases varied")
-            + element("p",
-                      "One row for each combination of values. Errors at each n, orders "
-                      "fitted over all of them; V h/α: the front's speed times the "
-                      "spacing over the smaller thermal diffusivity, greatest over the "
-                      "run. Above 1 the thermal layer at the front is thinner than the "
-                      "spacing, and what stands in the row is not the error of a scheme "
-                      "that converges.")
-            + content);
+    return element("h2", "Cases varied")
+           + element("p",
+                     "One row for each combination of values. Errors at each n, orders "
+                     "fitted over all of them; V h/α: the front's speed times the "
+                     "spacing over the smaller thermal diffusivity, greatest over the "
+                     "run. Above 1 the thermal layer at the front is thinner than the "
+                     "spacing, and what stands in the row is not the error of a scheme "
+                     "that converges.")
+           + content;
   }
 } // namespace meltfront::verification

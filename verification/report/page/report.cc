@@ -6,6 +6,8 @@
 #include <verification/report/tables/convergence_table.h>
 #include <verification/report/tables/ensemble_table.h>
 
+#include <span>
+
 namespace meltfront::verification
 {
   namespace
@@ -31,33 +33,50 @@ namespace meltfront::verification
       return runs;
     }
 
-    bool has_findings(const ReportContext &context)
+    // A chapter is a line here; it is left out where it has nothing to show.
+    constexpr Chapter before_cases[] = {{"findings", "Findings", findings_chapter},
+                                        {"variations", "Variations", variations_chapter},
+                                        {"cost", "Cost", cost_chapter},
+                                        {"stability", "Stability", stability_chapter},
+                                        {"effects", "Effects", effects_chapter},
+                                        {"orders", "Orders", orders_chapter}};
+    constexpr Chapter after_cases[] = {{"provenance", "Provenance", provenance_chapter}};
+
+    Markup navigation_link(const std::string &anchor, const std::string &words)
     {
-      return !context.result.findings.empty() || !context.result.pictures.empty()
-             || !context.variations.empty();
+      return element("a", {{"href", "#" + anchor}}, text(words));
     }
 
-    Markup navigation(const ReportContext &context)
+    /** The sections of chapters; their links are added to the navigation. */
+    Markup sections(const ReportContext &context, std::span<const Chapter> chapters,
+                    Markup &links)
     {
-      const auto link = [](const std::string &anchor, const std::string &words) {
-        return element("a", {{"href", "#" + anchor}}, text(words));
-      };
+      Markup all;
+      for(const Chapter &chapter : chapters)
+        if(const Markup content = chapter.content(context); !content.empty())
+        {
+          links += navigation_link(chapter.anchor, chapter.word);
+          all += element("section", {{"id", chapter.anchor}}, content);
+        }
+      return all;
+    }
+
+    /** Navigation and chapters. */
+    Markup body(const ReportContext &context)
+    {
       Markup links
-          = element("a", {{"href", "#verdict"}, {"class", "mark"}}, text("meltfront"))
-            + (has_findings(context) ? link("findings", "Findings") : Markup())
-            + (context.variations.empty() ? Markup() : link("variations", "Variations"))
-            + link("cost", "Cost");
-      if(!context.result.stability.empty())
-        links += link("stability", "Stability");
-      links += link("effects", "Effects");
-      if(!orders_chapter(context).empty())
-        links += link("orders", "Orders");
-      links += link("provenance", "Provenance");
+          = element("a", {{"href", "#verdict"}, {"class", "mark"}}, text("meltfront"));
+      Markup chapters = verdict_chapter(context) + sections(context, before_cases, links);
+      const Markup last = sections(context, after_cases, links);
       if(!context.runs.empty())
         links += element("span", {{"class", "bar"}}, Markup());
       for(const CaseRuns &runs : context.runs)
-        links += link(case_anchor(runs.record->name()), runs.record->name());
-      return element("nav", element("div", links));
+      {
+        const std::string &name = runs.record->name();
+        links += navigation_link(case_anchor(name), name);
+        chapters += case_chapter(context, runs);
+      }
+      return element("nav", element("div", links)) + element("main", chapters + last);
     }
 
     /** Markdown and TeX; the CSV is written where the page links to it. */
@@ -95,18 +114,10 @@ namespace meltfront::verification
                                     {"content", "width=device-width, initial-scale=1"}})
             + void_element("meta", {{"name", "color-scheme"}, {"content", "light dark"}})
             + element("title", title) + element("style", Markup(page_style()));
-      Markup body = marker_definitions() + navigation(context);
-      Markup chapters = verdict_chapter(context) + findings_chapter(context)
-                        + variations_chapter(context) + cost_chapter(context)
-                        + stability_chapter(context) + effects_chapter(context)
-                        + orders_chapter(context);
-      for(const CaseRuns &runs : context.runs)
-        chapters += case_chapter(context, runs);
-      chapters += provenance_chapter(context);
-      body += element("main", chapters);
       return Markup("<!DOCTYPE html>\n")
              + element("html", {{"lang", "en"}},
-                       element("head", head) + Markup("\n") + element("body", body));
+                       element("head", head) + Markup("\n")
+                           + element("body", marker_definitions() + body(context)));
     }
   } // namespace
 
