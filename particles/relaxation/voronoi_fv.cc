@@ -21,7 +21,7 @@ namespace meltfront::particles
     const std::string method_name = "voronoi-fv";
 
     /** Of Crank-Nicolson and BDF2. */
-    constexpr cases::Overshoot overshoot{0.01, 1};
+    constexpr cases::Overshoot allowed_overshoot{0.01, 1};
 
     /** How the particles inside were placed, with what the relaxation says of itself. */
     struct Arranged
@@ -162,7 +162,7 @@ namespace meltfront::particles
                  = {{DomainShape::slab, {1}, walls}, {DomainShape::box, {2, 3}, walls}},
                  .front_origins = {cases::FrontOrigin::none},
                  .most_threads = cases::any_number_of_threads,
-                 .overshoot = overshoot}};
+                 .overshoot = allowed_overshoot}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -214,7 +214,7 @@ namespace meltfront::particles
         description.run.parameters.push_back(
             {"heat release at", resolution.options.get_string("source"), ""});
         description.obeys_maximum_principle = true;
-        description.overshoot = overshoot;
+        description.overshoot = allowed_overshoot;
         description.setup_work = static_cast<long>(problem.operator_rows.size());
         const cases::Stopwatch::Seconds spent = watch.elapsed();
         description.setup_wall = spent.wall;

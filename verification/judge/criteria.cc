@@ -1,3 +1,4 @@
+#include <cases/numbers.h>
 #include <verification/judge/criteria.h>
 #include <verification/judge/reference.h>
 #include <verification/judge/refinement.h>
@@ -14,7 +15,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
     constexpr int fewest_levels = 4;
 
     using Runs = std::vector<const RunRecord *>;

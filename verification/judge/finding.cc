@@ -1,5 +1,6 @@
 #include <cases/case_file/criterion_parser.h>
 #include <cases/error.h>
+#include <cases/numbers.h>
 #include <verification/judge/criteria.h>
 #include <verification/judge/finding.h>
 #include <verification/record/label.h>
@@ -14,7 +15,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
 
     EvidenceResult judge(const MatrixResult &result, const Evidence &evidence)
     {

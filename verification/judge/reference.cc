@@ -1,3 +1,4 @@
+#include <cases/numbers.h>
 #include <verification/judge/reference.h>
 #include <verification/judge/refinement.h>
 #include <verification/measure/formulas/run_statistics.h>
@@ -8,21 +9,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
     constexpr std::size_t levels_of_index = 3;
     constexpr const char *series_error = "solid_volume_rms_error";
-
-    double quantity(const RunRecord &run, const std::string &name)
-    {
-      const auto found = run.quantities.find(name);
-      return found == run.quantities.end() ? nan : found->second;
-    }
 
     /** The reference and the next coarser runs of its label, finest first. */
     std::vector<const RunRecord *> reference_levels(const MatrixResult &result,
@@ -57,7 +51,7 @@ namespace meltfront::verification
       {
         trust.n.push_back(run->n);
         trust.abscissa.push_back(refinement.of(*run));
-        trust.values.push_back(quantity(*run, name));
+        trust.values.push_back(run->quantity(name));
       }
       const bool different = std::ranges::is_sorted(trust.abscissa, std::less_equal());
       if(levels.size() == levels_of_index && different && trust.abscissa.front() > 0)
@@ -85,7 +79,7 @@ namespace meltfront::verification
       for(const ReferenceTrust &trust : trusts)
       {
         const double error
-            = std::abs(quantity(run, trust.quantity) - trust.values.front());
+            = std::abs(run.quantity(trust.quantity) - trust.values.front());
         run.quantities[trust.quantity + "_error"] = error;
         run.quantities[trust.quantity + "_bars"] = error / trust.convergence.uncertainty;
       }
@@ -122,7 +116,7 @@ namespace meltfront::verification
                                      "uncertainty is not known");
       std::vector<ReferenceTrust> trusts;
       for(const Quantity &known : all_quantities())
-        if(known.compared && std::isfinite(quantity(*levels.front(), known.name)))
+        if(known.compared && std::isfinite(levels.front()->quantity(known.name)))
           trusts.push_back(trust_in(record, levels, known.name));
       for(RunRecord &run : result.runs)
         if(of_case(run) && run.status == RunStatus::finished

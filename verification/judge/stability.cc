@@ -12,12 +12,6 @@ namespace meltfront::verification
     constexpr double largest_defect = 1e-12;
     constexpr double largest_backstep = 1e-9; // of the domain's side
 
-    double quantity(const RunRecord &run, const std::string &name)
-    {
-      const auto found = run.quantities.find(name);
-      return found == run.quantities.end() ? std::nan("") : found->second;
-    }
-
     bool beyond_limit(const RunRecord &run)
     {
       const auto factor = run.options.find("step_factor");
@@ -39,11 +33,11 @@ namespace meltfront::verification
       if(series.time.empty() || !finite(series.front) || !finite(series.temperature_min)
          || !finite(series.temperature_max))
         return "front or temperature is not finite";
-      const double defect = quantity(run, "budget_defect");
+      const double defect = run.quantity("budget_defect");
       if(!(defect <= largest_defect))
         return fmt::format("heat budget defect {:.2e} exceeds {:.0e}", defect,
                            largest_defect);
-      const double backstep = quantity(run, "front_backsteps");
+      const double backstep = run.quantity("front_backsteps");
       if(record.measurement.monotone_front
          && !(backstep <= largest_backstep * record.scene.domain.side()))
         return fmt::format("the front moved back by {:.2e} m", backstep);

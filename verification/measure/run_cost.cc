@@ -1,6 +1,5 @@
+#include <cases/numbers.h>
 #include <verification/measure/measure.h>
-
-#include <limits>
 
 namespace meltfront::verification
 {
@@ -9,7 +8,7 @@ namespace meltfront::verification
     /** NaN for a method that does not iterate. */
     double if_positive(double number)
     {
-      return number > 0 ? number : std::numeric_limits<double>::quiet_NaN();
+      return number > 0 ? number : cases::nan;
     }
   } // namespace
 

@@ -2,6 +2,7 @@
 #define meltfront_verification_record_run_record_h
 
 #include <cases/method.h>
+#include <cases/numbers.h>
 #include <verification/measure/checks/check.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -101,6 +102,14 @@ namespace meltfront::verification
      * for the run.
      */
     std::map<std::string, double> quantities;
+
+    /** NaN for one that the run does not have. */
+    double quantity(const std::string &name) const
+    {
+      const auto found = quantities.find(name);
+      return found == quantities.end() ? cases::nan : found->second;
+    }
+
     RunSeries series;
     RunProfile profile;
     std::vector<RunProfile> mark_profiles;      ///< at Measurement::marks or some

@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/numbers.h>
 #include <verification/measure/formulas/front_shape.h>
 #include <verification/run/end_profile.h>
 #include <verification/run/heat_observer.h>
@@ -12,7 +13,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
   } // namespace
 
   HeatObserver::HeatObserver(const cases::Case &c, const cases::Scene &simulated,
@@ -143,10 +144,5 @@ namespace meltfront::verification
   const RunProfile &HeatObserver::profile() const
   {
     return end_profile;
-  }
-
-  const std::vector<RunProfile> &HeatObserver::mark_profiles() const
-  {
-    return profiles;
   }
 } // namespace meltfront::verification

@@ -36,10 +36,6 @@ namespace meltfront::verification
     /** Of the end. */
     const RunProfile &profile() const;
 
-    /** States of an alloy at the marks; of a pure substance at the one of which a picture
-     * is kept. */
-    const std::vector<RunProfile> &mark_profiles() const;
-
   private:
     void start() override;
     bool asks_for(long step, double time) override;
@@ -54,6 +50,8 @@ namespace meltfront::verification
     std::optional<FrontReader> reader;
     MarkWatch marks;
     RunProfile end_profile;
+    /** States of an alloy at the marks; of a pure substance at the one of which a picture
+     * is kept. */
     std::vector<RunProfile> profiles;
   };
 } // namespace meltfront::verification
