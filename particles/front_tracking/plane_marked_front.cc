@@ -51,11 +51,6 @@ namespace meltfront::particles::front_tracking
       return parameters;
     }
 
-    level_set::Position position_of(const PlanePoint &place)
-    {
-      return {place.x(), place.y(), 0};
-    }
-
     /** Weights of the cubic through four values at -1, 0, 1, 2. */
     std::array<double, 4> cubic_weights(double x)
     {
