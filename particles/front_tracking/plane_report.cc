@@ -55,7 +55,7 @@ namespace meltfront::particles::front_tracking
     state.phase.assign(nodes.size(), NodePhase::liquid);
     for(const PlanePoint &place : nodes.position)
       state.unknown.push_back(
-          scene.initial.temperature({place.x(), place.y(), 0}, scene.start_time));
+          scene.initial.temperature(position_of(place), scene.start_time));
     const PlaneMeasure measured = measure(scene, nodes, heat, state);
     initial_heat = measured.sensible + measured.latent;
     const long seeded_step = std::exchange(step_number, 0);
