@@ -1,3 +1,4 @@
+#include <cases/compensated_sum.h>
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
@@ -6,7 +7,6 @@
 #include <particles/alloy/two_population_flow.h>
 #include <particles/alloy/two_population_run.h>
 #include <particles/alloy/two_population_stepper.h>
-#include <particles/sph/careful_sum.h>
 #include <particles/sph/run_report.h>
 
 #include <fmt/format.h>
@@ -78,15 +78,6 @@ namespace meltfront::particles
           warmest = std::min(warmest, at(i));
         }
       }
-    }
-
-    std::string words(TimeScheme scheme, int stages)
-    {
-      if(scheme == TimeScheme::backward_euler)
-        return "backward Euler";
-      if(scheme == TimeScheme::crank_nicolson)
-        return "Crank-Nicolson after two steps of backward Euler";
-      return stages > 1 ? fmt::format("RKL2, {} stages", stages) : "explicit Euler";
     }
 
     /** One run: the sites and their advance in time. */
@@ -179,9 +170,7 @@ namespace meltfront::particles
       void check(long step, double time) const
       {
         const double melting = scene.material.melting_temperature;
-        const double span = bounds.upper - bounds.lower;
-        const double slack = 1e-9 * (std::isfinite(span) ? span : 0)
-                             + cases::temperature_round_off(bounds);
+        const double slack = cases::temperature_slack(bounds, 1e-9);
         const auto check_one = [&](const Population &population, const char *what)
         {
           for(std::size_t a = 0; a < n; ++a)
@@ -253,25 +242,25 @@ namespace meltfront::particles
       {
         cases::RunDescription description
             = describe_particles(dis, parameters.sph, plan.step, unknowns());
-        const std::vector<cases::Parameter> own
-            = {{"sites", fmt::format("{}", n), "1"},
-               {"interactions per site",
-                fmt::format("{:.4g}", double(flows.interactions()) / n), "1"},
-               {"second moment divided out",
-                fmt::format("{:.10g}", flows.second_moment()), "1"},
-               {"exchange between ice and liquid",
-                parameters.exchange == PhaseExchange::corrected ? "corrected"
-                                                                : "as published",
-                ""},
-               {"new ice goes to",
-                parameters.new_ice == NewIce::site ? "its site" : "the kernel", ""},
-               {"latent heat",
-                parameters.constant_latent_heat ? "constant"
-                                                : "as the heat capacities demand",
-                ""},
-               {"time scheme", words(parameters.sph.time_scheme, plan.stages), ""},
-               {"largest explicit step that keeps the maximum principle",
-                fmt::format("{:.6g}", plan.monotone), "s"}};
+        const std::vector<cases::Parameter> own = {
+            {"sites", fmt::format("{}", n), "1"},
+            {"interactions per site",
+             fmt::format("{:.4g}", double(flows.interactions()) / n), "1"},
+            {"second moment divided out", fmt::format("{:.10g}", flows.second_moment()),
+             "1"},
+            {"exchange between ice and liquid",
+             parameters.exchange == PhaseExchange::corrected ? "corrected"
+                                                             : "as published",
+             ""},
+            {"new ice goes to",
+             parameters.new_ice == NewIce::site ? "its site" : "the kernel", ""},
+            {"latent heat",
+             parameters.constant_latent_heat ? "constant"
+                                             : "as the heat capacities demand",
+             ""},
+            {"time scheme", describe_scheme(parameters.sph.time_scheme, plan.stages), ""},
+            {"largest explicit step that keeps the maximum principle",
+             fmt::format("{:.6g}", plan.monotone), "s"}};
         description.parameters.insert(description.parameters.end(), own.begin(),
                                       own.end());
         return description;
@@ -305,7 +294,7 @@ namespace meltfront::particles
       std::vector<double> weights, temperature, solid_fraction; ///< for snapshots
       double initial_heat = 0, initial_mass = 0;
       std::array<double, cases::most_solutes> initial_solute{};
-      CarefulSum boundary_heat;
+      cases::CompensatedSum boundary_heat;
     };
   } // namespace
 
