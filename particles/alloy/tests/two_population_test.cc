@@ -142,7 +142,7 @@ namespace meltfront::particles::testing
       scene.boundaries[0]->value = {
           "", [](const cases::Position &, double t) { return t < 20000 ? -30. : 14.7; },
           false};
-      scene.boundaries[1] = {};
+      scene.boundaries[1] = cases::Boundary{};
       for(const double diffusivity : {0., 6.2e-10})
       {
         scene.alloy->solutes[0].diffusivity = diffusivity;

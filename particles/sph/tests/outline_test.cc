@@ -34,7 +34,7 @@ namespace meltfront::particles::testing
         scene.domain.upper[d] = scene.domain.outline->upper()[d];
       }
       scene.domain.reference_length = 1;
-      scene.boundaries[static_cast<std::size_t>(Side::outer)] = {};
+      scene.boundaries[static_cast<std::size_t>(Side::outer)] = cases::Boundary{};
       scene.material = water();
       scene.initial.temperature = Field::uniform(10);
       scene.end_time = end_time;

@@ -187,7 +187,8 @@ namespace meltfront::particles::testing
         const double a = wave_number(k), end = 0.01;
         const double scale = 1 / mode(a, k, inner, k == 0 ? 0.35 : inner);
         const double decay = std::exp(-2 * a * a * end);
-        Problem problem = shell(2, 0, end, k == 0 ? fixed_wall(0) : cases::Boundary{}, fixed_wall(0));
+        Problem problem
+            = shell(2, 0, end, k == 0 ? fixed_wall(0) : cases::Boundary{}, fixed_wall(0));
         problem.scene.initial.temperature
             = {"mode",
                [=](const Position &p, double)
