@@ -62,7 +62,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return mixture_options();
+        return cases::options_of(MixtureParameters());
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
@@ -72,11 +72,11 @@ namespace meltfront::particles
                           {.per_particle = 600, .per_neighbour = 40});
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        return run_mixture(scene, effects, resolution, observer);
+        return make_mixture_run(scene, effects, resolution);
       }
     };
     class TwoPopulationMethod : public cases::Method
@@ -121,7 +121,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return two_population_options(policy);
+        return cases::options_of(TwoPopulationParameters(policy));
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
@@ -132,11 +132,11 @@ namespace meltfront::particles
             {.per_particle = 900, .per_neighbour = 60});
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        return run_two_population(policy, scene, effects, resolution, observer);
+        return make_two_population_run(policy, scene, effects, resolution);
       }
 
     private:

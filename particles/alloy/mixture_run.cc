@@ -1,3 +1,4 @@
+#include <cases/compensated_sum.h>
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <cases/snapshot.h>
@@ -8,7 +9,6 @@
 #include <particles/alloy/mixture_flow.h>
 #include <particles/alloy/mixture_run.h>
 #include <particles/alloy/mixture_state.h>
-#include <particles/sph/careful_sum.h>
 #include <particles/sph/explicit_scheme.h>
 #include <particles/sph/implicit_scheme.h>
 #include <particles/sph/run_report.h>
@@ -26,8 +26,7 @@ namespace meltfront::particles
   {
     constexpr const char *method_name = "sph-mixture";
 
-    /** One run: the state and its advance in time. */
-    class MixtureRun : private ImplicitScheme::Subject
+    class MixtureRun : public cases::Run, private ImplicitScheme::Subject
     {
     public:
       MixtureRun(const cases::Scene &scene, const cases::EffectSet &effects,
@@ -73,28 +72,45 @@ namespace meltfront::particles
         initial_mass = mass();
       }
 
-      cases::Cost run(cases::Observer &observer, const cases::Stopwatch &watch)
+      cases::RunDescription describe() const override
       {
-        const cases::Stopwatch::Seconds setup = watch.elapsed();
-        observer.begin(describe());
-        observer.observe(snapshot(0, scene.start_time));
-        cases::Stopwatch stepping;
+        return describe_run(dis, parameters.sph, plan, unknowns(), flows.describe());
+      }
+
+      cases::Cost cost() const override
+      {
+        cases::Cost result;
+        result.steps = steps;
+        result.unknowns = unknowns();
+        result.work = flows.work();
+        result.capped_steps = repeated_steps;
+        if(implicit_scheme)
+        {
+          result.capped_steps = implicit_scheme->repeated();
+          result.solver_iterations = implicit_mixture->equations().linear_iterations();
+          result.most_iterations = implicit_mixture->equations().most_iterations();
+        }
+        const std::size_t arrays = flows.diffuses() ? (plan.stages > 1 ? 6 : 3) : 1;
+        result.effects = flows.effect_costs(arrays * size * sizeof(double));
+        return result;
+      }
+
+    private:
+      void take_steps() override
+      {
         double time = scene.start_time;
+        reached(0, time);
         while(time < scene.end_time)
         {
           time = advance(++steps, time);
           check(steps, time);
-          if(observer.wants(steps, time) || time == scene.end_time)
-            stepping.without([&] { observer.observe(snapshot(steps, time)); });
+          reached(steps, time);
         }
         if(parameters.sph.step_error > 0)
-          observer.note(scene.end_time,
-                        fmt::format("{} steps were accepted and {} rejected", steps,
-                                    implicit_scheme->repeated()));
-        return cost(setup, stepping.elapsed());
+          note(scene.end_time, fmt::format("{} steps were accepted and {} rejected",
+                                           steps, implicit_scheme->repeated()));
       }
 
-    private:
       /** Time after a step; the end exactly. */
       double time_of(long step) const
       {
@@ -204,9 +220,7 @@ namespace meltfront::particles
 
       bool breaks_bounds() const
       {
-        const double span = bounds.upper - bounds.lower;
-        const double slack = 0.5 * bound_tolerance * (std::isfinite(span) ? span : 0)
-                             + 0.5 * cases::temperature_round_off(bounds);
+        const double slack = 0.5 * cases::temperature_slack(bounds, bound_tolerance);
         return !extremes.finite || extremes.lowest < bounds.lower - slack
                || extremes.highest > bounds.upper + slack || least_concentration() < 0;
       }
@@ -234,7 +248,7 @@ namespace meltfront::particles
 
       double mass() const
       {
-        CarefulSum sum;
+        cases::CompensatedSum sum;
         for(std::size_t a = 0; a < n; ++a)
           sum.add(dis.weights[a] * substance.density);
         return sum.value();
@@ -243,7 +257,7 @@ namespace meltfront::particles
       double mass_of(std::size_t solute) const
       {
         const std::span<const double> c = concentration(solute);
-        CarefulSum sum;
+        cases::CompensatedSum sum;
         for(std::size_t a = 0; a < n; ++a)
           sum.add(dis.weights[a] * substance.density * c[a]);
         return sum.value();
@@ -253,7 +267,7 @@ namespace meltfront::particles
       {
         const double latent_heat = scene.material.latent_heat;
         const std::span<const double> liquid = flows.liquid_fraction();
-        CarefulSum stored, latent;
+        cases::CompensatedSum stored, latent;
         for(std::size_t a = 0; a < n; ++a)
         {
           const double weight = dis.weights[a] * substance.density;
@@ -267,7 +281,7 @@ namespace meltfront::particles
         return heat;
       }
 
-      cases::Snapshot snapshot(long step, double time)
+      cases::Snapshot snapshot(long step, double time) override
       {
         const std::span<const double> excess = flows.temperature_excess();
         const std::span<const double> liquid = flows.liquid_fraction();
@@ -298,45 +312,6 @@ namespace meltfront::particles
         return static_cast<long>(fields * (n - dis.held.size()));
       }
 
-      cases::RunDescription describe() const
-      {
-        cases::RunDescription description
-            = describe_particles(dis, parameters.sph, plan.step, unknowns());
-        const auto add
-            = [&](const char *what, const std::string &value, const char *unit) {
-                description.parameters.push_back({what, value, unit});
-              };
-        add("particles", fmt::format("{}", n), "1");
-        for(const cases::Parameter &parameter : flows.describe())
-          description.parameters.push_back(parameter);
-        add("time scheme", describe_scheme(parameters.sph.time_scheme, plan.stages), "");
-        if(parameters.sph.step_error > 0)
-          add("wanted error of a step", fmt::format("{:.6g}", parameters.sph.step_error),
-              "1");
-        add("largest explicit step that keeps the maximum principle",
-            fmt::format("{:.6g}", plan.monotone), "s");
-        return description;
-      }
-
-      cases::Cost cost(const cases::Stopwatch::Seconds &setup,
-                       const cases::Stopwatch::Seconds &stepping) const
-      {
-        cases::Cost result = timed_cost(setup, stepping);
-        result.steps = steps;
-        result.unknowns = unknowns();
-        result.work = flows.work();
-        result.capped_steps = repeated_steps;
-        if(implicit_scheme)
-        {
-          result.capped_steps = implicit_scheme->repeated();
-          result.solver_iterations = implicit_mixture->equations().linear_iterations();
-          result.most_iterations = implicit_mixture->equations().most_iterations();
-        }
-        const std::size_t arrays = flows.diffuses() ? (plan.stages > 1 ? 6 : 3) : 1;
-        result.effects = flows.effect_costs(arrays * size * sizeof(double));
-        return result;
-      }
-
       const cases::Scene &scene;
       MixtureParameters parameters;
       Discretisation dis;
@@ -362,16 +337,15 @@ namespace meltfront::particles
       cases::HeatBudget initial_heat;
       double initial_mass = 0;
       std::array<double, cases::most_solutes> initial_solute{};
-      CarefulSum boundary_heat;
+      cases::CompensatedSum boundary_heat;
       long repeated_steps = 0;
     };
   } // namespace
 
-  cases::Cost run_mixture(const cases::Scene &scene, const cases::EffectSet &effects,
-                          const cases::Resolution &resolution, cases::Observer &observer)
+  std::unique_ptr<cases::Run> make_mixture_run(const cases::Scene &scene,
+                                               const cases::EffectSet &effects,
+                                               const cases::Resolution &resolution)
   {
-    const cases::Stopwatch setup;
-    MixtureRun run(scene, effects, resolution);
-    return run.run(observer, setup);
+    return std::make_unique<MixtureRun>(scene, effects, resolution);
   }
 } // namespace meltfront::particles

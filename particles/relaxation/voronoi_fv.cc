@@ -2,7 +2,6 @@
 #include <cases/error.h>
 #include <cases/overshoot.h>
 #include <cases/scene.h>
-#include <cases/stopwatch.h>
 #include <particles/relaxation/cell_conduction.h>
 #include <particles/relaxation/relax_nodes.h>
 #include <particles/relaxation/voronoi_fv.h>
@@ -49,6 +48,52 @@ namespace meltfront::particles
           fmt::format("{:.3g}", descent.largest_force * length / scale), "1");
     }
 
+    struct VoronoiOptions
+    {
+      void bind(cases::OptionBinder &options);
+
+      std::string arrangement = "relaxed";
+      double jitter = 0.2;
+      double length_over_spacing = 1;
+      LennardJonesRelaxation relaxation;
+      long sweeps = 20;
+      std::string source = "centroid";
+      LinearOptions linear;
+    };
+
+    void VoronoiOptions::bind(cases::OptionBinder &options)
+    {
+      options.add(
+          "arrangement", arrangement,
+          "Where the n particles along a side inside the walls are (spacing 1/(n + 1) "
+          "of the side): on a lattice, displaced from it, at random, or moved from "
+          "there to a minimum of the Lennard-Jones energy or by Lloyd's sweeps.",
+          cases::themselves({"lattice", "jittered", "random", "relaxed", "lloyd"}));
+      options.add("jitter", jitter,
+                  "Largest displacement from the lattice over its spacing, if jittered.",
+                  0, 0.5);
+      options.add("length_over_spacing", length_over_spacing,
+                  "Length sigma of the Lennard-Jones potential over the spacing of the "
+                  "lattice; below 0.95 voids remain.",
+                  0.5, 2);
+      options.add("relaxation_tolerance", relaxation.tolerance,
+                  "Relative change of the Lennard-Jones energy in an iteration at which "
+                  "the relaxation stops.",
+                  1e-16, 1);
+      options.add("relaxation_fall", relaxation.least_fall,
+                  "Fall of the Lennard-Jones energy per particle in 100 iterations, over "
+                  "epsilon, below which the relaxation stops too; 0: not.",
+                  0, 1);
+      options.add("relaxation_iterations", relaxation.most_iterations,
+                  "Most iterations of the relaxation by conjugate gradients.", 0, 1e9);
+      options.add("sweeps", sweeps, "Lloyd's sweeps.", 0, 1e6);
+      options.add("source", source,
+                  "Where the heat released in a cell is evaluated: at its particle (as "
+                  "published) or at its centroid.",
+                  cases::themselves({"particle", "centroid"}));
+      linear.bind(options);
+    }
+
     NodeArrangement start_of(const std::string &arrangement)
     {
       if(arrangement == "lattice")
@@ -57,79 +102,89 @@ namespace meltfront::particles
                                        : NodeArrangement::random;
     }
 
-    Arranged arrange(const cases::Scene &scene, const cases::Resolution &resolution)
+    Arranged arrange(const cases::Scene &scene, const VoronoiOptions &options,
+                     const cases::Resolution &resolution)
     {
-      const cases::Options &options = resolution.options;
-      const std::string &arrangement = options.get_string("arrangement");
       // A conductivity that jumps is met by the cells, not by moving particles onto it.
       cases::Scene uniform = scene;
       uniform.inclusion.reset();
       Arranged result;
       result.nodes
-          = arrange_nodes(uniform, resolution.n + 1, start_of(arrangement),
-                          options.get_double("jitter"), resolution.seed, method_name);
-      result.parameters.push_back({"arrangement", arrangement, ""});
-      if(arrangement == "relaxed")
+          = arrange_nodes(uniform, resolution.n + 1, start_of(options.arrangement),
+                          options.jitter, resolution.seed, method_name);
+      result.parameters.push_back({"arrangement", options.arrangement, ""});
+      if(options.arrangement == "relaxed")
       {
-        LennardJonesRelaxation relaxation;
+        LennardJonesRelaxation relaxation = options.relaxation;
         relaxation.threads = resolution.threads;
-        relaxation.tolerance = options.get_double("relaxation_tolerance");
-        relaxation.least_fall = options.get_double("relaxation_fall");
-        relaxation.most_iterations = options.get_integer("relaxation_iterations");
-        const double factor = options.get_double("length_over_spacing");
+        const double factor = options.length_over_spacing;
         const Descent descent
             = relax_inner_nodes(result.nodes, scene.domain, relaxation, factor);
         describe(descent, relaxation, factor * result.nodes.spacing, result.parameters);
       }
-      if(arrangement == "lloyd")
+      if(options.arrangement == "lloyd")
       {
-        const long sweeps = options.get_integer("sweeps");
         lloyd(result.nodes.positions, result.nodes.inner, coordinate_box(scene.domain),
-              static_cast<int>(sweeps));
-        result.parameters.push_back({"Lloyd sweeps", std::to_string(sweeps), "1"});
+              static_cast<int>(options.sweeps));
+        result.parameters.push_back(
+            {"Lloyd sweeps", std::to_string(options.sweeps), "1"});
       }
       return result;
     }
 
-    std::vector<cases::OptionDeclaration> arrangement_options()
+    class CellsOnNodes : public PosedProblem
     {
-      return {
-          {"arrangement",
-           "",
-           std::string("relaxed"),
-           "Where the n particles along a side inside the walls are (spacing 1/(n + 1) "
-           "of the side): on a lattice, displaced from it, at random, or moved from "
-           "there to a minimum of the Lennard-Jones energy or by Lloyd's sweeps.",
-           0,
-           0,
-           {"lattice", "jittered", "random", "relaxed", "lloyd"}},
-          {"jitter", "1", 0.2,
-           "Largest displacement from the lattice over its spacing, if jittered.", 0,
-           0.5},
-          {"length_over_spacing", "1", 1.,
-           "Length sigma of the Lennard-Jones potential over the spacing of the "
-           "lattice; below 0.95 voids remain.",
-           0.5, 2},
-          {"relaxation_tolerance", "1", 1e-12,
-           "Relative change of the Lennard-Jones energy in an iteration at which the "
-           "relaxation stops.",
-           1e-16, 1},
-          {"relaxation_fall", "1", LennardJonesRelaxation().least_fall,
-           "Fall of the Lennard-Jones energy per particle in 100 iterations, over "
-           "epsilon, below which the relaxation stops too; 0: not.",
-           0, 1},
-          {"relaxation_iterations", "1", 200000L,
-           "Most iterations of the relaxation by conjugate gradients.", 0, 1e9},
-          {"sweeps", "1", 20L, "Lloyd's sweeps.", 0, 1e6},
-          {"source",
-           "",
-           std::string("centroid"),
-           "Where the heat released in a cell is evaluated: at its particle (as "
-           "published) or at its centroid.",
-           0,
-           0,
-           {"particle", "centroid"}}};
-    }
+    public:
+      CellsOnNodes(const cases::Scene &scene, const cases::Resolution &resolution)
+        : dimension(scene.domain.dimension)
+        , options(cases::read_options(VoronoiOptions(), resolution.options))
+        , arranged(arrange(scene, options, resolution))
+        , conduction(
+              scene, arranged.nodes,
+              voronoi_cells(arranged.nodes.positions, coordinate_box(scene.domain)),
+              options.source == "particle" ? SourcePoint::particle
+                                           : SourcePoint::centroid)
+        , problem(conduction.problem())
+      {
+      }
+
+      const LinearProblem &linear() const override
+      {
+        return problem;
+      }
+
+      LinearSites sites() const override
+      {
+        return sites_of(arranged.nodes, dimension, conduction.weights());
+      }
+
+      LinearDescription description() const override
+      {
+        LinearDescription result;
+        result.method = method_name;
+        result.run.dimension = dimension;
+        result.run.spacing = arranged.nodes.spacing;
+        result.run.parameters = arranged.parameters;
+        result.run.parameters.push_back({"heat release at", options.source, ""});
+        result.obeys_maximum_principle = true;
+        result.overshoot = allowed_overshoot;
+        result.setup_work = static_cast<long>(problem.operator_rows.size());
+        return result;
+      }
+
+      std::vector<cases::EffectCost>
+      effect_costs(const cases::EffectSet &effects) const override
+      {
+        return conduction.effect_costs(effects);
+      }
+
+    private:
+      int dimension;
+      VoronoiOptions options;
+      Arranged arranged;
+      CellConduction conduction;
+      LinearProblem problem;
+    };
 
     class VoronoiFv : public cases::Method
     {
@@ -167,9 +222,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        std::vector<cases::OptionDeclaration> result = arrangement_options();
-        std::ranges::move(linear_options(), std::back_inserter(result));
-        return result;
+        return cases::options_of(VoronoiOptions());
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
@@ -187,42 +240,13 @@ namespace meltfront::particles
       }
 
     private:
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        const cases::Stopwatch watch;
-        const Arranged arranged = arrange(scene, resolution);
-        const NodeSet &nodes = arranged.nodes;
-        const SourcePoint point = resolution.options.get_string("source") == "particle"
-                                      ? SourcePoint::particle
-                                      : SourcePoint::centroid;
-        const CellConduction conduction(
-            scene, nodes, voronoi_cells(nodes.positions, coordinate_box(scene.domain)),
-            point);
-        const LinearProblem problem = conduction.problem();
-        LinearSites sites;
-        sites.dimension = scene.domain.dimension;
-        for(int d = 0; d < sites.dimension; ++d)
-          sites.positions[d] = nodes.positions.position[d];
-        sites.weights = conduction.weights();
-        LinearDescription description;
-        description.method = method_name;
-        description.run.dimension = scene.domain.dimension;
-        description.run.spacing = nodes.spacing;
-        description.run.parameters = arranged.parameters;
-        description.run.parameters.push_back(
-            {"heat release at", resolution.options.get_string("source"), ""});
-        description.obeys_maximum_principle = true;
-        description.overshoot = allowed_overshoot;
-        description.setup_work = static_cast<long>(problem.operator_rows.size());
-        const cases::Stopwatch::Seconds spent = watch.elapsed();
-        description.setup_wall = spent.wall;
-        description.setup_cpu = spent.cpu;
-        cases::Cost cost = run_linear_problem(scene, problem, sites, description,
-                                              resolution, observer);
-        cost.effects = conduction.effect_costs(effects);
-        return cost;
+        return make_linear_run(scene, effects,
+                               std::make_unique<CellsOnNodes>(scene, resolution),
+                               resolution);
       }
     };
   } // namespace

@@ -1,13 +1,15 @@
 #ifndef meltfront_particles_scattered_linear_problem_h
 #define meltfront_particles_scattered_linear_problem_h
 
-#include <cases/method.h>
+#include <cases/option_binder.h>
+#include <cases/run.h>
 #include <cases/scene.h>
 #include <particles/scattered/compressed_rows.h>
 #include <particles/scattered/given_values.h>
 #include <particles/scattered/linear_solver.h>
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,7 +54,13 @@ namespace meltfront::particles
     std::span<const double> weights; ///< as Snapshot::weights
   };
 
-  /** How a linear problem is stepped; chosen by linear_options(). */
+  struct NodeSet;
+
+  /** Nodes as sites. */
+  LinearSites sites_of(const NodeSet &nodes, int dimension,
+                       std::span<const double> weights);
+
+  /** How a linear problem is stepped. */
   enum class LinearScheme
   {
     backward_euler,
@@ -60,9 +68,16 @@ namespace meltfront::particles
     bdf2
   };
 
-  /** The options that all methods on linear problems share: linear solver and tolerance,
-   * time scheme, number of steps. */
-  std::vector<cases::OptionDeclaration> linear_options();
+  /** The options that all methods on linear problems share. */
+  struct LinearOptions
+  {
+    void bind(cases::OptionBinder &options);
+
+    LinearMethod linear_solver = LinearMethod::automatic;
+    double solver_tolerance = 1e-12;
+    LinearScheme time_scheme = LinearScheme::bdf2;
+    long steps = 0; ///< 0: by n
+  };
 
   /** Matrices of a method, for what a run of it takes. */
   struct LinearSize
@@ -73,8 +88,7 @@ namespace meltfront::particles
     double per_node; ///< bytes that each node takes beside its rows
   };
 
-  /** What a run on the linear problem of a scene takes, with the options of
-   * linear_options(). */
+  /** What a run on the linear problem of a scene takes,. */
   cases::Demand linear_demand(const cases::Scene &scene,
                               const cases::Resolution &resolution,
                               const LinearSize &size);
@@ -87,22 +101,31 @@ namespace meltfront::particles
     bool obeys_maximum_principle = false;
     cases::Overshoot overshoot{}; ///< of the method's capabilities
     long setup_work = 0;          ///< entries touched while rows were made
-    std::vector<cases::EffectCost> effects;
-    double setup_wall = 0, setup_cpu = 0; ///< s, spent on rows
+  };
+
+  /** A linear problem with the nodes that it is posed on. */
+  class PosedProblem
+  {
+  public:
+    virtual ~PosedProblem() = default;
+    virtual const LinearProblem &linear() const = 0;
+    virtual LinearSites sites() const = 0;
+    virtual LinearDescription description() const = 0;
+    virtual std::vector<cases::EffectCost>
+    effect_costs(const cases::EffectSet &effects) const = 0;
   };
 
   /**
-   * Solve the steady problem or step the transient one from the scene's initial
-   * temperature to its end, with one factorisation.
+   * A run that solves the steady problem, or steps the transient one from the scene's
+   * initial temperature to its end, with one factorisation.
    *
    * @throws NumericalError (method, step, time) if a matrix is singular, a solve does not
    * converge, or a value is not finite.
    */
-  cases::Cost run_linear_problem(const cases::Scene &scene, const LinearProblem &problem,
-                                 const LinearSites &sites,
-                                 const LinearDescription &description,
-                                 const cases::Resolution &resolution,
-                                 cases::Observer &observer);
+  std::unique_ptr<cases::Run> make_linear_run(const cases::Scene &scene,
+                                              const cases::EffectSet &effects,
+                                              std::unique_ptr<PosedProblem> posed,
+                                              const cases::Resolution &resolution);
 } // namespace meltfront::particles
 
 #endif

@@ -3,8 +3,8 @@
 #include <cases/demand.h>
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/options.h>
+#include <reference_fem/enthalpy/run.h>
 #include <reference_fem/enthalpy/shaped_triangulation.h>
-#include <reference_fem/enthalpy/solver.h>
 
 #include <cmath>
 
@@ -55,7 +55,7 @@ namespace meltfront::reference_fem
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return enthalpy_options();
+        return cases::options_of(RunOptions());
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
@@ -63,7 +63,7 @@ namespace meltfront::reference_fem
       {
         // Of mesh, matrix, preconditioner and snapshots together, as measured.
         constexpr double per_node[] = {0, 1000, 1600, 2500};
-        const RunOptions options(scene, resolution);
+        const RunOptions options = options_for(scene, resolution);
         double nodes
             = cases::lattice_points(scene.domain, options.dimension, resolution.n);
         if(scene.domain.shape == cases::DomainShape::slab)
@@ -72,19 +72,11 @@ namespace meltfront::reference_fem
                 double(options.steps)};
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        StepStatistics statistics;
-        cases::Cost cost = run_enthalpy(scene, effects, resolution, observer, statistics);
-        cost.most_iterations = statistics.iterations;
-        cost.evidence = {
-            {"largest distance from the enthalpy graph", statistics.graph_inconsistency},
-            {"largest defect of a step's heat balance", statistics.balance_defect},
-            {"steps halved", double(statistics.halvings)},
-            {"steps left to backward Euler", double(statistics.euler_steps)}};
-        return cost;
+        return std::make_unique<EnthalpyRun>(scene, effects, resolution);
       }
     };
   } // namespace
