@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <cases/method.h>
+#include <cases/run.h>
 #include <cases/scene.h>
 
 #include <fmt/format.h>
@@ -14,7 +15,9 @@ namespace meltfront::cases
     if(complete.options.declarations().empty())
       complete.options = Options(option_declarations());
     require_affordable(*this, demand(scene, effects, complete), complete.memory_limit);
-    return run(scene, effects, complete, observer);
+    const Stopwatch watch;
+    const std::unique_ptr<Run> run = set_up(scene, effects, complete);
+    return run->carry_out(scene, watch, observer);
   }
 
   Demand Method::demand(const Scene &, const EffectSet &, const Resolution &) const

@@ -15,8 +15,8 @@
 
 namespace meltfront::cases
 {
+  class Run;
   struct Scene;
-  enum class ProblemKind;
 
   /** How finely, and with which values of its options, a method is to solve a scene. */
   struct Resolution
@@ -177,10 +177,10 @@ namespace meltfront::cases
                           const Resolution &resolution) const;
 
   protected:
-    /** solve() for a scene within the capabilities and a resolution with options. A
-     * method builds only what these effects need. */
-    virtual Cost run(const Scene &scene, const EffectSet &effects,
-                     const Resolution &resolution, Observer &observer) const = 0;
+    /** A run of a scene within the capabilities, with all options, which the scene,
+     * effects and resolution outlive. A method builds only what these effects need. */
+    virtual std::unique_ptr<Run> set_up(const Scene &scene, const EffectSet &effects,
+                                        const Resolution &resolution) const = 0;
   };
 
   /** The capabilities of the form of a method that takes a scene.

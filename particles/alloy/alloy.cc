@@ -72,11 +72,11 @@ namespace meltfront::particles
                           {.per_particle = 600, .per_neighbour = 40});
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        return run_mixture(scene, effects, resolution, observer);
+        return make_mixture_run(scene, effects, resolution);
       }
     };
     class TwoPopulationMethod : public cases::Method
@@ -132,11 +132,11 @@ namespace meltfront::particles
             {.per_particle = 900, .per_neighbour = 60});
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        return run_two_population(policy, scene, effects, resolution, observer);
+        return make_two_population_run(policy, scene, effects, resolution);
       }
 
     private:

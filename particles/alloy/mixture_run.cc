@@ -26,8 +26,7 @@ namespace meltfront::particles
   {
     constexpr const char *method_name = "sph-mixture";
 
-    /** One run: the state and its advance in time. */
-    class MixtureRun : private ImplicitScheme::Subject
+    class MixtureRun : public cases::Run, private ImplicitScheme::Subject
     {
     public:
       MixtureRun(const cases::Scene &scene, const cases::EffectSet &effects,
@@ -73,28 +72,60 @@ namespace meltfront::particles
         initial_mass = mass();
       }
 
-      cases::Cost run(cases::Observer &observer, const cases::Stopwatch &watch)
+      cases::RunDescription describe() const override
       {
-        const cases::Stopwatch::Seconds setup = watch.elapsed();
-        observer.begin(describe());
-        observer.observe(snapshot(0, scene.start_time));
-        cases::Stopwatch stepping;
+        cases::RunDescription description
+            = describe_particles(dis, parameters.sph, plan.step, unknowns());
+        const auto add
+            = [&](const char *what, const std::string &value, const char *unit) {
+                description.parameters.push_back({what, value, unit});
+              };
+        add("particles", fmt::format("{}", n), "1");
+        for(const cases::Parameter &parameter : flows.describe())
+          description.parameters.push_back(parameter);
+        add("time scheme", describe_scheme(parameters.sph.time_scheme, plan.stages), "");
+        if(parameters.sph.step_error > 0)
+          add("wanted error of a step", fmt::format("{:.6g}", parameters.sph.step_error),
+              "1");
+        add("largest explicit step that keeps the maximum principle",
+            fmt::format("{:.6g}", plan.monotone), "s");
+        return description;
+      }
+
+      cases::Cost cost() const override
+      {
+        cases::Cost result;
+        result.steps = steps;
+        result.unknowns = unknowns();
+        result.work = flows.work();
+        result.capped_steps = repeated_steps;
+        if(implicit_scheme)
+        {
+          result.capped_steps = implicit_scheme->repeated();
+          result.solver_iterations = implicit_mixture->equations().linear_iterations();
+          result.most_iterations = implicit_mixture->equations().most_iterations();
+        }
+        const std::size_t arrays = flows.diffuses() ? (plan.stages > 1 ? 6 : 3) : 1;
+        result.effects = flows.effect_costs(arrays * size * sizeof(double));
+        return result;
+      }
+
+    private:
+      void take_steps() override
+      {
         double time = scene.start_time;
+        reached(0, time);
         while(time < scene.end_time)
         {
           time = advance(++steps, time);
           check(steps, time);
-          if(observer.wants(steps, time) || time == scene.end_time)
-            stepping.without([&] { observer.observe(snapshot(steps, time)); });
+          reached(steps, time);
         }
         if(parameters.sph.step_error > 0)
-          observer.note(scene.end_time,
-                        fmt::format("{} steps were accepted and {} rejected", steps,
-                                    implicit_scheme->repeated()));
-        return cost(setup, stepping.elapsed());
+          note(scene.end_time, fmt::format("{} steps were accepted and {} rejected", steps,
+                                           implicit_scheme->repeated()));
       }
 
-    private:
       /** Time after a step; the end exactly. */
       double time_of(long step) const
       {
@@ -267,7 +298,7 @@ namespace meltfront::particles
         return heat;
       }
 
-      cases::Snapshot snapshot(long step, double time)
+      cases::Snapshot snapshot(long step, double time) override
       {
         const std::span<const double> excess = flows.temperature_excess();
         const std::span<const double> liquid = flows.liquid_fraction();
@@ -296,45 +327,6 @@ namespace meltfront::particles
       long unknowns() const
       {
         return static_cast<long>(fields * (n - dis.held.size()));
-      }
-
-      cases::RunDescription describe() const
-      {
-        cases::RunDescription description
-            = describe_particles(dis, parameters.sph, plan.step, unknowns());
-        const auto add
-            = [&](const char *what, const std::string &value, const char *unit) {
-                description.parameters.push_back({what, value, unit});
-              };
-        add("particles", fmt::format("{}", n), "1");
-        for(const cases::Parameter &parameter : flows.describe())
-          description.parameters.push_back(parameter);
-        add("time scheme", describe_scheme(parameters.sph.time_scheme, plan.stages), "");
-        if(parameters.sph.step_error > 0)
-          add("wanted error of a step", fmt::format("{:.6g}", parameters.sph.step_error),
-              "1");
-        add("largest explicit step that keeps the maximum principle",
-            fmt::format("{:.6g}", plan.monotone), "s");
-        return description;
-      }
-
-      cases::Cost cost(const cases::Stopwatch::Seconds &setup,
-                       const cases::Stopwatch::Seconds &stepping) const
-      {
-        cases::Cost result = timed_cost(setup, stepping);
-        result.steps = steps;
-        result.unknowns = unknowns();
-        result.work = flows.work();
-        result.capped_steps = repeated_steps;
-        if(implicit_scheme)
-        {
-          result.capped_steps = implicit_scheme->repeated();
-          result.solver_iterations = implicit_mixture->equations().linear_iterations();
-          result.most_iterations = implicit_mixture->equations().most_iterations();
-        }
-        const std::size_t arrays = flows.diffuses() ? (plan.stages > 1 ? 6 : 3) : 1;
-        result.effects = flows.effect_costs(arrays * size * sizeof(double));
-        return result;
       }
 
       const cases::Scene &scene;
@@ -367,11 +359,10 @@ namespace meltfront::particles
     };
   } // namespace
 
-  cases::Cost run_mixture(const cases::Scene &scene, const cases::EffectSet &effects,
-                          const cases::Resolution &resolution, cases::Observer &observer)
+  std::unique_ptr<cases::Run> make_mixture_run(const cases::Scene &scene,
+                                               const cases::EffectSet &effects,
+                                               const cases::Resolution &resolution)
   {
-    const cases::Stopwatch setup;
-    MixtureRun run(scene, effects, resolution);
-    return run.run(observer, setup);
+    return std::make_unique<MixtureRun>(scene, effects, resolution);
   }
 } // namespace meltfront::particles

@@ -80,17 +80,7 @@ namespace meltfront::particles
       }
     }
 
-    std::string words(TimeScheme scheme, int stages)
-    {
-      if(scheme == TimeScheme::backward_euler)
-        return "backward Euler";
-      if(scheme == TimeScheme::crank_nicolson)
-        return "Crank-Nicolson after two steps of backward Euler";
-      return stages > 1 ? fmt::format("RKL2, {} stages", stages) : "explicit Euler";
-    }
-
-    /** One run: the sites and their advance in time. */
-    class TwoPopulationRun
+    class TwoPopulationRun : public cases::Run
     {
     public:
       TwoPopulationRun(const TwoPopulationPolicy &policy, const cases::Scene &scene,
@@ -125,12 +115,50 @@ namespace meltfront::particles
           initial_solute[s] = sites.total_of(s);
       }
 
-      cases::Cost run(cases::Observer &observer, const cases::Stopwatch &watch)
+      cases::RunDescription describe() const override
       {
-        const cases::Stopwatch::Seconds setup = watch.elapsed();
-        observer.begin(describe());
-        observer.observe(snapshot(0, scene.start_time));
-        cases::Stopwatch stepping;
+        cases::RunDescription description
+            = describe_particles(dis, parameters.sph, plan.step, unknowns());
+        const std::vector<cases::Parameter> own
+            = {{"sites", fmt::format("{}", n), "1"},
+               {"interactions per site",
+                fmt::format("{:.4g}", double(flows.interactions()) / n), "1"},
+               {"second moment divided out",
+                fmt::format("{:.10g}", flows.second_moment()), "1"},
+               {"exchange between ice and liquid",
+                parameters.exchange == PhaseExchange::corrected ? "corrected"
+                                                                : "as published",
+                ""},
+               {"new ice goes to",
+                parameters.new_ice == NewIce::site ? "its site" : "the kernel", ""},
+               {"latent heat",
+                parameters.constant_latent_heat ? "constant"
+                                                : "as the heat capacities demand",
+                ""},
+               {"time scheme", describe_scheme(parameters.sph.time_scheme, plan.stages), ""},
+               {"largest explicit step that keeps the maximum principle",
+                fmt::format("{:.6g}", plan.monotone), "s"}};
+        description.parameters.insert(description.parameters.end(), own.begin(),
+                                      own.end());
+        return description;
+      }
+
+      cases::Cost cost() const override
+      {
+        cases::Cost result;
+        result.steps = plan.steps;
+        result.unknowns = unknowns();
+        result.work = flows.work();
+        result.capped_steps = stepper.repeated_steps();
+        result.solver_iterations = stepper.solver_iterations();
+        result.effects = flows.effect_costs(n * sizeof(double));
+        return result;
+      }
+
+    private:
+      void take_steps() override
+      {
+        reached(0, scene.start_time);
         for(long step = 1; step <= plan.steps; ++step)
         {
           const double end = time_of(step);
@@ -141,13 +169,10 @@ namespace meltfront::particles
             begin = next;
           }
           check(step, end);
-          if(observer.wants(step, end) || step == plan.steps)
-            stepping.without([&] { observer.observe(snapshot(step, end)); });
+          reached(step, end);
         }
-        return cost(setup, stepping.elapsed());
       }
 
-    private:
       StepPlan make_plan() const
       {
         if(!parameters.as_published)
@@ -217,7 +242,7 @@ namespace meltfront::particles
                   sites.curved_liquidus()->largest_concentration()));
       }
 
-      cases::Snapshot snapshot(long step, double time)
+      cases::Snapshot snapshot(long step, double time) override
       {
         for(std::size_t a = 0; a < n; ++a)
         {
@@ -249,47 +274,6 @@ namespace meltfront::particles
         return static_cast<long>((n - dis.held.size()) * (4 + substance.n_solutes()));
       }
 
-      cases::RunDescription describe() const
-      {
-        cases::RunDescription description
-            = describe_particles(dis, parameters.sph, plan.step, unknowns());
-        const std::vector<cases::Parameter> own
-            = {{"sites", fmt::format("{}", n), "1"},
-               {"interactions per site",
-                fmt::format("{:.4g}", double(flows.interactions()) / n), "1"},
-               {"second moment divided out",
-                fmt::format("{:.10g}", flows.second_moment()), "1"},
-               {"exchange between ice and liquid",
-                parameters.exchange == PhaseExchange::corrected ? "corrected"
-                                                                : "as published",
-                ""},
-               {"new ice goes to",
-                parameters.new_ice == NewIce::site ? "its site" : "the kernel", ""},
-               {"latent heat",
-                parameters.constant_latent_heat ? "constant"
-                                                : "as the heat capacities demand",
-                ""},
-               {"time scheme", words(parameters.sph.time_scheme, plan.stages), ""},
-               {"largest explicit step that keeps the maximum principle",
-                fmt::format("{:.6g}", plan.monotone), "s"}};
-        description.parameters.insert(description.parameters.end(), own.begin(),
-                                      own.end());
-        return description;
-      }
-
-      cases::Cost cost(const cases::Stopwatch::Seconds &setup,
-                       const cases::Stopwatch::Seconds &stepping) const
-      {
-        cases::Cost result = timed_cost(setup, stepping);
-        result.steps = plan.steps;
-        result.unknowns = unknowns();
-        result.work = flows.work();
-        result.capped_steps = stepper.repeated_steps();
-        result.solver_iterations = stepper.solver_iterations();
-        result.effects = flows.effect_costs(n * sizeof(double));
-        return result;
-      }
-
       const cases::Scene &scene;
       TwoPopulationParameters parameters;
       Discretisation dis;
@@ -309,14 +293,10 @@ namespace meltfront::particles
     };
   } // namespace
 
-  cases::Cost run_two_population(const TwoPopulationPolicy &policy,
-                                 const cases::Scene &scene,
-                                 const cases::EffectSet &effects,
-                                 const cases::Resolution &resolution,
-                                 cases::Observer &observer)
+  std::unique_ptr<cases::Run> make_two_population_run(
+      const TwoPopulationPolicy &policy, const cases::Scene &scene,
+      const cases::EffectSet &effects, const cases::Resolution &resolution)
   {
-    const cases::Stopwatch setup;
-    TwoPopulationRun run(policy, scene, effects, resolution);
-    return run.run(observer, setup);
+    return std::make_unique<TwoPopulationRun>(policy, scene, effects, resolution);
   }
 } // namespace meltfront::particles

@@ -1,18 +1,14 @@
 #ifndef meltfront_particles_alloy_two_population_run_h
 #define meltfront_particles_alloy_two_population_run_h
 
-#include <cases/method.h>
+#include <cases/run.h>
 #include <particles/alloy/parameters.h>
 
 namespace meltfront::particles
 {
-  /** Solve a scene with particles of two populations under a policy. See
-   * cases::Method::solve. */
-  cases::Cost run_two_population(const TwoPopulationPolicy &policy,
-                                 const cases::Scene &scene,
-                                 const cases::EffectSet &effects,
-                                 const cases::Resolution &resolution,
-                                 cases::Observer &observer);
+  std::unique_ptr<cases::Run> make_two_population_run(
+      const TwoPopulationPolicy &policy, const cases::Scene &scene,
+      const cases::EffectSet &effects, const cases::Resolution &resolution);
 } // namespace meltfront::particles
 
 #endif

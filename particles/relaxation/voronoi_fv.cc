@@ -2,7 +2,6 @@
 #include <cases/error.h>
 #include <cases/overshoot.h>
 #include <cases/scene.h>
-#include <cases/stopwatch.h>
 #include <particles/relaxation/cell_conduction.h>
 #include <particles/relaxation/relax_nodes.h>
 #include <particles/relaxation/voronoi_fv.h>
@@ -21,7 +20,7 @@ namespace meltfront::particles
     const std::string method_name = "voronoi-fv";
 
     /** Of Crank-Nicolson and BDF2. */
-    constexpr cases::Overshoot overshoot{0.01, 1};
+    constexpr cases::Overshoot allowed_overshoot{0.01, 1};
 
     /** How the particles inside were placed, with what the relaxation says of itself. */
     struct Arranged
@@ -131,6 +130,59 @@ namespace meltfront::particles
            {"particle", "centroid"}}};
     }
 
+    class CellsOnNodes : public PosedProblem
+    {
+    public:
+      CellsOnNodes(const cases::Scene &scene, const cases::Resolution &resolution)
+        : dimension(scene.domain.dimension)
+        , source(resolution.options.get_string("source"))
+        , arranged(arrange(scene, resolution))
+        , conduction(
+              scene, arranged.nodes,
+              voronoi_cells(arranged.nodes.positions, coordinate_box(scene.domain)),
+              source == "particle" ? SourcePoint::particle : SourcePoint::centroid)
+        , problem(conduction.problem())
+      {
+      }
+
+      const LinearProblem &linear() const override
+      {
+        return problem;
+      }
+
+      LinearSites sites() const override
+      {
+        return sites_of(arranged.nodes, dimension, conduction.weights());
+      }
+
+      LinearDescription description() const override
+      {
+        LinearDescription result;
+        result.method = method_name;
+        result.run.dimension = dimension;
+        result.run.spacing = arranged.nodes.spacing;
+        result.run.parameters = arranged.parameters;
+        result.run.parameters.push_back({"heat release at", source, ""});
+        result.obeys_maximum_principle = true;
+        result.overshoot = allowed_overshoot;
+        result.setup_work = static_cast<long>(problem.operator_rows.size());
+        return result;
+      }
+
+      std::vector<cases::EffectCost>
+      effect_costs(const cases::EffectSet &effects) const override
+      {
+        return conduction.effect_costs(effects);
+      }
+
+    private:
+      int dimension;
+      std::string source;
+      Arranged arranged;
+      CellConduction conduction;
+      LinearProblem problem;
+    };
+
     class VoronoiFv : public cases::Method
     {
     public:
@@ -162,7 +214,7 @@ namespace meltfront::particles
                  = {{DomainShape::slab, {1}, walls}, {DomainShape::box, {2, 3}, walls}},
                  .front_origins = {cases::FrontOrigin::none},
                  .most_threads = cases::any_number_of_threads,
-                 .overshoot = overshoot}};
+                 .overshoot = allowed_overshoot}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -187,42 +239,13 @@ namespace meltfront::particles
       }
 
     private:
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        const cases::Stopwatch watch;
-        const Arranged arranged = arrange(scene, resolution);
-        const NodeSet &nodes = arranged.nodes;
-        const SourcePoint point = resolution.options.get_string("source") == "particle"
-                                      ? SourcePoint::particle
-                                      : SourcePoint::centroid;
-        const CellConduction conduction(
-            scene, nodes, voronoi_cells(nodes.positions, coordinate_box(scene.domain)),
-            point);
-        const LinearProblem problem = conduction.problem();
-        LinearSites sites;
-        sites.dimension = scene.domain.dimension;
-        for(int d = 0; d < sites.dimension; ++d)
-          sites.positions[d] = nodes.positions.position[d];
-        sites.weights = conduction.weights();
-        LinearDescription description;
-        description.method = method_name;
-        description.run.dimension = scene.domain.dimension;
-        description.run.spacing = nodes.spacing;
-        description.run.parameters = arranged.parameters;
-        description.run.parameters.push_back(
-            {"heat release at", resolution.options.get_string("source"), ""});
-        description.obeys_maximum_principle = true;
-        description.overshoot = overshoot;
-        description.setup_work = static_cast<long>(problem.operator_rows.size());
-        const cases::Stopwatch::Seconds spent = watch.elapsed();
-        description.setup_wall = spent.wall;
-        description.setup_cpu = spent.cpu;
-        cases::Cost cost = run_linear_problem(scene, problem, sites, description,
-                                              resolution, observer);
-        cost.effects = conduction.effect_costs(effects);
-        return cost;
+        return make_linear_run(scene, effects,
+                               std::make_unique<CellsOnNodes>(scene, resolution),
+                               resolution);
       }
     };
   } // namespace

@@ -1,6 +1,5 @@
 #include <cases/demand.h>
 #include <cases/error.h>
-#include <cases/stopwatch.h>
 #include <particles/relaxation/relax_nodes.h>
 #include <particles/rkpm/integral_problem.h>
 #include <particles/rkpm/moab_integral.h>
@@ -114,9 +113,9 @@ namespace meltfront::particles
              .per_node = 500});
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override;
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override;
     };
 
     std::vector<cases::OptionDeclaration> MoabIntegral::option_declarations() const
@@ -154,38 +153,63 @@ namespace meltfront::particles
       return options;
     }
 
-    cases::Cost MoabIntegral::run(const cases::Scene &scene,
-                                  const cases::EffectSet &effects,
-                                  const cases::Resolution &resolution,
-                                  cases::Observer &observer) const
+    class IntegralOnNodes : public PosedProblem
     {
-      const int dimension = scene.domain.dimension;
-      const cases::Stopwatch watch;
-      const cases::Options &options = resolution.options;
-      const NodeSet nodes = arrange_nodes(
-          scene, resolution.n - 1,
-          choice<NodeArrangement>(arrangement_names(), options.get_string("arrangement")),
-          options.get_double("jitter"), resolution.seed, method_name,
-          [&scene](NodeSet &set) { relax_inner_nodes(set, scene); });
-      const IntegralProblem problem(scene, nodes, read_parameters(scene, resolution));
-      LinearDescription description;
-      description.method = method_name;
-      description.overshoot = overshoot;
-      description.run.dimension = dimension;
-      description.run.spacing = nodes.spacing;
-      description.run.smoothing_length = problem.dilation();
-      description.run.parameters = problem.describe();
-      description.setup_work = problem.work();
-      const cases::Stopwatch::Seconds setup = watch.elapsed();
-      description.setup_wall = setup.wall;
-      description.setup_cpu = setup.cpu;
-      LinearSites sites{dimension, {}, nodes.weights};
-      for(int d = 0; d < dimension; ++d)
-        sites.positions[d] = nodes.positions.position[d];
-      cases::Cost cost = run_linear_problem(scene, problem.linear(), sites, description,
-                                            resolution, observer);
-      cost.effects = problem.effect_costs(effects);
-      return cost;
+    public:
+      IntegralOnNodes(const cases::Scene &scene, const cases::Resolution &resolution)
+        : dimension(scene.domain.dimension)
+        , nodes(arrange_nodes(
+              scene, resolution.n - 1,
+              choice<NodeArrangement>(arrangement_names(),
+                                      resolution.options.get_string("arrangement")),
+              resolution.options.get_double("jitter"), resolution.seed, method_name,
+              [&scene](NodeSet &set) { relax_inner_nodes(set, scene); }))
+        , problem(scene, nodes, read_parameters(scene, resolution))
+      {
+      }
+
+      const LinearProblem &linear() const override
+      {
+        return problem.linear();
+      }
+
+      LinearSites sites() const override
+      {
+        return sites_of(nodes, dimension, nodes.weights);
+      }
+
+      LinearDescription description() const override
+      {
+        LinearDescription result;
+        result.method = method_name;
+        result.overshoot = overshoot;
+        result.run.dimension = dimension;
+        result.run.spacing = nodes.spacing;
+        result.run.smoothing_length = problem.dilation();
+        result.run.parameters = problem.describe();
+        result.setup_work = problem.work();
+        return result;
+      }
+
+      std::vector<cases::EffectCost>
+      effect_costs(const cases::EffectSet &effects) const override
+      {
+        return problem.effect_costs(effects);
+      }
+
+    private:
+      int dimension;
+      NodeSet nodes;
+      IntegralProblem problem;
+    };
+
+    std::unique_ptr<cases::Run>
+    MoabIntegral::set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+                         const cases::Resolution &resolution) const
+    {
+      return make_linear_run(scene, effects,
+                             std::make_unique<IntegralOnNodes>(scene, resolution),
+                             resolution);
     }
   } // namespace
 

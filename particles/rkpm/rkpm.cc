@@ -1,6 +1,5 @@
 #include <cases/demand.h>
 #include <cases/scene.h>
-#include <cases/stopwatch.h>
 #include <particles/relaxation/relax_nodes.h>
 #include <particles/rkpm/rkpm.h>
 #include <particles/rkpm/rkpm_problem.h>
@@ -10,6 +9,60 @@ namespace meltfront::particles
   namespace
   {
     using rkpm::RkpmPolicy;
+
+    class RkpmOnNodes : public PosedProblem
+    {
+    public:
+      RkpmOnNodes(const RkpmPolicy &policy, const cases::Scene &scene,
+                  const cases::Resolution &resolution, const cases::Overshoot &overshoot)
+        : policy(policy)
+        , dimension(scene.domain.dimension)
+        , overshoot(overshoot)
+        , parameters(rkpm::read_parameters(policy, resolution.options, dimension))
+        , nodes(arrange_nodes(scene, resolution.n - 1, parameters.arrangement,
+                              parameters.jitter, resolution.seed, policy.name,
+                              [&scene](NodeSet &set) { relax_inner_nodes(set, scene); }))
+        , problem(scene, nodes, parameters, policy.name, resolution.threads)
+      {
+      }
+
+      const LinearProblem &linear() const override
+      {
+        return problem.linear();
+      }
+
+      LinearSites sites() const override
+      {
+        return sites_of(nodes, dimension, nodes.weights);
+      }
+
+      LinearDescription description() const override
+      {
+        LinearDescription result;
+        result.method = policy.name;
+        result.overshoot = overshoot;
+        result.run.dimension = dimension;
+        result.run.spacing = nodes.spacing;
+        result.run.smoothing_length = problem.mean_dilation();
+        result.run.parameters = problem.describe();
+        result.setup_work = problem.work();
+        return result;
+      }
+
+      std::vector<cases::EffectCost>
+      effect_costs(const cases::EffectSet &effects) const override
+      {
+        return problem.effect_costs(effects);
+      }
+
+    private:
+      const RkpmPolicy &policy;
+      int dimension;
+      cases::Overshoot overshoot;
+      rkpm::RkpmParameters parameters;
+      NodeSet nodes;
+      rkpm::RkpmProblem problem;
+    };
 
     class RkpmMethod : public cases::Method
     {
@@ -86,37 +139,14 @@ namespace meltfront::particles
              .per_node = 300});
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        const cases::Stopwatch watch;
-        const rkpm::RkpmParameters parameters
-            = rkpm::read_parameters(policy, resolution.options, scene.domain.dimension);
-        const NodeSet nodes
-            = arrange_nodes(scene, resolution.n - 1, parameters.arrangement,
-                            parameters.jitter, resolution.seed, policy.name,
-                            [&scene](NodeSet &set) { relax_inner_nodes(set, scene); });
-        const rkpm::RkpmProblem problem(scene, nodes, parameters, policy.name,
-                                        resolution.threads);
-        LinearDescription description;
-        description.method = policy.name;
-        description.overshoot = overshoot();
-        description.run.dimension = scene.domain.dimension;
-        description.run.spacing = nodes.spacing;
-        description.run.smoothing_length = problem.mean_dilation();
-        description.run.parameters = problem.describe();
-        description.setup_work = problem.work();
-        const cases::Stopwatch::Seconds setup = watch.elapsed();
-        description.setup_wall = setup.wall;
-        description.setup_cpu = setup.cpu;
-        LinearSites sites{scene.domain.dimension, {}, nodes.weights};
-        for(int d = 0; d < scene.domain.dimension; ++d)
-          sites.positions[d] = nodes.positions.position[d];
-        cases::Cost cost = run_linear_problem(scene, problem.linear(), sites, description,
-                                              resolution, observer);
-        cost.effects = problem.effect_costs(effects);
-        return cost;
+        return make_linear_run(
+            scene, effects,
+            std::make_unique<RkpmOnNodes>(policy, scene, resolution, overshoot()),
+            resolution);
       }
 
     private:

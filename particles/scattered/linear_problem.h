@@ -1,13 +1,14 @@
 #ifndef meltfront_particles_scattered_linear_problem_h
 #define meltfront_particles_scattered_linear_problem_h
 
-#include <cases/method.h>
+#include <cases/run.h>
 #include <cases/scene.h>
 #include <particles/scattered/compressed_rows.h>
 #include <particles/scattered/given_values.h>
 #include <particles/scattered/linear_solver.h>
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,6 +53,12 @@ namespace meltfront::particles
     std::span<const double> weights; ///< as Snapshot::weights
   };
 
+  struct NodeSet;
+
+  /** Nodes as sites. */
+  LinearSites sites_of(const NodeSet &nodes, int dimension,
+                       std::span<const double> weights);
+
   /** How a linear problem is stepped; chosen by linear_options(). */
   enum class LinearScheme
   {
@@ -87,22 +94,31 @@ namespace meltfront::particles
     bool obeys_maximum_principle = false;
     cases::Overshoot overshoot{}; ///< of the method's capabilities
     long setup_work = 0;          ///< entries touched while rows were made
-    std::vector<cases::EffectCost> effects;
-    double setup_wall = 0, setup_cpu = 0; ///< s, spent on rows
+  };
+
+  /** A linear problem with the nodes that it is posed on. */
+  class PosedProblem
+  {
+  public:
+    virtual ~PosedProblem() = default;
+    virtual const LinearProblem &linear() const = 0;
+    virtual LinearSites sites() const = 0;
+    virtual LinearDescription description() const = 0;
+    virtual std::vector<cases::EffectCost>
+    effect_costs(const cases::EffectSet &effects) const = 0;
   };
 
   /**
-   * Solve the steady problem or step the transient one from the scene's initial
-   * temperature to its end, with one factorisation.
+   * A run that solves the steady problem, or steps the transient one from the scene's
+   * initial temperature to its end, with one factorisation.
    *
    * @throws NumericalError (method, step, time) if a matrix is singular, a solve does not
    * converge, or a value is not finite.
    */
-  cases::Cost run_linear_problem(const cases::Scene &scene, const LinearProblem &problem,
-                                 const LinearSites &sites,
-                                 const LinearDescription &description,
-                                 const cases::Resolution &resolution,
-                                 cases::Observer &observer);
+  std::unique_ptr<cases::Run> make_linear_run(const cases::Scene &scene,
+                                              const cases::EffectSet &effects,
+                                              std::unique_ptr<PosedProblem> posed,
+                                              const cases::Resolution &resolution);
 } // namespace meltfront::particles
 
 #endif

@@ -7,7 +7,7 @@
 
 namespace meltfront::particles
 {
-  void LinearRun::observe(cases::Observer &observer, long k, double time)
+  cases::Snapshot LinearRun::snapshot(long k, double time)
   {
     cases::Snapshot snapshot;
     snapshot.step = k;
@@ -19,7 +19,7 @@ namespace meltfront::particles
     snapshot.solid_fraction = solid_fraction;
     snapshot.obeys_maximum_principle = obeys_maximum_principle();
     snapshot.heat.booked = static_cast<bool>(problem.inflow);
-    if(snapshot.heat.booked && scene.problem == cases::ProblemKind::poisson)
+    if(snapshot.heat.booked && steady())
     {
       // Without release the walls' sum is round-off, with nothing to relate it to.
       const HeatInflow inflow = problem.inflow(steady_step(time), unknowns);
@@ -33,26 +33,25 @@ namespace meltfront::particles
       snapshot.heat.stored = stored_heat();
       snapshot.heat.initial = initial_heat;
     }
-    observer.observe(snapshot);
+    return snapshot;
   }
 
-  cases::RunDescription LinearRun::describe(const LinearSolver &solver,
-                                            double length) const
+  cases::RunDescription LinearRun::describe() const
   {
     cases::RunDescription result = description.run;
     result.time_step = length;
     result.unknowns = static_cast<long>(n);
     result.parameters.push_back(
-        {"linear solver", linear_method_names()[std::size_t(solver.method())], ""});
+        {"linear solver", linear_method_names()[std::size_t(solver->method())], ""});
     result.parameters.push_back(
         {"entries per row",
          fmt::format("{:.4g}", double(problem.operator_rows.size()) / double(n)), "1"});
     result.parameters.push_back({"entries of factors or preconditioner over those "
                                  "of the matrix",
-                                 fmt::format("{:.3g}", solver.fill()), "1"});
-    if(std::isfinite(solver.reciprocal_condition()))
+                                 fmt::format("{:.3g}", solver->fill()), "1"});
+    if(std::isfinite(solver->reciprocal_condition()))
       result.parameters.push_back({"reciprocal condition of the matrix (UMFPACK)",
-                                   fmt::format("{:.2g}", solver.reciprocal_condition()),
+                                   fmt::format("{:.2g}", solver->reciprocal_condition()),
                                    "1"});
     if(length > 0)
       result.parameters.push_back(
@@ -67,20 +66,15 @@ namespace meltfront::particles
     return result;
   }
 
-  cases::Cost LinearRun::cost(const cases::Stopwatch::Seconds &setup,
-                              const cases::Stopwatch::Seconds &stepping) const
+  cases::Cost LinearRun::cost() const
   {
     cases::Cost result;
-    result.setup_wall = description.setup_wall + setup.wall;
-    result.setup_cpu = description.setup_cpu + setup.cpu;
-    result.stepping_wall = stepping.wall;
-    result.stepping_cpu = stepping.cpu;
     result.steps = steps;
     result.unknowns = static_cast<long>(n);
     result.work = description.setup_work + work;
     result.solver_iterations = iterations;
     result.most_iterations = most_iterations;
-    result.effects = description.effects;
+    result.effects = posed->effect_costs(effects);
     return result;
   }
 } // namespace meltfront::particles

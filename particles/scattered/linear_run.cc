@@ -4,6 +4,7 @@
 #include <particles/scattered/linear_choices.h>
 #include <particles/scattered/linear_growth.h>
 #include <particles/scattered/linear_run.h>
+#include <particles/scattered/node_set.h>
 
 #include <fmt/format.h>
 
@@ -21,13 +22,15 @@ namespace meltfront::particles
     constexpr long fewest_steps = 10;
   } // namespace
 
-  LinearRun::LinearRun(const cases::Scene &scene, const LinearProblem &problem,
-                       const LinearSites &sites, const LinearDescription &description,
+  LinearRun::LinearRun(const cases::Scene &scene, const cases::EffectSet &effects,
+                       std::unique_ptr<PosedProblem> posed_problem,
                        const cases::Resolution &resolution)
     : scene(scene)
-    , problem(problem)
-    , sites(sites)
-    , description(description)
+    , effects(effects)
+    , posed(std::move(posed_problem))
+    , problem(posed->linear())
+    , sites(posed->sites())
+    , description(posed->description())
     , n(problem.operator_rows.rows())
     , scheme(choice<LinearScheme>(linear_scheme_names(),
                                   resolution.options.get_string("time_scheme")))
@@ -51,53 +54,45 @@ namespace meltfront::particles
           steps, std::max(fewest_steps, most_monotone_steps(scene, problem, sites)));
     if(!problem.reconstruction.columns.empty())
       temperature.resize(n);
-  }
-
-  cases::Cost LinearRun::run(cases::Observer &observer)
-  {
-    cases::Stopwatch watch;
-    if(scene.problem == cases::ProblemKind::poisson)
-      return solve_steady(observer, watch);
-    return step(observer, watch);
-  }
-
-  cases::Cost LinearRun::solve_steady(cases::Observer &observer, cases::Stopwatch &watch)
-  {
-    steps = 1;
-    LinearSolver solver
-        = make_solver(sum_of(-1, problem.operator_rows, 0, problem.operator_rows), 1);
-    if(scene.inclusion)
-      require_steady_rows(scene, problem, solver_parameters, description.method);
-    const cases::Stopwatch::Seconds setup = watch.elapsed();
-    problem.source(steady_step(scene.end_time), load);
-    solve(solver, 1, scene.end_time);
-    const cases::Stopwatch::Seconds total = watch.elapsed();
-    observer.begin(describe(solver, 0));
-    observe(observer, 1, scene.end_time);
-    return cost(setup, {total.wall - setup.wall, total.cpu - setup.cpu});
-  }
-
-  cases::Cost LinearRun::step(cases::Observer &observer, cases::Stopwatch &watch)
-  {
-    const double length = (scene.end_time - scene.start_time) / double(steps);
+    if(steady())
+    {
+      steps = 1;
+      solver.emplace(
+          make_solver(sum_of(-1, problem.operator_rows, 0, problem.operator_rows), 1));
+      if(scene.inclusion)
+        require_steady_rows(scene, problem, solver_parameters, description.method);
+      return;
+    }
+    length = (scene.end_time - scene.start_time) / double(steps);
     start();
-    LinearSolver solver = make_solver(system(length), 0);
+    solver.emplace(make_solver(system(length), 0));
     if(scene.inclusion)
-      require_stable_steps(problem, solver, rate_of(length), steps, description.method);
-    const cases::Stopwatch::Seconds setup = watch.elapsed();
-    observer.begin(describe(solver, length));
-    observe(observer, 0, scene.start_time);
-    cases::Stopwatch stepping;
+      require_stable_steps(problem, *solver, rate_of(length), steps, description.method);
+  }
+
+  bool LinearRun::steady() const
+  {
+    return scene.problem == cases::ProblemKind::poisson;
+  }
+
+  void LinearRun::take_steps()
+  {
+    if(steady())
+    {
+      problem.source(steady_step(scene.end_time), load);
+      solve(*solver, 1, scene.end_time);
+      reached(1, scene.end_time);
+      return;
+    }
+    reached(0, scene.start_time);
     for(long k = 1; k <= steps; ++k)
     {
       const double end
           = k == steps ? scene.end_time : scene.start_time + double(k) * length;
-      advance(solver, k, end, length);
+      advance(*solver, k, end, length);
       check(k, end);
-      if(observer.wants(k, end) || k == steps)
-        stepping.without([&] { observe(observer, k, end); });
+      reached(k, end);
     }
-    return cost(setup, stepping.elapsed());
   }
 
   void LinearRun::start()
@@ -185,8 +180,7 @@ namespace meltfront::particles
   bool LinearRun::obeys_maximum_principle() const
   {
     return description.obeys_maximum_principle
-           && (scene.problem == cases::ProblemKind::poisson
-               || scheme == LinearScheme::backward_euler);
+           && (steady() || scheme == LinearScheme::backward_euler);
   }
 
   void LinearRun::check(long k, double time)
@@ -210,12 +204,20 @@ namespace meltfront::particles
                                                             scene.domain));
   }
 
-  cases::Cost run_linear_problem(const cases::Scene &scene, const LinearProblem &problem,
-                                 const LinearSites &sites,
-                                 const LinearDescription &description,
-                                 const cases::Resolution &resolution,
-                                 cases::Observer &observer)
+  LinearSites sites_of(const NodeSet &nodes, int dimension,
+                       std::span<const double> weights)
   {
-    return LinearRun(scene, problem, sites, description, resolution).run(observer);
+    LinearSites sites{dimension, {}, weights};
+    for(int d = 0; d < dimension; ++d)
+      sites.positions[d] = nodes.positions.position[d];
+    return sites;
+  }
+
+  std::unique_ptr<cases::Run> make_linear_run(const cases::Scene &scene,
+                                              const cases::EffectSet &effects,
+                                              std::unique_ptr<PosedProblem> posed,
+                                              const cases::Resolution &resolution)
+  {
+    return std::make_unique<LinearRun>(scene, effects, std::move(posed), resolution);
   }
 } // namespace meltfront::particles

@@ -1,7 +1,6 @@
 #ifndef meltfront_particles_scattered_linear_run_h
 #define meltfront_particles_scattered_linear_run_h
 
-#include <cases/stopwatch.h>
 #include <particles/scattered/linear_problem.h>
 
 #include <optional>
@@ -11,19 +10,21 @@
 namespace meltfront::particles
 {
   /** One run: the matrices, the unknowns, and their advance in time. */
-  class LinearRun
+  class LinearRun : public cases::Run
   {
   public:
-    /** What it is given, but for the resolution, must outlive it. */
-    LinearRun(const cases::Scene &scene, const LinearProblem &problem,
-              const LinearSites &sites, const LinearDescription &description,
-              const cases::Resolution &resolution);
+    /** Scene and effects must outlive it. */
+    LinearRun(const cases::Scene &scene, const cases::EffectSet &effects,
+              std::unique_ptr<PosedProblem> posed, const cases::Resolution &resolution);
 
-    cases::Cost run(cases::Observer &observer);
+    // In linear_report.cc:
+    cases::RunDescription describe() const override;
+    cases::Cost cost() const override;
 
   private:
-    cases::Cost solve_steady(cases::Observer &observer, cases::Stopwatch &watch);
-    cases::Cost step(cases::Observer &observer, cases::Stopwatch &watch);
+    void take_steps() override;
+    cases::Snapshot snapshot(long k, double time) override; // in linear_report.cc
+    bool steady() const;
 
     /** The unknowns whose temperatures are the initial ones. */
     void start();
@@ -69,16 +70,12 @@ namespace meltfront::particles
     bool algebraic(std::size_t row) const;
     void book(const LinearStep &step, double length, double share);
 
-    // In linear_report.cc:
-    void observe(cases::Observer &observer, long k, double time);
-    cases::RunDescription describe(const LinearSolver &solver, double length) const;
-    cases::Cost cost(const cases::Stopwatch::Seconds &setup,
-                     const cases::Stopwatch::Seconds &stepping) const;
-
     const cases::Scene &scene;
+    const cases::EffectSet &effects;
+    std::unique_ptr<PosedProblem> posed;
     const LinearProblem &problem;
-    const LinearSites &sites;
-    const LinearDescription &description;
+    LinearSites sites;
+    LinearDescription description;
     std::size_t n;
     LinearScheme scheme;
     int threads;
@@ -87,6 +84,7 @@ namespace meltfront::particles
     std::optional<LinearSolver> starting; ///< of backward Euler, where BDF2 begins
     LinearSolverParameters solver_parameters;
     long steps = 0;
+    double length = 0; ///< of a step (s)
     std::vector<double> unknowns, before, previous, load, source;
     std::vector<double> temperature; ///< where the unknowns are not them
     std::vector<double> solid_fraction;
@@ -95,6 +93,7 @@ namespace meltfront::particles
     long work = 0, iterations = 0, most_iterations = 0;
     long matrix_entries = 0, entries_per_solve = 0;
     double worst_residual = 0;
+    std::optional<LinearSolver> solver;
   };
 } // namespace meltfront::particles
 

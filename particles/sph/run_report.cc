@@ -51,17 +51,6 @@ namespace meltfront::particles
     }
   }
 
-  cases::Cost timed_cost(const cases::Stopwatch::Seconds &setup,
-                         const cases::Stopwatch::Seconds &stepping)
-  {
-    cases::Cost cost;
-    cost.setup_wall = setup.wall;
-    cost.setup_cpu = setup.cpu;
-    cost.stepping_wall = stepping.wall;
-    cost.stepping_cpu = stepping.cpu;
-    return cost;
-  }
-
   cases::Snapshot particle_snapshot(const Discretisation &dis, long step, double time,
                                     std::span<const double> temperature,
                                     std::span<const double> solid_fraction)

@@ -19,10 +19,6 @@ namespace meltfront::particles
   /** A scheme in words. @param stages of its super steps */
   std::string describe_scheme(TimeScheme scheme, int stages);
 
-  /** A cost that holds the times of set-up and stepping. */
-  cases::Cost timed_cost(const cases::Stopwatch::Seconds &setup,
-                         const cases::Stopwatch::Seconds &stepping);
-
   /** A snapshot on the particles, without budgets. */
   cases::Snapshot particle_snapshot(const Discretisation &discretisation, long step,
                                     double time, std::span<const double> temperature,

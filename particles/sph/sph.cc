@@ -67,11 +67,11 @@ namespace meltfront::particles
                           {.per_particle = 400, .per_neighbour = 40});
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        return run_sph(policy, scene, effects, resolution, observer);
+        return make_sph_run(policy, scene, effects, resolution);
       }
 
       const SphPolicy &policy;

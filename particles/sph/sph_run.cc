@@ -1,5 +1,4 @@
 #include <cases/scene.h>
-#include <cases/stopwatch.h>
 #include <particles/sph/careful_sum.h>
 #include <particles/sph/heat_flow.h>
 #include <particles/sph/initial_state.h>
@@ -17,8 +16,7 @@ namespace meltfront::particles
 {
   namespace
   {
-    /** One run: its set-up, its snapshots and its costs. */
-    class SphRun
+    class SphRun : public cases::Run
     {
     public:
       SphRun(const SphPolicy &policy, const cases::Scene &scene,
@@ -40,30 +38,53 @@ namespace meltfront::particles
       {
       }
 
-      cases::Cost run(cases::Observer &observer, const cases::Stopwatch &watch)
+      cases::RunDescription describe() const override
       {
-        const cases::Stopwatch::Seconds setup = watch.elapsed();
-        observer.begin(describe());
-        observer.observe(snapshot(0, scene.start_time));
-        cases::Stopwatch stepping;
-        double time = scene.start_time;
-        while(time < scene.end_time)
-        {
-          time = stepper->advance(++steps, time);
-          if(observer.wants(steps, time) || time == scene.end_time)
-            stepping.without([&] { observer.observe(snapshot(steps, time)); });
-        }
-        report_steps(observer);
-        return cost(setup, stepping.elapsed());
+        cases::RunDescription description
+            = describe_particles(dis, parameters, plan.step, unknowns());
+        const auto add
+            = [&](const char *what, const std::string &value, const char *unit) {
+                description.parameters.push_back({what, value, unit});
+              };
+        add("particles", fmt::format("{}", n), "1");
+        for(const cases::Parameter &parameter : heat_flow.describe())
+          description.parameters.push_back(parameter);
+        add("time scheme", describe_scheme(parameters.time_scheme, plan.stages), "");
+        if(parameters.step_error > 0)
+          add("wanted error of a step", fmt::format("{:.6g}", parameters.step_error),
+              "1");
+        add("largest explicit step that keeps the maximum principle",
+            fmt::format("{:.6g}", plan.monotone), "s");
+        return description;
+      }
+
+      cases::Cost cost() const override
+      {
+        cases::Cost result;
+        const StepCounts counts = stepper->counts();
+        result.steps = steps;
+        result.unknowns = unknowns();
+        result.work = heat_flow.work();
+        result.solver_iterations = counts.linear_iterations;
+        result.most_iterations = counts.most_iterations;
+        result.capped_steps = counts.repeated;
+        result.effects = heat_flow.effect_costs();
+        return result;
       }
 
     private:
-      void report_steps(cases::Observer &observer) const
+      void take_steps() override
       {
+        double time = scene.start_time;
+        reached(0, time);
+        while(time < scene.end_time)
+        {
+          time = stepper->advance(++steps, time);
+          reached(steps, time);
+        }
         if(parameters.step_error > 0)
-          observer.note(scene.end_time,
-                        fmt::format("{} steps were accepted and {} rejected", steps,
-                                    stepper->counts().repeated));
+          note(scene.end_time, fmt::format("{} steps were accepted and {} rejected", steps,
+                                           stepper->counts().repeated));
       }
 
       cases::HeatBudget heat_content() const
@@ -86,7 +107,7 @@ namespace meltfront::particles
         return heat;
       }
 
-      cases::Snapshot snapshot(long step, double time)
+      cases::Snapshot snapshot(long step, double time) override
       {
         const cases::Material &m = scene.material;
         const std::span<const double> enthalpy = stepper->enthalpies();
@@ -109,41 +130,6 @@ namespace meltfront::particles
         return static_cast<long>(n - dis.held.size());
       }
 
-      cases::RunDescription describe() const
-      {
-        cases::RunDescription description
-            = describe_particles(dis, parameters, plan.step, unknowns());
-        const auto add
-            = [&](const char *what, const std::string &value, const char *unit) {
-                description.parameters.push_back({what, value, unit});
-              };
-        add("particles", fmt::format("{}", n), "1");
-        for(const cases::Parameter &parameter : heat_flow.describe())
-          description.parameters.push_back(parameter);
-        add("time scheme", describe_scheme(parameters.time_scheme, plan.stages), "");
-        if(parameters.step_error > 0)
-          add("wanted error of a step", fmt::format("{:.6g}", parameters.step_error),
-              "1");
-        add("largest explicit step that keeps the maximum principle",
-            fmt::format("{:.6g}", plan.monotone), "s");
-        return description;
-      }
-
-      cases::Cost cost(const cases::Stopwatch::Seconds &setup,
-                       const cases::Stopwatch::Seconds &stepping) const
-      {
-        cases::Cost result = timed_cost(setup, stepping);
-        const StepCounts counts = stepper->counts();
-        result.steps = steps;
-        result.unknowns = unknowns();
-        result.work = heat_flow.work();
-        result.solver_iterations = counts.linear_iterations;
-        result.most_iterations = counts.most_iterations;
-        result.capped_steps = counts.repeated;
-        result.effects = heat_flow.effect_costs();
-        return result;
-      }
-
       const cases::Scene &scene;
       SphParameters parameters;
       Discretisation dis;
@@ -157,12 +143,11 @@ namespace meltfront::particles
     };
   } // namespace
 
-  cases::Cost run_sph(const SphPolicy &policy, const cases::Scene &scene,
-                      const cases::EffectSet &effects,
-                      const cases::Resolution &resolution, cases::Observer &observer)
+  std::unique_ptr<cases::Run> make_sph_run(const SphPolicy &policy,
+                                           const cases::Scene &scene,
+                                           const cases::EffectSet &effects,
+                                           const cases::Resolution &resolution)
   {
-    const cases::Stopwatch setup;
-    SphRun run(policy, scene, effects, resolution);
-    return run.run(observer, setup);
+    return std::make_unique<SphRun>(policy, scene, effects, resolution);
   }
 } // namespace meltfront::particles

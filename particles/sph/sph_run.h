@@ -1,15 +1,15 @@
 #ifndef meltfront_particles_sph_sph_run_h
 #define meltfront_particles_sph_sph_run_h
 
-#include <cases/method.h>
+#include <cases/run.h>
 #include <particles/sph/parameters.h>
 
 namespace meltfront::particles
 {
-  /** Solve a scene with SPH under a policy. See cases::Method::solve. */
-  cases::Cost run_sph(const SphPolicy &policy, const cases::Scene &scene,
-                      const cases::EffectSet &effects,
-                      const cases::Resolution &resolution, cases::Observer &observer);
+  std::unique_ptr<cases::Run> make_sph_run(const SphPolicy &policy,
+                                           const cases::Scene &scene,
+                                           const cases::EffectSet &effects,
+                                           const cases::Resolution &resolution);
 } // namespace meltfront::particles
 
 #endif

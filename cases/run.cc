@@ -1,0 +1,49 @@
+#include <cases/run.h>
+#include <cases/scene.h>
+
+#include <utility>
+
+namespace meltfront::cases
+{
+  Cost Run::carry_out(const Scene &scene, const Stopwatch &since_setup,
+                      Observer &of_run)
+  {
+    observer = &of_run;
+    end_time = scene.end_time;
+    setup = since_setup.elapsed();
+    watch = since_setup;
+    take_steps();
+    const Stopwatch::Seconds total = watch.elapsed();
+    Cost result = cost();
+    result.setup_wall = setup.wall;
+    result.setup_cpu = setup.cpu;
+    result.stepping_wall = total.wall - setup.wall;
+    result.stepping_cpu = total.cpu - setup.cpu;
+    return result;
+  }
+
+  void Run::reached(long step, double time)
+  {
+    if(step == 0)
+      setup = watch.elapsed();
+    watch.without(
+        [&]
+        {
+          if(!std::exchange(begun, true))
+            observer->begin(describe());
+          const bool wanted = observer->wants(step, time);
+          if(wanted || step == 0 || time == end_time)
+            observer->observe(snapshot(step, time));
+        });
+  }
+
+  void Run::note(double time, const std::string &event)
+  {
+    watch.without([&] { observer->note(time, event); });
+  }
+
+  void Run::outcome(const std::string &name, double value)
+  {
+    watch.without([&] { observer->outcome(name, value); });
+  }
+} // namespace meltfront::cases

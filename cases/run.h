@@ -1,0 +1,59 @@
+#ifndef meltfront_cases_run_h
+#define meltfront_cases_run_h
+
+#include <cases/method.h>
+#include <cases/stopwatch.h>
+
+namespace meltfront::cases
+{
+  /**
+   * One run of a method on a scene: what is the method's own. Its constructor sets it up;
+   * Method::solve makes it, times it and hands its states to the observer.
+   */
+  class Run
+  {
+  public:
+    virtual ~Run() = default;
+
+    /** What the run is going to do: asked for before the first state is handed over. */
+    virtual RunDescription describe() const = 0;
+
+    /** What the run cost and counted, but for its times. */
+    virtual Cost cost() const = 0;
+
+    /**
+     * Take the run from the scene's start to its end.
+     * @param since_setup started when setting it up began
+     * @return cost(), with times that exclude the observer's; what comes before the
+     * initial state is set-up
+     */
+    Cost carry_out(const Scene &scene, const Stopwatch &since_setup, Observer &observer);
+
+  protected:
+    /** All steps, reached() after each of them and at the initial state, which is step 0
+     * (a steady scene has none). The last one ends at the scene's end time exactly. */
+    virtual void take_steps() = 0;
+
+    /** The state that the run has reached. What the snapshot spans lives until the run
+     * goes on. */
+    virtual Snapshot snapshot(long step, double time) = 0;
+
+    /** Hands a snapshot over if this is the initial state, the end, or if it is wanted. */
+    void reached(long step, double time);
+
+    /** As Observer::note. */
+    void note(double time, const std::string &event);
+
+    /** As Observer::outcome. */
+    void outcome(const std::string &name, double value);
+
+  private:
+    Observer *observer = nullptr;
+    bool begun = false;
+    double end_time = 0;
+    Stopwatch watch;
+    Stopwatch::Seconds setup;
+  };
+} // namespace meltfront::cases
+
+#endif
