@@ -1,6 +1,7 @@
 #include <cases/dense_sampling.h>
 #include <cases/error.h>
 #include <cases/expression_words.h>
+#include <cases/numbers.h>
 #include <cases/scene.h>
 #include <cases/temperature_slack.h>
 
@@ -141,7 +142,6 @@ namespace meltfront::cases
 
   TemperatureBounds temperature_bounds(const Scene &scene)
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     // How cold or warm a curved front gets depends on how it bends.
     if(!scene.conducts_heat() || scene.material.gibbs_thomson_coefficient != 0)
       return {};

@@ -1,18 +1,16 @@
 #include <cases/error.h>
+#include <cases/numbers.h>
 #include <cases/shape.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace meltfront::cases
 {
   namespace
   {
-    constexpr double pi = std::numbers::pi;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using std::numbers::pi;
 
     void require_radius(const double radius)
     {

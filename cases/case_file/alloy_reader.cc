@@ -1,5 +1,6 @@
 #include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/expression.h>
+#include <cases/case_file/key_builders.h>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@ namespace meltfront::cases
   {
     const std::string material_keys = "Scene/Material";
     const std::string alloy_keys = "Scene/Material/Alloy";
-    const std::string initial_keys = "Scene/Initial state";
     constexpr std::size_t most_solutes = 2;
 
     std::string solute_keys(std::size_t solute)

@@ -1,5 +1,6 @@
 #include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_checks.h>
+#include <cases/case_file/key_builders.h>
 
 #include <fmt/format.h>
 
@@ -10,7 +11,6 @@ namespace meltfront::cases
 {
   namespace
   {
-    const std::string initial_keys = "Scene/Initial state";
     constexpr int times_sampled = 16;
 
     double sampled_time(const Scene &scene, int i)
@@ -99,11 +99,6 @@ namespace meltfront::cases
       const int d = static_cast<int>(side) / 2;
       from[d] = to[d] = static_cast<int>(side) % 2;
       return grid(domain, from, to);
-    }
-
-    std::string wall_keys(Side side)
-    {
-      return std::string("Scene/Walls/") + to_string(side);
     }
 
     std::string point_text(const Domain &domain, const Position &p)

@@ -14,7 +14,6 @@ namespace meltfront::cases
   {
     const std::string release_keys = "Scene/Heat release";
     const std::string inclusion_keys = "Scene/Inclusion";
-    const std::string exact_keys = "Exact solution";
 
     std::string variables(const Scene &scene)
     {

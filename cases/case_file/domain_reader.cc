@@ -1,4 +1,5 @@
 #include <cases/case_file/domain_reader.h>
+#include <cases/case_file/key_builders.h>
 #include <cases/case_file/outline_reader.h>
 
 #include <fmt/format.h>
@@ -9,7 +10,6 @@ namespace meltfront::cases
 {
   namespace
   {
-    const std::string domain_keys = "Scene/Domain";
 
     /** Keys that belong to one shape only. */
     void check_shape_keys(const PrmFile &prm, const std::string &shape)

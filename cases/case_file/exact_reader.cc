@@ -1,6 +1,7 @@
 #include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/exact_reader.h>
+#include <cases/case_file/key_builders.h>
 #include <cases/exact/flux_freezing.h>
 #include <cases/exact/frank.h>
 #include <cases/exact/line_sink.h>
@@ -15,7 +16,6 @@ namespace meltfront::cases
 {
   namespace
   {
-    const std::string exact_keys = "Exact solution";
 
     /** Construct a solution; what it complains of gets file, line and key. */
     template <typename Solution, typename... Arguments>

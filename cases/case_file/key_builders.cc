@@ -4,6 +4,11 @@
 
 namespace meltfront::cases
 {
+  std::string wall_keys(Side side)
+  {
+    return std::string("Scene/Walls/") + to_string(side);
+  }
+
   PrmEntry text_key(const std::string &key, const std::string &description)
   {
     return {.key = key,

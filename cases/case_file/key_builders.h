@@ -2,9 +2,18 @@
 #define meltfront_cases_case_file_key_builders_h
 
 #include <cases/case_file/prm_file.h>
+#include <cases/scene.h>
 
 namespace meltfront::cases
 {
+  /** Subsections that several readers share. */
+  inline const std::string domain_keys = "Scene/Domain";
+  inline const std::string initial_keys = "Scene/Initial state";
+  inline const std::string exact_keys = "Exact solution";
+
+  /** The subsection of a wall. */
+  std::string wall_keys(Side side);
+
   /** Keys of the kinds that case files have, each declared in one line. */
   PrmEntry text_key(const std::string &key, const std::string &description);
 

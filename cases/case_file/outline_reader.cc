@@ -1,4 +1,5 @@
 #include <cases/case_file/expression.h>
+#include <cases/case_file/key_builders.h>
 #include <cases/case_file/outline_reader.h>
 
 #include <fmt/format.h>
@@ -11,7 +12,6 @@ namespace meltfront::cases
 {
   namespace
   {
-    const std::string domain_keys = "Scene/Domain";
 
     double read_coordinate(const std::string &text, int corner)
     {

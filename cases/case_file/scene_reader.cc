@@ -6,6 +6,7 @@
 #include <cases/case_file/domain_reader.h>
 #include <cases/case_file/expression.h>
 #include <cases/case_file/interface_reader.h>
+#include <cases/case_file/key_builders.h>
 #include <cases/case_file/particle_solid_reader.h>
 #include <cases/case_file/scene_reader.h>
 #include <cases/case_file/times_reader.h>
@@ -19,12 +20,6 @@ namespace meltfront::cases
 {
   namespace
   {
-    const std::string initial_keys = "Scene/Initial state";
-
-    std::string wall_keys(Side side)
-    {
-      return std::string("Scene/Walls/") + to_string(side);
-    }
 
     /** The variables that a field of the domain may depend on. */
     std::string coordinates(const Domain &domain)

@@ -1,14 +1,14 @@
+#include <cases/numbers.h>
 #include <particles/alloy/equilibrium_branches.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meltfront::particles
 {
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    using cases::infinity;
 
     /** How far beyond a kink, over the latent heat, a particle is put. */
     constexpr double beyond_kink = 1e-13;

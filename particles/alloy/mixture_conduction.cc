@@ -1,13 +1,13 @@
+#include <cases/numbers.h>
 #include <particles/alloy/mixture_conduction.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace meltfront::particles
 {
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    using cases::infinity;
 
     ConductionForm choose(const AlloySubstance &substance, MeanConductivity mean,
                           bool uniform)

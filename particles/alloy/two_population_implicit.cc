@@ -21,7 +21,7 @@ namespace meltfront::particles
     constexpr double relative_tolerance = 1e-10;
 
     /** How far beyond a kink, over a site's latent heat, it is put. */
-    constexpr double beyond_kink = 1e-13;
+    constexpr double beyond_kink_of_phases = 1e-13;
   } // namespace
 
   TwoPopulationImplicit::TwoPopulationImplicit(TwoPopulationFlow &flows, Sites &sites)
@@ -168,7 +168,8 @@ namespace meltfront::particles
   void TwoPopulationImplicit::correct(const SoluteOf &solute_of)
   {
     const SiteExchange &exchange = sites.phase_exchange();
-    const double beyond = beyond_kink * sites.site_mass * exchange.heat_of_melting();
+    const double beyond
+        = beyond_kink_of_phases * sites.site_mass * exchange.heat_of_melting();
     for(std::size_t a = 0; a < base.size(); ++a)
     {
       const double from

@@ -15,7 +15,7 @@ namespace meltfront::particles::front_tracking
 
     /** Points nearer to each other than this, over the spacing, do not both shape a
      * polynomial. */
-    constexpr double least_distance = 0.05;
+    constexpr double least_gap = 0.05;
 
     /** Nodes strictly inside of an interval and off the walls, [first, end). */
     std::pair<std::size_t, std::size_t> inner_nodes(const LineProblem &problem,
@@ -126,7 +126,7 @@ namespace meltfront::particles::front_tracking
   {
     const std::vector<double> before = state.temperature;
     const double melting = problem.material.melting_temperature;
-    const double apart = least_distance * problem.spacing;
+    const double apart = least_gap * problem.spacing;
     std::vector<double> x, value;
     for(std::size_t p = 0; p < state.n_intervals(); ++p)
     {

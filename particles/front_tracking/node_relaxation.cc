@@ -18,7 +18,7 @@ namespace meltfront::particles::front_tracking
 
     /** Nodes start near rest: what more iterations would win moves nothing. */
     constexpr double tolerance = 1e-5;
-    constexpr long most_iterations = 100;
+    constexpr long most_descents = 100;
 
     const double least_of_potential = std::cbrt(std::numbers::sqrt2); // 2^(1/6)
 
@@ -56,6 +56,6 @@ namespace meltfront::particles::front_tracking
                                {.longest_step = longest_step * potential.length,
                                 .stiffness = stiffness * unit,
                                 .tolerance = tolerance,
-                                .most_iterations = most_iterations});
+                                .most_iterations = most_descents});
   }
 } // namespace meltfront::particles::front_tracking

@@ -1,6 +1,8 @@
 #ifndef meltfront_particles_front_tracking_plane_bins_h
 #define meltfront_particles_front_tracking_plane_bins_h
 
+#include <cases/position.h>
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -12,6 +14,11 @@ namespace meltfront::particles::front_tracking
 {
   /** A point of the plane, or a vector (m). */
   using PlanePoint = Eigen::Vector2d;
+
+  inline cases::Position position_of(const PlanePoint &point)
+  {
+    return {point.x(), point.y(), 0};
+  }
 
   /** Finds points near a place: points sorted into square cells. */
   class PlaneBins

@@ -17,7 +17,7 @@ namespace meltfront::particles::front_tracking
      * whatever the spacing. Beyond what is allowed it is halved as long as this leaves
      * less than a share of it; no earlier, as a new step beside bodies that meet costs
      * more heat than an overshoot does (cavity-two-sinks, n = 40: 2.6 % for 0.08 %). */
-    constexpr double worth_halving = 0.75;
+    constexpr double worth_halving_in_plane = 0.75;
 
     /** Three nodes across a phase: with fewer no parabola follows its temperature, and
      * bounds may break. */
@@ -34,7 +34,7 @@ namespace meltfront::particles::front_tracking
       if(attempt(step / 2, shorter) > done)
         break;
       const double left = overshoot(shorter);
-      if(left > worth_halving * beyond)
+      if(left > worth_halving_in_plane * beyond)
         break;
       ++halved_steps;
       step /= 2;

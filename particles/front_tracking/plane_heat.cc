@@ -31,7 +31,6 @@ namespace meltfront::particles::front_tracking
                          : 0;
     }
 
-    constexpr NodePhase phases[] = {NodePhase::liquid, NodePhase::solid};
   } // namespace
 
   PlaneStep::PlaneStep(const PlaneState &last, const PlaneState *older, double time)

@@ -18,7 +18,7 @@ namespace meltfront::particles::front_tracking
     constexpr double margin = 4;
 
     /** Spacings of the grid within which phi starts as a distance: the band, its halo. */
-    constexpr double reach = 14;
+    constexpr double distance_band = 14;
 
     /** Spacings that the front goes in one step of the level set. */
     constexpr double courant_number = 0.5;
@@ -28,7 +28,7 @@ namespace meltfront::particles::front_tracking
     constexpr int reseed_every = 20;
 
     constexpr int projection_steps = 2;
-    constexpr double share_of_way = 0.5;
+    constexpr double projected_share = 0.5;
 
     level_set::Grid make_grid(const PlaneNodes &nodes)
     {
@@ -51,11 +51,6 @@ namespace meltfront::particles::front_tracking
       return parameters;
     }
 
-    level_set::Position position_of(const PlanePoint &place)
-    {
-      return {place.x(), place.y(), 0};
-    }
-
     /** Weights of the cubic through four values at -1, 0, 1, 2. */
     std::array<double, 4> cubic_weights(double x)
     {
@@ -76,7 +71,7 @@ namespace meltfront::particles::front_tracking
   {
     const FrontIndex index(front, solid_beyond, nodes.spacing);
     const auto distance = [&](const level_set::Position &place) {
-      return index.signed_distance({place[0], place[1]}, reach * grid.spacing());
+      return index.signed_distance({place[0], place[1]}, distance_band * grid.spacing());
     };
     level_set::LevelSetParameters parameters;
     parameters.threads = threads;
@@ -102,7 +97,7 @@ namespace meltfront::particles::front_tracking
       {
         const level_set::Position place = grid.position(node);
         const FrontPlace nearest
-            = index.closest({place[0], place[1]}, 2 * reach * grid.spacing());
+            = index.closest({place[0], place[1]}, 2 * distance_band * grid.spacing());
         if(nearest.vertex == FrontPlace::none)
           continue;
         const PlanePoint way = (1 - nearest.share) * along[nearest.vertex]
@@ -203,7 +198,7 @@ namespace meltfront::particles::front_tracking
       if(!front.active[p])
         continue;
       const PlanePoint start = front.position[p], &normal = front.normal[p];
-      const double limit = share_of_way * ways[p].norm();
+      const double limit = projected_share * ways[p].norm();
       double way = 0;
       for(int step = 0; step < projection_steps; ++step)
       {

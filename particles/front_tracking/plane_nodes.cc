@@ -27,11 +27,6 @@ namespace meltfront::particles::front_tracking
 
     constexpr double golden = 0.6180339887498949;
 
-    cases::Position position_of(const PlanePoint &point)
-    {
-      return {point.x(), point.y(), 0};
-    }
-
     int round_count(double length, double spacing)
     {
       return std::max(1, static_cast<int>(std::lround(length / spacing)));

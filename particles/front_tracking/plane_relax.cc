@@ -13,19 +13,19 @@ namespace meltfront::particles::front_tracking
   {
     // All lengths are in spacings.
     /** Nodes that would move by less stay. */
-    constexpr double least_move = 1e-3;
+    constexpr double least_node_move = 1e-3;
     /** A node that would move farther stays. */
     constexpr double farthest_move = 0.9;
     /** From the front, beyond which nodes are at rest. */
-    constexpr double reach = 4;
+    constexpr double moving_layer = 4;
     /** Where nodes that are nearer to the front set out from. */
     constexpr double first_distance = 0.3;
     /** From walls, where nodes were not laid nearer. */
     constexpr double wall_clearance = 0.5;
     /** No node comes nearer to another one. */
-    constexpr double least_distance = 0.3;
+    constexpr double least_node_distance = 0.3;
 
-    constexpr double coincidence = 1e-9;
+    constexpr double on_a_particle = 1e-9;
 
     /** A phase's unknown at its nodes, then at the front's particles, and its range: a
      * polynomial through the few points of a thin body may overshoot. */
@@ -86,9 +86,9 @@ namespace meltfront::particles::front_tracking
     const double h = nodes.spacing;
     const PlanePoint &here = nodes.position[node];
     const PlaneFront &front = state.front;
-    double least = reach * reach * h * h;
+    double least = moving_layer * moving_layer * h * h;
     std::size_t nearest = front.size();
-    front_bins.visit(here, reach * h,
+    front_bins.visit(here, moving_layer * h,
                      [&](std::uint32_t p, double square)
                      {
                        if(front.active[p] && square < least)
@@ -101,8 +101,8 @@ namespace meltfront::particles::front_tracking
       return false;
     // The solid is where the distance is negative, and melting makes it grow.
     const double way = std::clamp(front.speed[nearest] * time, -h, h);
-    const double distance = index.signed_distance(here, reach * h);
-    const double at_home = index.signed_distance(homes[node], reach * h);
+    const double distance = index.signed_distance(here, moving_layer * h);
+    const double at_home = index.signed_distance(homes[node], moving_layer * h);
     if(!(way * distance < 0) || !((at_home + way) * distance < 0))
       return false;
     if(std::abs(distance) > std::abs(way) / 2)
@@ -126,17 +126,17 @@ namespace meltfront::particles::front_tracking
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
       const PlanePoint &place = nodes.position[i];
-      const double distance = index.signed_distance(place, reach * h);
+      const double distance = index.signed_distance(place, moving_layer * h);
       if((distance < 0) != solid)
         continue;
-      const bool near = std::abs(distance) < reach * h;
+      const bool near = std::abs(distance) < moving_layer * h;
       const bool moves = nodes.wall_of_node[i] < 0 && (near || !settled || !homing);
       if(!moves)
       {
         add(phase.fixed, place);
         continue;
       }
-      if(std::abs(distance) < coincidence * h
+      if(std::abs(distance) < on_a_particle * h
          || (homing && near && let_go(state, index, time, i, places[i])))
         continue;
       PlanePoint start = place;
@@ -167,7 +167,7 @@ namespace meltfront::particles::front_tracking
       if(way == 0)
         continue;
       const double wall = std::min(wall_clearance * h, nodes.wall_distance(from));
-      const bool allowed = way > least_move * h && way < farthest_move * h
+      const bool allowed = way > least_node_move * h && way < farthest_move * h
                            && nodes.wall_distance(places[i]) >= wall
                            && index.solid(places[i]) == index.solid(from);
       if(!allowed)
@@ -181,7 +181,7 @@ namespace meltfront::particles::front_tracking
       std::vector<char> back(nodes.size(), 0);
       for(std::size_t i = 0; i < nodes.size(); ++i)
         if(places[i] != nodes.position[i])
-          bins.visit(places[i], least_distance * h,
+          bins.visit(places[i], least_node_distance * h,
                      [&](std::uint32_t j, double) { back[i] |= j != i; });
       for(std::size_t i = 0; i < nodes.size(); ++i)
         if(back[i])
@@ -244,7 +244,7 @@ namespace meltfront::particles::front_tracking
         if(places[i] == nodes.position[i])
           continue;
         const double distance
-            = index.signed_distance(places[i], std::max(absorbed, coincidence * h));
+            = index.signed_distance(places[i], std::max(absorbed, on_a_particle * h));
         if(std::abs(distance) < absorbed)
         {
           state.phase[i] = NodePhase::front;

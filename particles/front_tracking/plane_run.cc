@@ -23,7 +23,7 @@ namespace meltfront::particles::front_tracking
     constexpr double largest_growth = 1.6;
 
     /** No particle moves by more than this in a step, in spacings. */
-    constexpr double farthest_move = 1;
+    constexpr double farthest_step = 1;
 
     constexpr int most_halvings = 8;
     constexpr int passes_allowed = 10;
@@ -184,7 +184,7 @@ namespace meltfront::particles::front_tracking
   {
     next.front = state.front;
     next.phase = state.phase;
-    const double farthest_way = farthest_move * nodes.spacing;
+    const double farthest_way = farthest_step * nodes.spacing;
     for(std::size_t p = 0; p < next.front.size(); ++p)
       next.front.position[p]
           += std::clamp(step * next.front.speed[p], -farthest_way, farthest_way)
@@ -222,13 +222,13 @@ namespace meltfront::particles::front_tracking
       PlanePoint &place = next.front.position[p];
       const PlanePoint moved = place + displacement[p] * next.front.normal[p];
       const PlanePoint way = moved - state.front.position[p];
-      const bool too_far = way.norm() > farthest_move * h;
+      const bool too_far = way.norm() > farthest_step * h;
       if(next.front.active[p])
       {
         largest = std::max(largest, std::abs(displacement[p]) / h);
         limited = limited || too_far;
       }
-      place = too_far ? state.front.position[p] + farthest_move * h * way.normalized()
+      place = too_far ? state.front.position[p] + farthest_step * h * way.normalized()
                       : moved;
     }
     update_geometry(next.front);

@@ -23,12 +23,7 @@ namespace meltfront::particles::front_tracking
     /** A seed that is felt is tried again with this share of its radius. */
     constexpr double smaller = 0.9;
 
-    constexpr int samples_across = 33;
-
-    cases::Position position_of(const PlanePoint &point)
-    {
-      return {point.x(), point.y(), 0};
-    }
+    constexpr int sample_lines = 33;
 
     struct Seed
     {
@@ -165,15 +160,15 @@ namespace meltfront::particles::front_tracking
       const cases::Domain &domain = scene.domain;
       const double melting = scene.material.melting_temperature;
       const double first = scene.initial.temperature({}, scene.start_time);
-      for(int i = 0; i < samples_across; ++i)
-        for(int j = 0; j < samples_across; ++j)
+      for(int i = 0; i < sample_lines; ++i)
+        for(int j = 0; j < sample_lines; ++j)
         {
           PlanePoint place;
           for(int d = 0; d < 2; ++d)
           {
             const double low = domain.round() ? -domain.radius : domain.lower[d],
                          high = domain.round() ? domain.radius : domain.upper[d];
-            place[d] = low + (high - low) * (d == 0 ? i : j) / (samples_across - 1);
+            place[d] = low + (high - low) * (d == 0 ? i : j) / (sample_lines - 1);
           }
           const bool outside
               = domain.outline ? !domain.outline->inside(position_of(place))

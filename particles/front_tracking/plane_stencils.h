@@ -20,6 +20,9 @@ namespace meltfront::particles::front_tracking
     front ///< so near to the front that it counts as on it
   };
 
+  /** Those that have a temperature of their own. */
+  inline constexpr NodePhase phases[] = {NodePhase::liquid, NodePhase::solid};
+
   /** Derivatives that a stencil gives, numbered as those of a basis of order 2. */
   enum Derivative : int
   {

@@ -8,11 +8,6 @@
 
 namespace meltfront::particles::front_tracking
 {
-  namespace
-  {
-    constexpr NodePhase phases[] = {NodePhase::liquid, NodePhase::solid};
-  } // namespace
-
   /** A phase's value enters the row in progress. */
   void PlaneHeat::add(NodePhase phase, std::uint32_t column, double weight)
   {

@@ -150,9 +150,9 @@ namespace meltfront::particles::front_tracking
     }
 
     /** Where curves and contours do not belong together one by one. */
-    std::optional<PlanePoint> difference(const PlaneFront &front,
-                                         const Contours &contours,
-                                         const TopologySettings &settings)
+    std::optional<PlanePoint> first_difference(const PlaneFront &front,
+                                               const Contours &contours,
+                                               const TopologySettings &settings)
     {
       constexpr std::size_t none = static_cast<std::size_t>(-1);
       std::vector<PlanePoint> points;
@@ -261,7 +261,7 @@ namespace meltfront::particles::front_tracking
       if(!settings.join)
         return {};
       const std::optional<PlanePoint> differing
-          = difference(front, marked.contours(), settings);
+          = first_difference(front, marked.contours(), settings);
       if(!differing)
         return {};
       const PlanePoint place = narrowest_gap(front, settings, *differing);

@@ -19,10 +19,10 @@ namespace meltfront::particles::greenspan
 
     /** Time between looks at the bar, and over which they are averaged: the front
      * fluctuates by several spacings from one to the next. */
-    constexpr double look_interval = 0.2, average_time = 5;
+    constexpr double time_between_looks = 0.2, average_time = 5;
 
-    /** A property of the material that the particles make up, measured by `meltfront
-     * calibrate greenspan` (README.md), with its standard error. */
+    /** A property of the material that the particles make up, measured_properties by
+     * `meltfront calibrate greenspan` (README.md), with its standard error. */
     struct MeasuredProperty
     {
       const char *name;
@@ -33,7 +33,7 @@ namespace meltfront::particles::greenspan
     /** Of the triangle's force under this pressure; conductivities over the densities, as
      * lengths are masses per width. */
     constexpr double measured_pressure = 30;
-    constexpr MeasuredProperty measured[]
+    constexpr MeasuredProperty measured_properties[]
         = {{"melting temperature", 44.99, 0.24,
             [](const cases::Material &m) { return m.melting_temperature; }},
            {"latent heat", 27.4, 1.4,
@@ -57,17 +57,18 @@ namespace meltfront::particles::greenspan
     {
       if(force_of(scene.particle_solid->law) != PairForce::triangle()
          || scene.particle_solid->pressure != measured_pressure)
-        throw cases::Refusal(
-            fmt::format("what a bar of particles melts and conducts like is measured of "
-                        "the default pair law under a pressure of {} only",
-                        measured_pressure));
-      for(const MeasuredProperty &property : measured)
+        throw cases::Refusal(fmt::format(
+            "what a bar of particles melts and conducts like is measured_properties of "
+            "the default pair law under a pressure of {} only",
+            measured_pressure));
+      for(const MeasuredProperty &property : measured_properties)
         if(const double given = property.of(scene.material);
            std::abs(given - property.value) > standard_errors * property.standard_error)
-          throw cases::Refusal(fmt::format(
-              "a bar of particles is its own material: its {} is measured to be {} +- "
-              "{}, the scene states {:.6g}",
-              property.name, property.value, property.standard_error, given));
+          throw cases::Refusal(fmt::format("a bar of particles is its own material: its "
+                                           "{} is measured_properties to be {} +- "
+                                           "{}, the scene states {:.6g}",
+                                           property.name, property.value,
+                                           property.standard_error, given));
     }
 
     /** The mean of looks: squares of the molten mass, temperatures of layers. */
@@ -237,7 +238,7 @@ namespace meltfront::particles::greenspan
     observer.begin(description_of(bar, scene));
     watch.restart();
     const double duration = scene.end_time - scene.start_time;
-    const auto looks = static_cast<long>(std::ceil(duration / look_interval));
+    const auto looks = static_cast<long>(std::ceil(duration / time_between_looks));
     const double time_step = bar.settings().time_step;
     cases::Cost cost;
     std::deque<BarLook> recent;
@@ -250,7 +251,7 @@ namespace meltfront::particles::greenspan
           [&]
           {
             recent.push_back(bar.look());
-            if(static_cast<double>(recent.size()) * look_interval > average_time)
+            if(static_cast<double>(recent.size()) * time_between_looks > average_time)
               recent.pop_front();
             if(look != 0 && look != looks
                && !observer.wants(cost.steps, scene.start_time + time))

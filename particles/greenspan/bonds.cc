@@ -8,9 +8,6 @@ namespace meltfront::particles::greenspan
 {
   namespace
   {
-    /** Up to here looking at all pairs is faster than setting cells up. */
-    constexpr std::size_t few_particles = 200;
-
     /** psi_6 of each particle: exp(6 i angle) = ((x + i y) / r)^6, averaged. */
     std::vector<std::complex<double>> sixfold_order(const ParticleState &state,
                                                     const BondGraph &bonds)

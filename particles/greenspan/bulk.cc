@@ -12,7 +12,7 @@ namespace meltfront::particles::greenspan
   namespace
   {
     /** Steps from one look at the pressure to the next. */
-    constexpr long look_interval = 100;
+    constexpr long steps_between_looks = 100;
 
     /** The area goes to where the pressure is right within about this time... */
     constexpr double pressure_time = 1;
@@ -44,7 +44,7 @@ namespace meltfront::particles::greenspan
           = settings.liquid ? compressibility_of_liquid : compressibility_of_solid;
       const double now = pressure(motion);
       const double interval
-          = static_cast<double>(look_interval) * motion.parameters().time_step;
+          = static_cast<double>(steps_between_looks) * motion.parameters().time_step;
       const double change
           = interval / pressure_time * compressibility * (now - settings.pressure) / 2;
       motion.stretch(1 + std::clamp(change, -0.01, 0.01));
@@ -84,9 +84,9 @@ namespace meltfront::particles::greenspan
         rest *= 1 - melting_share;
       }
       set_bath(motion, settings, settings.temperature);
-      for(long step = 0; step < steps(settings, rest); step += look_interval)
+      for(long step = 0; step < steps(settings, rest); step += steps_between_looks)
       {
-        motion.advance(look_interval);
+        motion.advance(steps_between_looks);
         relax_area(motion, settings);
       }
       return motion;
@@ -141,9 +141,10 @@ namespace meltfront::particles::greenspan
     Averages average(Motion &motion, const BulkSettings &settings)
     {
       Averages averages;
-      for(long step = 0; step < steps(settings, settings.duration); step += look_interval)
+      for(long step = 0; step < steps(settings, settings.duration);
+          step += steps_between_looks)
       {
-        motion.advance(look_interval);
+        motion.advance(steps_between_looks);
         const double before = relax_area(motion, settings);
         averages.look(motion, before);
       }

@@ -11,7 +11,7 @@ namespace meltfront::particles::greenspan
   {
     /** Half of the bar is melted at so many times the guess, while the other is kept
      * below it. */
-    constexpr double melting_heat = 1.4, keeping_cool = 0.95;
+    constexpr double hot_half = 1.4, keeping_cool = 0.95;
 
     /** Time between looks. */
     constexpr double interval = 0.5;
@@ -49,7 +49,7 @@ namespace meltfront::particles::greenspan
     Bar bar(cool);
     const double middle = bar.look().length / 2;
     double time = settings.melting;
-    bar.set_zones(halves(settings, middle, melting_heat * settings.guess,
+    bar.set_zones(halves(settings, middle, hot_half * settings.guess,
                          keeping_cool * settings.guess));
     bar.advance_to(time);
     time += settings.melting / 2;

@@ -12,7 +12,7 @@ namespace meltfront::particles::greenspan
   namespace
   {
     /** Steps from one look at the temperatures to the next. */
-    constexpr long look_interval = 50;
+    constexpr long steps_between_profiles = 50;
 
     /** Share of the way from bath to bath that is left out at each end of it. */
     constexpr double margin = 0.125;
@@ -104,9 +104,9 @@ namespace meltfront::particles::greenspan
     motion.advance(steps(settings.relaxation));
     motion.set_zones(parameters.zones);
     std::vector<Bin> bins(settings.bins);
-    for(long step = 0; step < steps(settings.duration); step += look_interval)
+    for(long step = 0; step < steps(settings.duration); step += steps_between_profiles)
     {
-      motion.advance(look_interval);
+      motion.advance(steps_between_profiles);
       look(motion, bins);
     }
     ConductionResult result;

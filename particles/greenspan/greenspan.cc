@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/numbers.h>
 #include <cases/outcomes.h>
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 namespace meltfront::particles
 {
@@ -21,7 +21,7 @@ namespace meltfront::particles
   {
     using namespace greenspan;
 
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
 
     /** A run of a solid, from its set-up to what it tells the observer. */
     class SolidRun

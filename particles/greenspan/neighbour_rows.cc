@@ -4,12 +4,6 @@
 
 namespace meltfront::particles::greenspan
 {
-  namespace
-  {
-    /** Up to here looking at all pairs is faster than setting cells up. */
-    constexpr std::size_t few_particles = 200;
-  } // namespace
-
   void NeighbourRows::build(int dimension,
                             const std::array<std::vector<double>, 3> &position,
                             std::span<const std::uint32_t> names, double radius,

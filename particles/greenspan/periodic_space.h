@@ -7,6 +7,9 @@
 
 namespace meltfront::particles::greenspan
 {
+  /** Up to here looking at all pairs is faster than setting cells up. */
+  inline constexpr std::size_t few_particles = 200;
+
   /** Lengths after which space repeats itself in each direction; 0: it does not. */
   using Period = std::array<double, 3>;
 

@@ -8,7 +8,7 @@ namespace meltfront::particles::level_set
 {
   namespace
   {
-    constexpr double pi = std::numbers::pi;
+    using std::numbers::pi;
 
     double apart(const Position &a, const Position &b)
     {

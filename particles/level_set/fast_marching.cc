@@ -1,14 +1,14 @@
+#include <cases/numbers.h>
 #include <particles/level_set/fast_marching.h>
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 
 namespace meltfront::particles::level_set
 {
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    using cases::infinity;
 
     /** The grid as the marching sees it. */
     struct Field

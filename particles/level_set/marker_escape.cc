@@ -1,14 +1,14 @@
+#include <cases/numbers.h>
 #include <particles/level_set/marker_escape.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meltfront::particles::level_set
 {
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    using cases::infinity;
 
     double length(const Position &a)
     {

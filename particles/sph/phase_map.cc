@@ -1,7 +1,7 @@
+#include <cases/numbers.h>
 #include <particles/sph/phase_map.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace meltfront::particles
 {
@@ -9,7 +9,7 @@ namespace meltfront::particles
 
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    using cases::infinity;
 
     constexpr Effect phase_effects[]
         = {Effect::phase_change, Effect::phase_heat_capacity, Effect::phase_conductivity};

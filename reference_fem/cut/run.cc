@@ -15,8 +15,6 @@ namespace meltfront::reference_fem::cut
 {
   namespace
   {
-    constexpr const char *method_name = "fem-cut";
-
     /** The first step, of the one that accuracy allows: backward Euler, whose error is of
      * first order, makes it. */
     constexpr double first_step_share = 1. / 32;

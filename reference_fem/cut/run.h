@@ -17,6 +17,8 @@
 
 namespace meltfront::reference_fem::cut
 {
+  inline constexpr const char *method_name = "fem-cut";
+
   /** A run of `fem-cut`: start, time steps, snapshots. */
   class CutRun
   {

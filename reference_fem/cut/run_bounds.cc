@@ -12,8 +12,6 @@ namespace meltfront::reference_fem::cut
 {
   namespace
   {
-    constexpr const char *method_name = "fem-cut";
-
     /** A step of BDF2 that is long beside the time in which a phase evens out overshoots,
      * whatever the spacing. It may use up so much of the overshoot that is allowed;
      * beyond that it is halved as long as this leaves less than a share of it. */

@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <cases/stopwatch.h>
 #include <reference_fem/enthalpy/alloy_solver.h>
+#include <reference_fem/enthalpy/liquidus.h>
 #include <reference_fem/enthalpy/sum_over.h>
 
 #include <fmt/format.h>
@@ -19,10 +20,6 @@ namespace meltfront::reference_fem
 
     /** Passes that the concentrations to start the next from are combined of. */
     constexpr int mixing_depth = 5;
-
-    /** Ahead of solute that spreads there is as little of it as a double can hold. Below
-     * this (K) no temperature feels it: the node is that of the pure solvent. */
-    constexpr double least_depression = 1e-10;
 
     /** Less liquid than this share of a node's mass is round-off. */
     constexpr double least_liquid = 1e-14;

@@ -13,9 +13,6 @@ namespace meltfront::reference_fem
     constexpr int knots_per_octave = 16;
     constexpr int most_octaves = 40;
 
-    /** A knot with less (K) would drown in the round-off of temperatures. */
-    constexpr double least_depression = 1e-10;
-
     /** Share of the concentration, or of a tenth of the largest, for differences. */
     constexpr double difference = 1e-5;
 

@@ -13,6 +13,11 @@
 
 namespace meltfront::reference_fem
 {
+  /** A liquidus that is depressed by less (K) is the pure solvent's: less drowns in the
+   * round-off of temperatures, and ahead of solute that spreads there is as little of it
+   * as a double can hold. */
+  inline constexpr double least_depression = 1e-10;
+
   /** What is dissolved at a node. */
   struct Composition
   {

@@ -8,9 +8,6 @@ namespace meltfront::reference_fem
 {
   namespace
   {
-    /** The share of rho L/(rho c) below which temperatures drown in its round-off. */
-    constexpr double round_off_share = 1e-3;
-
     double square(double x)
     {
       return x * x;

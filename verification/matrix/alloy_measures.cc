@@ -1,3 +1,4 @@
+#include <cases/numbers.h>
 #include <verification/matrix/alloy_measures.h>
 #include <verification/matrix/end_profile.h>
 #include <verification/measure/mush_error.h>
@@ -6,13 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
     constexpr const char *errors[]
         = {"temperature_rms", "solid_fraction_rms", "concentration_rms", "ice_error"};
   } // namespace

@@ -1,14 +1,14 @@
+#include <cases/numbers.h>
 #include <verification/matrix/alloy_record.h>
 #include <verification/matrix/json_values.h>
 
 #include <cmath>
-#include <limits>
 
 namespace meltfront::verification
 {
   AlloyRecord make_alloy_record(const cases::Scene &scene)
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
     const cases::Alloy &alloy = *scene.alloy;
     AlloyRecord record;
     for(std::size_t s = 0; s < alloy.solutes.size(); ++s)

@@ -135,7 +135,7 @@ namespace meltfront::verification
       return names;
     }
 
-    std::vector<cases::TimedEvent> events_in(const json &names)
+    std::vector<cases::TimedEvent> timed_events_in(const json &names)
     {
       std::vector<cases::TimedEvent> events;
       for(std::size_t i = 0; i < cases::n_timed_events; ++i)
@@ -171,7 +171,7 @@ namespace meltfront::verification
       m.monotone_front = stored.at("monotone_front");
       m.front_mode = stored.value("front_mode", 0);
       m.marks = numbers_in(stored.value("marks", json::array()));
-      m.events = events_in(stored.value("events", json::array()));
+      m.events = timed_events_in(stored.value("events", json::array()));
       if(const int mirror = stored.value("mirror", -1); mirror >= 0)
         m.mirror = mirror;
       m.picture_mark = stored.value("picture_mark", 0);

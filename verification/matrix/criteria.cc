@@ -1,3 +1,4 @@
+#include <cases/numbers.h>
 #include <verification/matrix/criteria.h>
 #include <verification/matrix/label.h>
 #include <verification/matrix/motion_observer.h>
@@ -15,7 +16,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
     constexpr int fewest_levels = 4;
 
     using Runs = std::vector<const RunRecord *>;

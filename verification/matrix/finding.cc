@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/numbers.h>
 #include <verification/matrix/criteria.h>
 #include <verification/matrix/criterion_record.h>
 #include <verification/matrix/finding.h>
@@ -14,7 +15,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
 
     EvidenceResult judge(const MatrixResult &result, const Evidence &evidence)
     {

@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/numbers.h>
 #include <cases/outcomes.h>
 #include <verification/matrix/front_frame.h>
 #include <verification/matrix/motion_observer.h>
@@ -13,8 +14,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    constexpr int samples_of_every_step = 200;
+    using cases::nan;
 
     constexpr int pictures_before_mark = 12, most_pictures = 60;
     constexpr std::size_t most_animated = 2000;

@@ -1,3 +1,4 @@
+#include <cases/numbers.h>
 #include <verification/matrix/label.h>
 #include <verification/matrix/reference.h>
 #include <verification/matrix/refinement.h>
@@ -7,13 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
     constexpr std::size_t levels_of_index = 3;
     constexpr std::size_t fewest_times = 50;
     constexpr const char *series_error = "solid_volume_rms_error";

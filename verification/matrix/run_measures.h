@@ -10,6 +10,9 @@
 
 namespace meltfront::verification
 {
+  /** Times at which a run that is measured at every step is drawn. */
+  inline constexpr int samples_of_every_step = 200;
+
   /** Measures a run while it goes on. */
   class RunMeasures : public cases::Observer
   {

@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/numbers.h>
 #include <verification/matrix/end_profile.h>
 #include <verification/matrix/front_frame.h>
 #include <verification/matrix/run_observer.h>
@@ -15,9 +16,8 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
     constexpr int fewest_samples = 50;
-    constexpr int samples_of_every_step = 200;
 
     /** Relative to the duration: a time this near another is the same. */
     constexpr double time_tolerance = 1e-9;

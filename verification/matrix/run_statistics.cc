@@ -1,14 +1,14 @@
+#include <cases/numbers.h>
 #include <verification/matrix/run_statistics.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
     constexpr std::size_t cubic_points = 4;
     constexpr double steps_before_mark = 5, steps_after_mark = 4;
   } // namespace

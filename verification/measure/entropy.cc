@@ -1,17 +1,17 @@
 #include <cases/error.h>
+#include <cases/numbers.h>
 #include <verification/measure/entropy.h>
 #include <verification/measure/mush_error.h>
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
 
     /** x ln x, continued to zero. */
     double x_log_x(double x)

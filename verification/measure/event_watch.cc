@@ -1,3 +1,4 @@
+#include <cases/numbers.h>
 #include <verification/measure/event_watch.h>
 #include <verification/measure/site_grid.h>
 
@@ -12,7 +13,7 @@ namespace meltfront::verification
 
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
 
     /** A site of this solid fraction or more is frozen throughout. */
     constexpr double solid_from = 1 - 1e-12;

@@ -1,16 +1,16 @@
+#include <cases/numbers.h>
 #include <verification/measure/front_reader.h>
 #include <verification/measure/front_shape.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
 
     /** Relative to the largest |T - T_m|, a temperature so near the melting point is at
      * it. */

@@ -1,3 +1,4 @@
+#include <cases/numbers.h>
 #include <verification/measure/front_shape.h>
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
   } // namespace
 
   double solid_volume(const cases::Snapshot &snapshot)

@@ -10,7 +10,7 @@ namespace meltfront::verification
     /** Two, and round-off. */
     constexpr double spacings_to_front = 2.001;
 
-    double distance(const cases::Position &a, const cases::Position &b)
+    double distance_between(const cases::Position &a, const cases::Position &b)
     {
       return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
     }
@@ -35,14 +35,14 @@ namespace meltfront::verification
         bool found = false;
         point_grid.visit(
             place, [&](std::uint32_t point)
-            { found |= distance(site_position(points, point), place) <= reach; });
+            { found |= distance_between(site_position(points, point), place) <= reach; });
         if(!found)
           grid.visit(place,
                      [&](std::uint32_t other)
                      {
-                       found
-                           |= snapshot.solid_fraction[other] != phase
-                              && distance(site_position(snapshot, other), place) <= reach;
+                       found |= snapshot.solid_fraction[other] != phase
+                                && distance_between(site_position(snapshot, other), place)
+                                       <= reach;
                      });
         return found;
       }

@@ -1,13 +1,13 @@
+#include <cases/numbers.h>
 #include <verification/measure/mush_error.h>
 
 #include <cmath>
-#include <limits>
 
 namespace meltfront::verification
 {
   namespace
   {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using cases::nan;
 
     /** A weighted root mean square, NaN of nothing. */
     struct WeightedSquares

@@ -1,17 +1,17 @@
 #include <cases/error.h>
+#include <cases/numbers.h>
 #include <cases/overshoot.h>
 #include <verification/measure/scene_quadrature.h>
 #include <verification/measure/snapshot_checks.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace meltfront::verification
 {
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    using cases::infinity;
 
     /** A front that is to be resolved bends no more than a body this many spacings
      * across. */

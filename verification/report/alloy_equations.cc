@@ -8,11 +8,6 @@ namespace meltfront::verification
 {
   namespace
   {
-    Markup filled(const Markup &equation)
-    {
-      return element("span", {{"class", "filled"}}, equation);
-    }
-
     Markup excess()
     {
       return text("(") + symbol("T") + text(" − ") + symbol("T", "m") + text(")");

@@ -12,7 +12,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double picture_width = 420, margin = 30;
+    constexpr double picture_width = 420, picture_margin = 30;
 
     using Script = std::back_insert_iterator<std::string>;
 
@@ -55,8 +55,8 @@ namespace meltfront::verification
   {
     const double width = record.upper[0] - record.lower[0];
     const double height = record.upper[1] - record.lower[1];
-    const double drawn = picture_width - 2 * margin;
-    const double picture_height = drawn * height / width + 2 * margin;
+    const double drawn = picture_width - 2 * picture_margin;
+    const double picture_height = drawn * height / width + 2 * picture_margin;
     std::string script;
     const Script out(script);
     fmt::format_to(
@@ -69,10 +69,11 @@ namespace meltfront::verification
         "set tics nomirror scale 0.5 tc rgb 'black'\nset format '%g'\n"
         "set xtics {:.6g},{:.6g}\nset ytics {:.6g},{:.6g}\n"
         "set xrange [{:.10g}:{:.10g}]\nset yrange [{:.10g}:{:.10g}]\n",
-        picture_width, picture_height, margin / picture_width, 1 - margin / picture_width,
-        1 - margin / picture_height, margin / picture_height, plot_colours::axis,
-        record.lower[0], width / 2, record.lower[1], height / 2, record.lower[0],
-        record.upper[0], record.lower[1], record.upper[1]);
+        picture_width, picture_height, picture_margin / picture_width,
+        1 - picture_margin / picture_width, 1 - picture_margin / picture_height,
+        picture_margin / picture_height, plot_colours::axis, record.lower[0], width / 2,
+        record.lower[1], height / 2, record.lower[0], record.upper[0], record.lower[1],
+        record.upper[1]);
     std::string commands;
     const auto add = [&commands](const std::string &command)
     { commands += (commands.empty() ? "plot " : ", \\\n     ") + command; };

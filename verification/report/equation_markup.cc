@@ -32,6 +32,11 @@ namespace meltfront::verification
     return value == 1 ? Markup() : equation_number(value) + text(" ");
   }
 
+  Markup filled(const Markup &equation)
+  {
+    return element("span", {{"class", "filled"}}, equation);
+  }
+
   Markup equation_line(const std::string &where, const Markup &equation)
   {
     return element("div", {{"class", "equation"}},

@@ -21,6 +21,9 @@ namespace meltfront::verification
   /** A number before a symbol; one is left out. */
   Markup factor(double value);
 
+  /** An equation once more with numbers in it. */
+  Markup filled(const Markup &equation);
+
   /** An equation on a line of its own, with a word on what it holds for. */
   Markup equation_line(const std::string &where, const Markup &equation);
 } // namespace meltfront::verification

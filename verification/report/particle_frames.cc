@@ -14,7 +14,7 @@ namespace meltfront::verification
   namespace
   {
     constexpr double drawing_width = 400;
-    constexpr double margin = 8, strip_below = 26;
+    constexpr double frame_margin = 8, strip_below = 26;
     constexpr double fast = 7.5;
     constexpr double most_aside = 1.3; // of the solid's width
     constexpr std::size_t most_numbered = 50;
@@ -109,7 +109,7 @@ namespace meltfront::verification
     x1 += room;
     y0 -= room;
     y1 += room;
-    scale = (drawing_width - 2 * margin) / (x1 - x0);
+    scale = (drawing_width - 2 * frame_margin) / (x1 - x0);
   }
 
   double FrameDrawing::width() const
@@ -119,12 +119,12 @@ namespace meltfront::verification
 
   double FrameDrawing::height() const
   {
-    return std::ceil(scale * (y1 - y0) + 2 * margin + strip_below);
+    return std::ceil(scale * (y1 - y0) + 2 * frame_margin + strip_below);
   }
 
   FrameDrawing::Point FrameDrawing::place(double x, double y) const
   {
-    return {margin + scale * (x - x0), margin + scale * (y1 - y)};
+    return {frame_margin + scale * (x - x0), frame_margin + scale * (y1 - y)};
   }
 
   bool FrameDrawing::visible(const Point &point) const

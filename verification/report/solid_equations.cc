@@ -10,11 +10,6 @@ namespace meltfront::verification
 {
   namespace
   {
-    Markup filled(const Markup &equation)
-    {
-      return element("span", {{"class", "filled"}}, equation);
-    }
-
     Markup power(const Markup &base, const std::string &exponent)
     {
       return base + element("sup", exponent);

@@ -15,7 +15,7 @@ namespace meltfront::verification
   {
     using Script = std::back_insert_iterator<std::string>;
 
-    constexpr double canvas_width = 640, row_height = 84, column_heads = 62;
+    constexpr double chart_width = 640, row_height = 84, column_heads = 62;
     /** Relative errors between which shades go from none to the darkest. */
     constexpr double faintest = 1e-7, darkest = 1e-1;
     constexpr double strongest_shade = 0.75;
@@ -110,7 +110,7 @@ namespace meltfront::verification
                    "set tmargin at screen 0.995\nset bmargin at screen {:.4f}\n"
                    "unset key\nunset border\n"
                    "set xlabel {} offset 0,0.3\nset ylabel {}\n",
-                   canvas_width, height, column_heads / height,
+                   chart_width, height, column_heads / height,
                    quoted(group.axes[1].heading), quoted(group.axes[0].heading));
     write_tics(out, 'x', group.axes[1], false);
     write_tics(out, 'y', group.axes[0], true);

@@ -21,7 +21,7 @@ namespace meltfront::reference_fem::fitted
     constexpr int looks = 16;
 
     /** Of the temperature scale: what a wall's value is rounded by. */
-    constexpr double rounding = 1e-12;
+    constexpr double round_off = 1e-12;
 
     /** What exact solutions that keep a wall at the melting point miss it by, of the
      * melting temperature, and what Newton's method leaves, of the scale. */
@@ -98,7 +98,7 @@ namespace meltfront::reference_fem::fitted
     {
       const double excess
           = beyond(solid, wall.value(place, time) - physics.melting_temperature);
-      return excess > rounding * physics.temperature_scale
+      return excess > round_off * physics.temperature_scale
              && (!wall.exact
                  || excess > margin_of_melting * std::abs(physics.melting_temperature));
     }

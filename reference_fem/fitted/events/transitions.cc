@@ -24,7 +24,7 @@ namespace meltfront::reference_fem::fitted
      * temperature is a ramp. */
     constexpr double ramp_share = 1e-2;
 
-    constexpr double lengthening = 2;
+    constexpr double growth_of_steps = 2;
 
     /** Cells next to a wall in the thermal layer that forms before a front starts, and
      * steps of that time's double. */
@@ -127,7 +127,7 @@ namespace meltfront::reference_fem::fitted
     const int steps = steps_for(setting, stretch.time);
     result.steps = {{early, early / std::max(steps_to_passing, steps / 2)}};
     if(early < end)
-      for(const StepRange &range : lengthening_steps(early, end, steps, lengthening))
+      for(const StepRange &range : lengthening_steps(early, end, steps, growth_of_steps))
         result.steps.push_back(range);
     result.event
         = {stretch.time, fmt::format("cells and steps are drawn to the wall {}, which is "
@@ -245,7 +245,7 @@ namespace meltfront::reference_fem::fitted
     result.before.walls += surplus(result.state);
     result.steps = lengthening_steps(physics.clock.clock(time),
                                      physics.clock.clock(scene.end_time),
-                                     steps_for(setting, crossing), lengthening);
+                                     steps_for(setting, crossing), growth_of_steps);
     result.event = {crossing, fmt::format("the wall {} passes the melting temperature "
                                           "and a front starts there",
                                           to_string(side_at(scene, inner)))};

@@ -1,3 +1,4 @@
+#include <cases/numbers.h>
 #include <verification/matrix/json_values.h>
 #include <verification/measure/scene_quadrature.h>
 #include <verification/measure/site_heat.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -15,7 +15,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    using cases::infinity;
     constexpr int most_degree = 3;
 
     double time_of(const cases::Scene &scene, int k)
