@@ -5,8 +5,7 @@
 
 namespace meltfront::cases
 {
-  Cost Run::carry_out(const Scene &scene, const Stopwatch &since_setup,
-                      Observer &of_run)
+  Cost Run::carry_out(const Scene &scene, const Stopwatch &since_setup, Observer &of_run)
   {
     observer = &of_run;
     end_time = scene.end_time;
@@ -24,15 +23,16 @@ namespace meltfront::cases
 
   void Run::reached(long step, double time)
   {
-    if(step == 0)
+    const bool first = !std::exchange(begun, true), last = time == end_time;
+    if(first && !last)
       setup = watch.elapsed();
     watch.without(
         [&]
         {
-          if(!std::exchange(begun, true))
+          if(first)
             observer->begin(describe());
           const bool wanted = observer->wants(step, time);
-          if(wanted || step == 0 || time == end_time)
+          if(wanted || first || last)
             observer->observe(snapshot(step, time));
         });
   }

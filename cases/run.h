@@ -30,15 +30,17 @@ namespace meltfront::cases
     Cost carry_out(const Scene &scene, const Stopwatch &since_setup, Observer &observer);
 
   protected:
-    /** All steps, reached() after each of them and at the initial state, which is step 0
-     * (a steady scene has none). The last one ends at the scene's end time exactly. */
+    /** All steps, reached() after each of them and at the initial state, which is step 0;
+     * a steady scene's only state is its last. That is at the scene's end time exactly.
+     */
     virtual void take_steps() = 0;
 
     /** The state that the run has reached. What the snapshot spans lives until the run
      * goes on. */
     virtual Snapshot snapshot(long step, double time) = 0;
 
-    /** Hands a snapshot over if this is the initial state, the end, or if it is wanted. */
+    /** Hands a snapshot over if this is the first state or the last, or if it is wanted.
+     */
     void reached(long step, double time);
 
     /** As Observer::note. */

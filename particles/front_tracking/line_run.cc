@@ -51,14 +51,13 @@ namespace meltfront::particles::front_tracking
       return highest > lowest ? highest - lowest : 1.;
     }
 
-    class LineRun
+    class LineRun : public cases::Run
     {
     public:
       LineRun(const cases::Scene &scene, const cases::EffectSet &effects,
-              const cases::Resolution &resolution, cases::Observer &observer)
+              const cases::Resolution &resolution)
         : scene(scene)
         , effects(effects)
-        , observer(observer)
         , parameters(read_tracking_parameters(scene, resolution))
         , problem(pose_line_problem(scene, parameters, resolution.seed))
         , initial(initial_state(scene, problem))
@@ -67,19 +66,79 @@ namespace meltfront::particles::front_tracking
                   {parameters.basis_order, parameters.dilation, parameters.absorption,
                    scheme_order(parameters.scheme)},
                   rules(),
-                  [this](double time, const std::string &event)
-                  { watch.without([&] { this->observer.note(time, event); }); })
+                  [this](double time, const std::string &event) { note(time, event); })
+        , start(choose_start(scene, problem, parameters, initial,
+                             planned_time(1) - scene.start_time))
       {
       }
 
-      cases::Cost run()
+      cases::RunDescription describe() const override
       {
-        LineStart start = choose_start(scene, problem, parameters, initial,
-                                       planned_time(1) - scene.start_time);
-        const cases::Stopwatch::Seconds setup = watch.elapsed();
-        watch.without([&] { observer.begin(description(start)); });
-        watch.restart();
-        report(initial, true);
+        cases::RunDescription result;
+        result.dimension = 1;
+        result.spacing = problem.spacing;
+        result.smoothing_length = 0;
+        result.time_step = (scene.end_time - scene.start_time) / parameters.steps;
+        result.unknowns = static_cast<long>(problem.nodes.size() + initial.fronts.size());
+        result.parameters = {
+            {"particles",
+             fmt::format("{} nodes{}, one particle on each front", problem.nodes.size(),
+                         parameters.jitter > 0
+                             ? fmt::format(", displaced by up to {:g} of their spacing",
+                                           parameters.jitter)
+                             : ""),
+             ""},
+            {"kernel", "cubic spline, fixed at each node, for each phase apart", ""},
+            {"basis order", std::to_string(parameters.basis_order), ""},
+            {"dilation", fmt::format("{:g}", parameters.dilation), "spacings"},
+            {"time scheme",
+             parameters.scheme == TimeScheme::backward_euler
+                 ? "backward Euler"
+                 : fmt::format("BDF{}", scheme_order(parameters.scheme)),
+             ""},
+            {"steps",
+             fmt::format("{}, equal in {}, divided where a front would move by more "
+                         "than {:g} spacings",
+                         parameters.steps,
+                         parameters.clock == Clock::time ? "t" : "sqrt(t)",
+                         parameters.largest_move),
+             ""},
+            {"start", start.how, ""},
+            {"fronts", "Broyden's method, all temperatures anew in each iteration", ""},
+            {"linear solver", "banded elimination", ""}};
+        if(parameters.relax > 0)
+          result.parameters.push_back(
+              {"relaxation of inner nodes",
+               fmt::format("{}, every {} steps",
+                           parameters.relax_rule == RelaxRule::homing
+                               ? "repulsion and springs to their homes"
+                               : "Lennard-Jones energy",
+                           parameters.relax),
+               ""});
+        return result;
+      }
+
+      cases::Cost cost() const override
+      {
+        const LineSolver &solver = stepper.line_solver();
+        cases::Cost result;
+        result.steps = first_step + stepper.steps();
+        result.unknowns
+            = static_cast<long>(problem.nodes.size() + stepper.state().fronts.size());
+        result.work = solver.work();
+        result.solver_iterations = solver.counters().evaluations;
+        result.most_iterations = solver.counters().most_evaluations;
+        result.capped_steps = stepper.shortened();
+        for(const cases::EffectDecision &decision : effects.decisions())
+          if(decision.on)
+            result.effects.push_back(solver.cost(decision.effect));
+        return result;
+      }
+
+    private:
+      void take_steps() override
+      {
+        report(initial);
         booked = start.from_initial
                      ? stepper.set_walls(start.state)
                      : heat_of(problem, start.state).total() - initial_heat;
@@ -87,15 +146,13 @@ namespace meltfront::particles::front_tracking
         if(start.state.time > scene.start_time)
         {
           ++first_step;
-          report(stepper.state(), false);
+          report(stepper.state());
         }
         for(int k = 1; k <= parameters.steps; ++k)
           while(planned_time(k) > stepper.state().time)
             advance(planned_time(k));
-        return cost(setup);
       }
 
-    private:
       StepRules rules() const
       {
         const double duration = scene.end_time - scene.start_time;
@@ -149,52 +206,6 @@ namespace meltfront::particles::front_tracking
         return cases::snap_to_breakpoint(problem.breakpoints, origin + root * root);
       }
 
-      cases::RunDescription description(const LineStart &start) const
-      {
-        cases::RunDescription result;
-        result.dimension = 1;
-        result.spacing = problem.spacing;
-        result.smoothing_length = 0;
-        result.time_step = (scene.end_time - scene.start_time) / parameters.steps;
-        result.unknowns = static_cast<long>(problem.nodes.size() + initial.fronts.size());
-        result.parameters = {
-            {"particles",
-             fmt::format("{} nodes{}, one particle on each front", problem.nodes.size(),
-                         parameters.jitter > 0
-                             ? fmt::format(", displaced by up to {:g} of their spacing",
-                                           parameters.jitter)
-                             : ""),
-             ""},
-            {"kernel", "cubic spline, fixed at each node, for each phase apart", ""},
-            {"basis order", std::to_string(parameters.basis_order), ""},
-            {"dilation", fmt::format("{:g}", parameters.dilation), "spacings"},
-            {"time scheme",
-             parameters.scheme == TimeScheme::backward_euler
-                 ? "backward Euler"
-                 : fmt::format("BDF{}", scheme_order(parameters.scheme)),
-             ""},
-            {"steps",
-             fmt::format("{}, equal in {}, divided where a front would move by more "
-                         "than {:g} spacings",
-                         parameters.steps,
-                         parameters.clock == Clock::time ? "t" : "sqrt(t)",
-                         parameters.largest_move),
-             ""},
-            {"start", start.how, ""},
-            {"fronts", "Broyden's method, all temperatures anew in each iteration", ""},
-            {"linear solver", "banded elimination", ""}};
-        if(parameters.relax > 0)
-          result.parameters.push_back(
-              {"relaxation of inner nodes",
-               fmt::format("{}, every {} steps",
-                           parameters.relax_rule == RelaxRule::homing
-                               ? "repulsion and springs to their homes"
-                               : "Lennard-Jones energy",
-                           parameters.relax),
-               ""});
-        return result;
-      }
-
       void after_step(const LineState &begin)
       {
         const LineState &state = stepper.state();
@@ -213,7 +224,7 @@ namespace meltfront::particles::front_tracking
           throw cases::Refusal(
               fmt::format("{}; {}", error.what(), stepper.unresolved_layer()));
         }
-        report(state, state.time == scene.end_time);
+        report(state);
         if(parameters.relax > 0 && stepper.steps() % parameters.relax == 0)
           relax_nodes(step);
       }
@@ -272,62 +283,37 @@ namespace meltfront::particles::front_tracking
         return sum;
       }
 
-      void report(const LineState &state, bool always)
+      void report(const LineState &state)
       {
-        watch.without(
-            [&]
-            {
-              const long step = always && state.time == scene.start_time
-                                    ? 0
-                                    : first_step + stepper.steps();
-              if(!observer.wants(step, state.time) && !always)
-                return;
-              cases::Snapshot snapshot;
-              snapshot.step = step;
-              sites.read(problem, state, snapshot);
-              const LineHeat heat = heat_of(problem, state);
-              snapshot.heat.stored = heat.sensible;
-              snapshot.heat.latent = heat.latent;
-              snapshot.heat.boundary = booked + walls;
-              snapshot.heat.sources = released;
-              snapshot.heat.initial = initial_heat;
-              observer.observe(snapshot);
-            });
+        shown = &state;
+        reached(shown == &initial ? 0 : first_step + stepper.steps(), state.time);
       }
 
-      cases::Cost cost(const cases::Stopwatch::Seconds &setup) const
+      cases::Snapshot snapshot(long step, double) override
       {
-        const cases::Stopwatch::Seconds stepping = watch.elapsed();
-        const LineSolver &solver = stepper.line_solver();
-        cases::Cost result;
-        result.setup_wall = setup.wall;
-        result.setup_cpu = setup.cpu;
-        result.stepping_wall = stepping.wall;
-        result.stepping_cpu = stepping.cpu;
-        result.steps = first_step + stepper.steps();
-        result.unknowns
-            = static_cast<long>(problem.nodes.size() + stepper.state().fronts.size());
-        result.work = solver.work();
-        result.solver_iterations = solver.counters().evaluations;
-        result.most_iterations = solver.counters().most_evaluations;
-        result.capped_steps = stepper.shortened();
-        for(const cases::EffectDecision &decision : effects.decisions())
-          if(decision.on)
-            result.effects.push_back(solver.cost(decision.effect));
-        return result;
+        cases::Snapshot snapshot;
+        snapshot.step = step;
+        sites.read(problem, *shown, snapshot);
+        const LineHeat heat = heat_of(problem, *shown);
+        snapshot.heat.stored = heat.sensible;
+        snapshot.heat.latent = heat.latent;
+        snapshot.heat.boundary = booked + walls;
+        snapshot.heat.sources = released;
+        snapshot.heat.initial = initial_heat;
+        return snapshot;
       }
 
       const cases::Scene &scene;
       const cases::EffectSet &effects;
-      cases::Observer &observer;
-      cases::Stopwatch watch;
       TrackingParameters parameters;
       LineProblem problem;
       LineState initial;
       cases::TemperatureBounds bounds;
       LineStepper stepper;
+      LineStart start;
       LineRelaxation relaxation{problem, parameters.relax_rule};
       LineSites sites;
+      const LineState *shown = nullptr; ///< the state to take a snapshot of
       double initial_heat = heat_of(problem, initial).total();
       double largest_heat = std::abs(initial_heat);
       /** What the domain takes up between the coldest and the warmest state. */
@@ -345,9 +331,10 @@ namespace meltfront::particles::front_tracking
     };
   } // namespace
 
-  cases::Cost solve_line(const cases::Scene &scene, const cases::EffectSet &effects,
-                         const cases::Resolution &resolution, cases::Observer &observer)
+  std::unique_ptr<cases::Run> make_line_run(const cases::Scene &scene,
+                                            const cases::EffectSet &effects,
+                                            const cases::Resolution &resolution)
   {
-    return LineRun(scene, effects, resolution, observer).run();
+    return std::make_unique<LineRun>(scene, effects, resolution);
   }
 } // namespace meltfront::particles::front_tracking

@@ -5,7 +5,7 @@
 
 namespace meltfront::particles::front_tracking
 {
-  cases::RunDescription PlaneRun::description() const
+  cases::RunDescription PlaneRun::describe() const
   {
     cases::RunDescription result;
     result.dimension = 2;
@@ -24,49 +24,52 @@ namespace meltfront::particles::front_tracking
     return result;
   }
 
-  void PlaneRun::report(cases::Observer &observer, bool always)
+  cases::Cost PlaneRun::cost() const
   {
-    watch.without(
-        [&]
-        {
-          for(const auto &[time, event] : events)
-            observer.note(time, event);
-          events.clear();
-          if(observer.wants(step_number, state.time) || always)
-            observe(observer);
-        });
+    cases::Cost cost;
+    cost.steps = step_number;
+    cost.unknowns = static_cast<long>(heat.most_unknowns);
+    cost.work = heat.entries;
+    cost.solver_iterations = heat.solves;
+    cost.most_iterations = most_passes;
+    cost.capped_steps = capped_steps;
+    cost.effects = effect_costs();
+    cost.evidence = evidence();
+    return cost;
+  }
+
+  void PlaneRun::report()
+  {
+    for(const auto &[time, event] : events)
+      note(time, event);
+    events.clear();
+    reached(step_number, state.time);
   }
 
   /** The scene's own initial state, also where the run starts from a front that was
    * seeded later: all of it is liquid then. */
-  void PlaneRun::observe_initial(cases::Observer &observer)
+  void PlaneRun::report_initial()
   {
-    observer.wants(0, scene.start_time);
-    if(state.time == scene.start_time)
+    std::optional<PlaneState> seeded;
+    if(state.time > scene.start_time)
     {
-      const PlaneMeasure measured = measure(scene, nodes, heat, state);
-      initial_heat = measured.sensible + measured.latent;
-      observe(observer);
-      return;
+      seeded = std::exchange(state, {});
+      state.time = scene.start_time;
+      state.phase.assign(nodes.size(), NodePhase::liquid);
+      for(const PlanePoint &place : nodes.position)
+        state.unknown.push_back(
+            scene.initial.temperature({place.x(), place.y(), 0}, scene.start_time));
     }
-    PlaneState seeded = std::move(state);
-    state = PlaneState();
-    state.time = scene.start_time;
-    state.phase.assign(nodes.size(), NodePhase::liquid);
-    for(const PlanePoint &place : nodes.position)
-      state.unknown.push_back(
-          scene.initial.temperature({place.x(), place.y(), 0}, scene.start_time));
-    const PlaneMeasure measured = measure(scene, nodes, heat, state);
+    measured = measure(scene, nodes, heat, state);
     initial_heat = measured.sensible + measured.latent;
-    const long seeded_step = std::exchange(step_number, 0);
-    observe(observer);
-    step_number = seeded_step;
-    state = std::move(seeded);
+    reached(0, scene.start_time);
+    if(seeded)
+      state = *std::move(seeded);
   }
 
-  void PlaneRun::observe(cases::Observer &observer)
+  cases::Snapshot PlaneRun::snapshot(long step, double time)
   {
-    const PlaneMeasure measured = measure(scene, nodes, heat, state);
+    measured = measure(scene, nodes, heat, state);
     for(int d = 0; d < 2; ++d)
     {
       site_positions[d].clear();
@@ -78,8 +81,8 @@ namespace meltfront::particles::front_tracking
           front_positions[d].push_back(state.front.position[p][d]);
     }
     cases::Snapshot snapshot;
-    snapshot.step = step_number;
-    snapshot.time = state.time;
+    snapshot.step = step;
+    snapshot.time = time;
     snapshot.dimension = 2;
     for(int d = 0; d < 2; ++d)
     {
@@ -92,7 +95,7 @@ namespace meltfront::particles::front_tracking
     snapshot.obeys_maximum_principle = false;
     snapshot.heat = {measured.sensible, measured.latent, boundary_heat,
                      heat.sinks.energy(state.time) + released_heat, initial_heat};
-    observer.observe(snapshot);
+    return snapshot;
   }
 
   std::vector<cases::EffectCost> PlaneRun::effect_costs() const

@@ -77,6 +77,7 @@ namespace meltfront::particles::front_tracking
   {
     if(parameters.scheme == TimeScheme::bdf3)
       throw cases::Refusal("rkpm-tracked steps by bdf2 or backward-euler in the plane");
+    start();
   }
 
   void PlaneRun::start()
@@ -114,39 +115,16 @@ namespace meltfront::particles::front_tracking
     check(state);
   }
 
-  cases::Cost PlaneRun::run(cases::Observer &observer)
+  void PlaneRun::take_steps()
   {
-    start();
-    cases::Cost cost;
-    const auto setup = watch.elapsed();
-    watch.restart();
-    watch.without(
-        [&]
-        {
-          observer.begin(description());
-          observe_initial(observer);
-        });
+    report_initial();
     if(state.time > scene.start_time)
-      report(observer, false);
+      report();
     while(state.time < scene.end_time)
     {
       step();
-      report(observer, state.time == scene.end_time);
+      report();
     }
-    const auto stepping = watch.elapsed();
-    cost.setup_wall = setup.wall;
-    cost.setup_cpu = setup.cpu;
-    cost.stepping_wall = stepping.wall;
-    cost.stepping_cpu = stepping.cpu;
-    cost.steps = step_number;
-    cost.unknowns = static_cast<long>(heat.most_unknowns);
-    cost.work = heat.entries;
-    cost.solver_iterations = heat.solves;
-    cost.most_iterations = most_passes;
-    cost.capped_steps = capped_steps;
-    cost.effects = effect_costs();
-    cost.evidence = evidence();
-    return cost;
   }
 
   double PlaneRun::next_stop() const
@@ -343,9 +321,10 @@ namespace meltfront::particles::front_tracking
     }
   }
 
-  cases::Cost solve_plane(const cases::Scene &scene, const cases::EffectSet &effects,
-                          const cases::Resolution &resolution, cases::Observer &observer)
+  std::unique_ptr<cases::Run> make_plane_run(const cases::Scene &scene,
+                                             const cases::EffectSet &effects,
+                                             const cases::Resolution &resolution)
   {
-    return PlaneRun(scene, effects, resolution).run(observer);
+    return std::make_unique<PlaneRun>(scene, effects, resolution);
   }
 } // namespace meltfront::particles::front_tracking

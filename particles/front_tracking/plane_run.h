@@ -1,10 +1,10 @@
 #ifndef meltfront_particles_front_tracking_plane_run_h
 #define meltfront_particles_front_tracking_plane_run_h
 
-#include <cases/method.h>
-#include <cases/stopwatch.h>
+#include <cases/run.h>
 #include <particles/front_tracking/plane_heat.h>
 #include <particles/front_tracking/plane_marked_front.h>
+#include <particles/front_tracking/plane_measure.h>
 #include <particles/front_tracking/plane_relax.h>
 #include <particles/front_tracking/plane_start.h>
 #include <particles/front_tracking/plane_topology.h>
@@ -23,15 +23,19 @@ namespace meltfront::particles::front_tracking
   inline constexpr double front_spacing = 1.15;
 
   /** A run of `rkpm-tracked` in the plane: start, time steps, events, snapshots. */
-  class PlaneRun
+  class PlaneRun : public cases::Run
   {
   public:
     PlaneRun(const cases::Scene &scene, const cases::EffectSet &effects,
              const cases::Resolution &resolution);
 
-    cases::Cost run(cases::Observer &observer);
+    // In plane_report.cc:
+    cases::RunDescription describe() const override;
+    cases::Cost cost() const override;
 
   private:
+    void take_steps() override;
+    cases::Snapshot snapshot(long step, double time) override; // in plane_report.cc
     void start();
     void step();
     double next_stop() const;
@@ -52,10 +56,8 @@ namespace meltfront::particles::front_tracking
     void check_resolved() const;
     std::string unresolved_phase() const;
 
-    cases::RunDescription description() const;
-    void report(cases::Observer &observer, bool always);
-    void observe(cases::Observer &observer);
-    void observe_initial(cases::Observer &observer);
+    void report();
+    void report_initial();
     std::vector<cases::EffectCost> effect_costs() const;
     std::map<std::string, double> evidence() const;
     /** A step is done when no particle has farther to move, in spacings: the move itself
@@ -70,7 +72,6 @@ namespace meltfront::particles::front_tracking
     const cases::Scene &scene;
     const cases::EffectSet &effects;
     const cases::Resolution &resolution;
-    cases::Stopwatch watch;
     TrackingParameters parameters;
     PlaneNodes nodes;
     PlaneHeat heat;
@@ -94,16 +95,15 @@ namespace meltfront::particles::front_tracking
     double mismatch = 0;     ///< largest of level set and particles, in spacings
     std::vector<std::pair<double, std::string>> events; ///< not yet told
 
+    // For snapshots:
+    PlaneMeasure measured;
     std::array<std::vector<double>, 2> site_positions, front_positions;
   };
 
-  /**
-   * Solve a scene in the plane.
-   * @throws cases::Refusal for a scene that is not treated, cases::NumericalError where a
-   * step fails.
-   */
-  cases::Cost solve_plane(const cases::Scene &scene, const cases::EffectSet &effects,
-                          const cases::Resolution &resolution, cases::Observer &observer);
+  /** @throws cases::Refusal for a scene that is not treated. */
+  std::unique_ptr<cases::Run> make_plane_run(const cases::Scene &scene,
+                                             const cases::EffectSet &effects,
+                                             const cases::Resolution &resolution);
 } // namespace meltfront::particles::front_tracking
 
 #endif

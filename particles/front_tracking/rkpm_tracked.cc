@@ -107,9 +107,9 @@ namespace meltfront::particles
       }
 
     protected:
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
         const bool line = simulated_dimension(scene, resolution.options) == 1;
         const cases::Capabilities form = line ? along_line() : in_plane();
@@ -119,8 +119,8 @@ namespace meltfront::particles
           throw cases::Refusal(fmt::format(
               "{}: {} it {}{}", method_name, form.form, reason,
               line && scene.domain.dimension == 2 ? "; dimension=2 may be right" : ""));
-        return line ? solve_line(scene, effects, resolution, observer)
-                    : solve_plane(scene, effects, resolution, observer);
+        return line ? make_line_run(scene, effects, resolution)
+                    : make_plane_run(scene, effects, resolution);
       }
     };
   } // namespace

@@ -1,5 +1,4 @@
 #include <cases/error.h>
-#include <cases/stopwatch.h>
 #include <particles/greenspan/bar.h>
 #include <particles/greenspan/bar_run.h>
 #include <particles/greenspan/scene_experiment.h>
@@ -21,7 +20,7 @@ namespace meltfront::particles::greenspan
      * fluctuates by several spacings from one to the next. */
     constexpr double time_between_looks = 0.2, average_time = 5;
 
-    /** A property of the material that the particles make up, measured_properties by
+    /** A property of the material that the particles make up, measured by
      * `meltfront calibrate greenspan` (README.md), with its standard error. */
     struct MeasuredProperty
     {
@@ -57,15 +56,15 @@ namespace meltfront::particles::greenspan
     {
       if(force_of(scene.particle_solid->law) != PairForce::triangle()
          || scene.particle_solid->pressure != measured_pressure)
-        throw cases::Refusal(fmt::format(
-            "what a bar of particles melts and conducts like is measured_properties of "
-            "the default pair law under a pressure of {} only",
-            measured_pressure));
+        throw cases::Refusal(
+            fmt::format("what a bar of particles melts and conducts like is measured of "
+                        "the default pair law under a pressure of {} only",
+                        measured_pressure));
       for(const MeasuredProperty &property : measured_properties)
         if(const double given = property.of(scene.material);
            std::abs(given - property.value) > standard_errors * property.standard_error)
           throw cases::Refusal(fmt::format("a bar of particles is its own material: its "
-                                           "{} is measured_properties to be {} +- "
+                                           "{} is measured to be {} +- "
                                            "{}, the scene states {:.6g}",
                                            property.name, property.value,
                                            property.standard_error, given));
@@ -124,19 +123,55 @@ namespace meltfront::particles::greenspan
       return settings;
     }
 
-    /** A bar as the observer of a slab sees it. */
-    class BarShow
+    class BarRun : public cases::Run
     {
     public:
-      BarShow(const cases::Scene &scene, cases::Observer &observer)
+      BarRun(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution)
         : scene(scene)
-        , observer(observer)
+        , effects(effects)
         , density(scene.material.solid.density)
+        , bar(settings_of(scene, resolution))
       {
+        require_length();
       }
 
+      cases::RunDescription describe() const override
+      {
+        const BarSettings &settings = bar.settings();
+        cases::RunDescription result;
+        result.dimension = 2;
+        result.spacing = scene.domain.side() / settings.columns;
+        result.time_step = settings.time_step;
+        result.unknowns = static_cast<long>(4 * bar.particles().size());
+        const auto add = [&](const char *name, const double value) {
+          result.parameters.push_back({name, fmt::format("{:.6g}", value), ""});
+        };
+        add("particles", static_cast<double>(bar.particles().size()));
+        add("rows", settings.rows);
+        add("width", bar.width());
+        add("pressure", settings.pressure);
+        add("length of the hot bath", settings.hot_length);
+        add("length of the cold bath", settings.cold_length);
+        add("time over which front and temperatures are averaged", average_time);
+        return result;
+      }
+
+      cases::Cost cost() const override
+      {
+        cases::Cost cost;
+        cost.steps = steps;
+        cost.unknowns = static_cast<long>(4 * bar.particles().size());
+        cost.work = cost.steps * static_cast<long>(bar.particles().size());
+        for(const cases::EffectDecision &decision : effects.decisions())
+          if(decision.on)
+            cost.effects.push_back(bar.particles().cost(decision.effect));
+        return cost;
+      }
+
+    private:
       /** @throws Refusal if the bar does not fit the slab */
-      void require_length(const Bar &bar) const
+      void require_length() const
       {
         const BarSettings &settings = bar.settings();
         const BarLook look = bar.look();
@@ -156,22 +191,40 @@ namespace meltfront::particles::greenspan
             settings.columns + (wanted - length) / column));
       }
 
-      void operator()(const BarLook &look, const long step)
+      void take_steps() override
       {
-        const double front = std::max(0., look.molten() / density);
+        const double duration = scene.end_time - scene.start_time;
+        const auto looks = static_cast<long>(std::ceil(duration / time_between_looks));
+        std::deque<BarLook> recent;
+        for(long look = 0; look <= looks; ++look)
+        {
+          const double time = duration * static_cast<double>(look) / looks;
+          bar.advance_to(time);
+          steps = std::lround(time / bar.settings().time_step);
+          recent.push_back(bar.look());
+          if(static_cast<double>(recent.size()) * time_between_looks > average_time)
+            recent.pop_front();
+          seen = mean_of(recent);
+          reached(steps, look == looks ? scene.end_time : scene.start_time + time);
+        }
+      }
+
+      cases::Snapshot snapshot(long step, double time) override
+      {
+        front = std::max(0., seen.molten() / density);
         for(auto *values : {&x, &weights, &temperature, &solid})
           values->clear();
-        double before = look.edge;
-        for(std::size_t i = 0; i < look.layers.size(); ++i)
+        double before = seen.edge;
+        for(std::size_t i = 0; i < seen.layers.size(); ++i)
         {
-          const BarLayer &layer = look.layers[i];
-          const double end = i + 1 < look.layers.size()
-                                 ? 0.5 * (layer.mass + look.layers[i + 1].mass)
+          const BarLayer &layer = seen.layers[i];
+          const double end = i + 1 < seen.layers.size()
+                                 ? 0.5 * (layer.mass + seen.layers[i + 1].mass)
                                  : 2 * layer.mass - before;
-          const double left = (before - look.edge) / density;
-          const double right = std::min((end - look.edge) / density, scene.domain.side());
+          const double left = (before - seen.edge) / density;
+          const double right = std::min((end - seen.edge) / density, scene.domain.side());
           before = std::max(before, end);
-          if(layer.mass <= look.edge || right <= left)
+          if(layer.mass <= seen.edge || right <= left)
             continue;
           x.push_back((left + right) / 2);
           weights.push_back(right - left);
@@ -180,7 +233,7 @@ namespace meltfront::particles::greenspan
         }
         cases::Snapshot snapshot;
         snapshot.step = step;
-        snapshot.time = scene.start_time + look.time;
+        snapshot.time = time;
         snapshot.dimension = 1;
         snapshot.positions[0] = x;
         snapshot.weights = weights;
@@ -189,88 +242,29 @@ namespace meltfront::particles::greenspan
         snapshot.front[0] = {&front, 1};
         snapshot.obeys_maximum_principle = false;
         snapshot.heat.booked = false;
-        observer.observe(snapshot);
+        return snapshot;
       }
 
-    private:
       const cases::Scene &scene;
-      cases::Observer &observer;
+      const cases::EffectSet &effects;
       double density;
+      Bar bar;
+      long steps = 0;
+      BarLook seen; ///< mean of the last looks
+      double front = 0;
       std::vector<double> x, weights, temperature, solid;
     };
-
-    cases::RunDescription description_of(const Bar &bar, const cases::Scene &scene)
-    {
-      const BarSettings &settings = bar.settings();
-      cases::RunDescription result;
-      result.dimension = 2;
-      result.spacing = scene.domain.side() / settings.columns;
-      result.time_step = settings.time_step;
-      result.unknowns = static_cast<long>(4 * bar.particles().size());
-      const auto add = [&](const char *name, const double value) {
-        result.parameters.push_back({name, fmt::format("{:.6g}", value), ""});
-      };
-      add("particles", static_cast<double>(bar.particles().size()));
-      add("rows", settings.rows);
-      add("width", bar.width());
-      add("pressure", settings.pressure);
-      add("length of the hot bath", settings.hot_length);
-      add("length of the cold bath", settings.cold_length);
-      add("time over which front and temperatures are averaged", average_time);
-      return result;
-    }
   } // namespace
 
-  cases::Cost run_bar_scene(const cases::Scene &scene, const cases::EffectSet &effects,
-                            const cases::Resolution &resolution,
-                            cases::Observer &observer)
+  std::unique_ptr<cases::Run> make_bar_run(const cases::Scene &scene,
+                                           const cases::EffectSet &effects,
+                                           const cases::Resolution &resolution)
   {
     if(!scene.particle_solid || scene.domain.shape != cases::DomainShape::slab)
       throw cases::Refusal(
           "greenspan conducts heat only through a bar of particles, which "
           "subsection 'Scene/Particle solid' of a slab describes");
     require_measured_material(scene);
-    cases::Stopwatch watch;
-    Bar bar(settings_of(scene, resolution));
-    BarShow show(scene, observer);
-    show.require_length(bar);
-    const cases::Stopwatch::Seconds setup = watch.elapsed();
-    observer.begin(description_of(bar, scene));
-    watch.restart();
-    const double duration = scene.end_time - scene.start_time;
-    const auto looks = static_cast<long>(std::ceil(duration / time_between_looks));
-    const double time_step = bar.settings().time_step;
-    cases::Cost cost;
-    std::deque<BarLook> recent;
-    for(long look = 0; look <= looks; ++look)
-    {
-      const double time = duration * static_cast<double>(look) / looks;
-      bar.advance_to(time);
-      cost.steps = std::lround(time / time_step);
-      watch.without(
-          [&]
-          {
-            recent.push_back(bar.look());
-            if(static_cast<double>(recent.size()) * time_between_looks > average_time)
-              recent.pop_front();
-            if(look != 0 && look != looks
-               && !observer.wants(cost.steps, scene.start_time + time))
-              return;
-            BarLook seen = mean_of(recent);
-            seen.time = time;
-            show(seen, cost.steps);
-          });
-    }
-    const cases::Stopwatch::Seconds stepping = watch.elapsed();
-    cost.setup_wall = setup.wall;
-    cost.setup_cpu = setup.cpu;
-    cost.stepping_wall = stepping.wall;
-    cost.stepping_cpu = stepping.cpu;
-    cost.unknowns = static_cast<long>(4 * bar.particles().size());
-    cost.work = cost.steps * static_cast<long>(bar.particles().size());
-    for(const cases::EffectDecision &decision : effects.decisions())
-      if(decision.on)
-        cost.effects.push_back(bar.particles().cost(decision.effect));
-    return cost;
+    return std::make_unique<BarRun>(scene, effects, resolution);
   }
 } // namespace meltfront::particles::greenspan

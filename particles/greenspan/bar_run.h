@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_greenspan_bar_run_h
 #define meltfront_particles_greenspan_bar_run_h
 
-#include <cases/method.h>
+#include <cases/run.h>
 #include <cases/scene.h>
 
 namespace meltfront::particles::greenspan
@@ -17,9 +17,9 @@ namespace meltfront::particles::greenspan
    * @throws Refusal if the scene is none that a bar can be, or if n columns make a bar
    * whose length is not the slab's
    */
-  cases::Cost run_bar_scene(const cases::Scene &scene, const cases::EffectSet &effects,
-                            const cases::Resolution &resolution,
-                            cases::Observer &observer);
+  std::unique_ptr<cases::Run> make_bar_run(const cases::Scene &scene,
+                                           const cases::EffectSet &effects,
+                                           const cases::Resolution &resolution);
 } // namespace meltfront::particles::greenspan
 
 #endif

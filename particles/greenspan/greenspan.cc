@@ -1,8 +1,8 @@
 #include <cases/error.h>
 #include <cases/numbers.h>
 #include <cases/outcomes.h>
+#include <cases/run.h>
 #include <cases/scene.h>
-#include <cases/stopwatch.h>
 #include <particles/greenspan/bar_run.h>
 #include <particles/greenspan/checkpoint.h>
 #include <particles/greenspan/greenspan.h>
@@ -23,15 +23,13 @@ namespace meltfront::particles
 
     using cases::nan;
 
-    /** A run of a solid, from its set-up to what it tells the observer. */
-    class SolidRun
+    class SolidRun : public cases::Run
     {
     public:
       SolidRun(const cases::Scene &scene, const cases::EffectSet &effects,
-               const cases::Resolution &resolution, cases::Observer &observer)
+               const cases::Resolution &resolution)
         : scene(scene)
         , effects(effects)
-        , observer(observer)
         , experiment(experiment_of(scene, resolution))
         , checkpoint_file(resolution.options.get_string("checkpoint"))
         , checkpoint_interval(resolution.options.get_integer("checkpoint_interval"))
@@ -47,33 +45,7 @@ namespace meltfront::particles
                                            checkpoint_interval, experiment.interval));
       }
 
-      cases::Cost take()
-      {
-        const cases::Stopwatch::Seconds setup = watch.elapsed();
-        observer.begin(description());
-        watch.restart();
-        if(resumed)
-          go_on();
-        else
-        {
-          initial_energy = motion.energy().total();
-          look();
-        }
-        while(motion.step() < experiment.steps)
-        {
-          motion.advance(std::min(experiment.interval, experiment.steps - motion.step()));
-          look();
-          keep_checkpoint();
-        }
-        const cases::Stopwatch::Seconds stepping = watch.elapsed();
-        if(!checkpoint_file.empty())
-          std::filesystem::remove(checkpoint_file); // it has served
-        tell_outcomes();
-        return cost(setup, stepping);
-      }
-
-    private:
-      cases::RunDescription description() const
+      cases::RunDescription describe() const override
       {
         const MotionParameters &parameters = experiment.parameters;
         cases::RunDescription result;
@@ -89,6 +61,39 @@ namespace meltfront::particles
         add("stable time step", parameters.force.stable_time_step(2));
         add("steps between looks", static_cast<double>(experiment.interval));
         return result;
+      }
+
+      cases::Cost cost() const override
+      {
+        cases::Cost result;
+        result.steps = experiment.steps;
+        result.unknowns = unknowns();
+        result.work = experiment.steps * static_cast<long>(motion.size());
+        for(const cases::EffectDecision &decision : effects.decisions())
+          if(decision.on)
+            result.effects.push_back(motion.cost(decision.effect));
+        return result;
+      }
+
+    private:
+      void take_steps() override
+      {
+        if(resumed)
+          go_on();
+        else
+        {
+          initial_energy = motion.energy().total();
+          look();
+        }
+        while(motion.step() < experiment.steps)
+        {
+          motion.advance(std::min(experiment.interval, experiment.steps - motion.step()));
+          look();
+          keep_checkpoint();
+        }
+        if(!checkpoint_file.empty())
+          std::filesystem::remove(checkpoint_file); // it has served
+        tell_outcomes();
       }
 
       long unknowns() const
@@ -107,10 +112,12 @@ namespace meltfront::particles
         witness.remember(resumed->memory);
         initial_energy = resumed->initial_energy;
         energy_error = resumed->energy_error;
-        observer.note(time(), fmt::format("goes on from the checkpoint of step {}; what "
-                                          "was before is not sampled again",
-                                          motion.step()));
-        show(motion.state());
+        state = motion.state();
+        reached(motion.step(), time());
+        note(time(),
+             fmt::format("goes on from the checkpoint of step {}; what was before "
+                         "is not sampled again",
+                         motion.step()));
       }
 
       void keep_checkpoint()
@@ -124,17 +131,15 @@ namespace meltfront::particles
 
       void look()
       {
-        const ParticleState state = motion.state();
+        state = motion.state();
         witness.look(state);
         if(conserves_energy)
           energy_error = std::max(energy_error,
                                   std::abs(motion.energy().total() - initial_energy));
-        if(motion.step() == 0 || motion.step() == experiment.steps
-           || observer.wants(motion.step(), time()))
-          watch.without([&] { show(state); });
+        reached(motion.step(), time());
       }
 
-      void show(const ParticleState &state)
+      cases::Snapshot snapshot(long step, double time) override
       {
         weights.assign(state.size(), 1);
         solid.assign(witness.solid().begin(), witness.solid().end());
@@ -149,8 +154,8 @@ namespace meltfront::particles
               temperature[i] += state.velocity[d][i] * state.velocity[d][i] / 2;
           }
         cases::Snapshot snapshot;
-        snapshot.step = state.step;
-        snapshot.time = time();
+        snapshot.step = step;
+        snapshot.time = time;
         snapshot.dimension = state.dimension;
         for(int d = 0; d < state.dimension; ++d)
         {
@@ -161,14 +166,14 @@ namespace meltfront::particles
         snapshot.temperature = temperature;
         snapshot.solid_fraction = solid;
         snapshot.heat.booked = false;
-        observer.observe(snapshot);
+        return snapshot;
       }
 
       void tell_outcomes()
       {
         const RunRecord &record = witness.record();
         const auto step = [&](const char *name, long value)
-        { observer.outcome(name, value < 0 ? nan : static_cast<double>(value)); };
+        { outcome(name, value < 0 ? nan : static_cast<double>(value)); };
         step("first_break", record.first_break);
         step("first_fluid", record.first_fluid);
         step("unheated_from", record.unheated);
@@ -189,46 +194,27 @@ namespace meltfront::particles
                {"highest_y", record.highest_y},
                {"kinetic_energy_end", record.kinetic_energy}};
         for(const auto &[name, value] : counts)
-          observer.outcome(name, value);
+          outcome(name, value);
         if(experiment.parameters.temperatures)
-          observer.outcome("mean_temperature_end", record.mean_temperature);
+          outcome("mean_temperature_end", record.mean_temperature);
         if(conserves_energy)
-          observer.outcome("energy_error", energy_error);
+          outcome("energy_error", energy_error);
         for(std::size_t c = 0; c < record.corners.size(); ++c)
         {
           const bool lost = record.corners[c].step >= 0;
-          observer.outcome(fmt::format("corner_{}_temperature", c + 1),
-                           lost ? record.corners[c].temperature : nan);
-          observer.outcome(fmt::format("corner_{}_step", c + 1),
-                           lost ? static_cast<double>(record.corners[c].step) : nan);
+          outcome(fmt::format("corner_{}_temperature", c + 1),
+                  lost ? record.corners[c].temperature : nan);
+          outcome(fmt::format("corner_{}_step", c + 1),
+                  lost ? static_cast<double>(record.corners[c].step) : nan);
         }
         if(motion.size() <= cases::most_named_particles)
           for(std::uint32_t particle = 1; particle <= motion.size(); ++particle)
-            observer.outcome(fmt::format("fluid_end_{}", particle),
-                             std::ranges::find(fluid, particle) != fluid.end());
-      }
-
-      cases::Cost cost(const cases::Stopwatch::Seconds &setup,
-                       const cases::Stopwatch::Seconds &stepping) const
-      {
-        cases::Cost result;
-        result.setup_wall = setup.wall;
-        result.setup_cpu = setup.cpu;
-        result.stepping_wall = stepping.wall;
-        result.stepping_cpu = stepping.cpu;
-        result.steps = experiment.steps;
-        result.unknowns = unknowns();
-        result.work = experiment.steps * static_cast<long>(motion.size());
-        for(const cases::EffectDecision &decision : effects.decisions())
-          if(decision.on)
-            result.effects.push_back(motion.cost(decision.effect));
-        return result;
+            outcome(fmt::format("fluid_end_{}", particle),
+                    std::ranges::find(fluid, particle) != fluid.end());
       }
 
       const cases::Scene &scene;
       const cases::EffectSet &effects;
-      cases::Observer &observer;
-      cases::Stopwatch watch;
       Experiment experiment;
       std::string checkpoint_file;
       long checkpoint_interval;
@@ -238,6 +224,7 @@ namespace meltfront::particles
       bool conserves_energy;
       double initial_energy = 0;
       double energy_error = 0;
+      ParticleState state; ///< at the last look
       std::vector<double> weights, solid, temperature;
     };
 
@@ -305,13 +292,13 @@ namespace meltfront::particles
         return scene.particle_solid ? solid_demand(scene, resolution) : cases::Demand();
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
         if(scene.problem == cases::ProblemKind::stefan)
-          return run_bar_scene(scene, effects, resolution, observer);
-        return SolidRun(scene, effects, resolution, observer).take();
+          return make_bar_run(scene, effects, resolution);
+        return std::make_unique<SolidRun>(scene, effects, resolution);
       }
     };
   } // namespace

@@ -1,8 +1,8 @@
 #include <cases/demand.h>
 #include <cases/error.h>
+#include <cases/run.h>
 #include <cases/scene.h>
 #include <cases/shape.h>
-#include <cases/stopwatch.h>
 #include <particles/level_set/front_contour.h>
 #include <particles/level_set/front_geometry.h>
 #include <particles/level_set/front_methods.h>
@@ -211,48 +211,92 @@ namespace meltfront::particles
       return parameters;
     }
 
-    /** Hands the states of a run to an observer. */
-    class FrontShow
+    class FrontRun : public cases::Run
     {
     public:
-      FrontShow(const cases::Scene &scene, cases::Observer &observer,
-                cases::Stopwatch &watch)
-        : scene(scene)
-        , observer(observer)
-        , watch(watch)
+      FrontRun(const Scheme scheme, const cases::Scene &scene,
+               const cases::Resolution &resolution)
+        : scheme(scheme)
+        , scene(scene)
+        , grid(grid_of(scene.domain, resolution.n))
+        , parameters(run_parameters(scheme, scene, resolution))
       {
       }
 
-      void operator()(const LevelSet &front, const long step, const double elapsed)
+      cases::RunDescription describe() const override
       {
-        const double end = scene.end_time - scene.start_time;
-        const bool ended = elapsed >= end * (1 - 1e-12);
-        const double time = ended ? scene.end_time : scene.start_time + elapsed;
-        watch.without(
-            [&]
-            {
-              if(step == 0 || ended || observer.wants(step, time))
-                show(front, step, time);
-            });
+        const StepCount count
+            = count_steps(grid, *scene.interface->velocity, parameters.transport);
+        cases::RunDescription result;
+        result.dimension = grid.dimension();
+        result.spacing = grid.spacing();
+        result.time_step = count.length;
+        result.unknowns
+            = static_cast<long>(grid.nodes(0)) * grid.nodes(1) * grid.nodes(2);
+        result.parameters.push_back({"steps", std::to_string(count.steps), ""});
+        if(scheme == Scheme::interpolative)
+          result.parameters.push_back({"fit",
+                                       parameters.markers.fit.clustered
+                                           ? "markers of the nearest front"
+                                           : "all markers about a node",
+                                       ""});
+        return result;
+      }
+
+      cases::Cost cost() const override
+      {
+        return counted;
       }
 
     private:
-      void show(const LevelSet &front, const long step, const double time)
+      void take_steps() override
+      {
+        const cases::VelocityField &velocity = *scene.interface->velocity;
+        const auto distance = [this](const Position &point)
+        { return scene.interface->shape->signed_distance(point); };
+        if(scheme == Scheme::alone)
+        {
+          const TransportResult result = run_level_set(
+              grid, distance, velocity, parameters.transport,
+              [&](const TransportStep &step) { show(step.front, step.step, step.time); });
+          counted.steps = result.steps.steps;
+          counted.unknowns = static_cast<long>(result.front.band().size());
+          counted.work = std::lround(result.node_steps);
+          return;
+        }
+        const MarkerResult result = run_markers(
+            grid, distance, velocity, parameters,
+            [&](const MarkerStep &step) { show(step.front, step.step, step.time); });
+        counted.steps = result.steps.steps;
+        counted.unknowns
+            = static_cast<long>(result.front.band().size() + result.markers.size());
+        counted.work = std::lround(result.node_steps + result.work.moved);
+      }
+
+      void show(const LevelSet &now, const long step, const double elapsed)
+      {
+        const double end = scene.end_time - scene.start_time;
+        front = &now;
+        reached(step, elapsed >= end * (1 - 1e-12) ? scene.end_time
+                                                   : scene.start_time + elapsed);
+      }
+
+      cases::Snapshot snapshot(const long step, const double time) override
       {
         const int dimension = scene.domain.dimension;
         for(auto *arrays : {&points, &normals})
           for(std::vector<double> &values : *arrays)
             values.clear();
         curvatures.clear();
-        for(const Position &point : front_points(front))
+        for(const Position &point : front_points(*front))
         {
-          const Position normal = outward_normal(front, point);
+          const Position normal = outward_normal(*front, point);
           for(int d = 0; d < dimension; ++d)
           {
             points[d].push_back(point[d]);
             normals[d].push_back(normal[d]);
           }
-          curvatures.push_back(curvature(front, point));
+          curvatures.push_back(curvature(*front, point));
         }
         cases::Snapshot snapshot;
         snapshot.step = step;
@@ -265,14 +309,17 @@ namespace meltfront::particles
         }
         snapshot.front_curvature = curvatures;
         snapshot.level_set
-            = [&front](const Position &point) { return front.value(point); };
+            = [this](const Position &point) { return front->value(point); };
         snapshot.heat.booked = false;
-        observer.observe(snapshot);
+        return snapshot;
       }
 
+      Scheme scheme;
       const cases::Scene &scene;
-      cases::Observer &observer;
-      cases::Stopwatch &watch;
+      Grid grid;
+      MarkerRunParameters parameters;
+      const LevelSet *front = nullptr;
+      cases::Cost counted;
       std::array<std::vector<double>, 3> points, normals;
       std::vector<double> curvatures;
     };
@@ -336,84 +383,14 @@ namespace meltfront::particles
                 estimated_steps(scene, resolution.n, parameters.transport)};
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &,
+             const cases::Resolution &resolution) const override
       {
-        cases::Stopwatch watch;
-        const Grid grid = grid_of(scene.domain, resolution.n);
-        const MarkerRunParameters parameters
-            = run_parameters(variant.scheme, scene, resolution);
-        const cases::VelocityField &velocity = *scene.interface->velocity;
-        const cases::Shape &shape = *scene.interface->shape;
-        const auto distance
-            = [&shape](const Position &point) { return shape.signed_distance(point); };
-        const StepCount count = count_steps(grid, velocity, parameters.transport);
-        observer.begin(description(grid, count, parameters));
-        cases::Cost cost;
-        FrontShow show(scene, observer, watch);
-        const auto setup_ends = [&](long step)
-        {
-          if(step > 0)
-            return;
-          const cases::Stopwatch::Seconds setup = watch.elapsed();
-          cost.setup_wall = setup.wall;
-          cost.setup_cpu = setup.cpu;
-          watch.restart();
-        };
-        if(variant.scheme == Scheme::alone)
-        {
-          const TransportResult result
-              = run_level_set(grid, distance, velocity, parameters.transport,
-                              [&](const TransportStep &step)
-                              {
-                                setup_ends(step.step);
-                                show(step.front, step.step, step.time);
-                              });
-          cost.steps = result.steps.steps;
-          cost.unknowns = static_cast<long>(result.front.band().size());
-          cost.work = std::lround(result.node_steps);
-        }
-        else
-        {
-          const MarkerResult result
-              = run_markers(grid, distance, velocity, parameters,
-                            [&](const MarkerStep &step)
-                            {
-                              setup_ends(step.step);
-                              show(step.front, step.step, step.time);
-                            });
-          cost.steps = result.steps.steps;
-          cost.unknowns
-              = static_cast<long>(result.front.band().size() + result.markers.size());
-          cost.work = std::lround(result.node_steps + result.work.moved);
-        }
-        const cases::Stopwatch::Seconds stepping = watch.elapsed();
-        cost.stepping_wall = stepping.wall;
-        cost.stepping_cpu = stepping.cpu;
-        return cost;
+        return std::make_unique<FrontRun>(variant.scheme, scene, resolution);
       }
 
     private:
-      cases::RunDescription description(const Grid &grid, const StepCount &count,
-                                        const MarkerRunParameters &parameters) const
-      {
-        cases::RunDescription result;
-        result.dimension = grid.dimension();
-        result.spacing = grid.spacing();
-        result.time_step = count.length;
-        result.unknowns
-            = static_cast<long>(grid.nodes(0)) * grid.nodes(1) * grid.nodes(2);
-        result.parameters.push_back({"steps", std::to_string(count.steps), ""});
-        if(variant.scheme == Scheme::interpolative)
-          result.parameters.push_back({"fit",
-                                       parameters.markers.fit.clustered
-                                           ? "markers of the nearest front"
-                                           : "all markers about a node",
-                                       ""});
-        return result;
-      }
-
       Variant variant;
     };
   } // namespace

@@ -64,11 +64,11 @@ namespace meltfront::reference_fem
                 double(options.fewest_steps)};
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        return cut::CutRun(scene, effects, resolution).run(observer);
+        return std::make_unique<cut::CutRun>(scene, effects, resolution);
       }
     };
   } // namespace

@@ -65,6 +65,7 @@ namespace meltfront::reference_fem::cut
     , bounds(cases::temperature_bounds(scene))
     , breakpoints(cases::breakpoints_of(scene))
   {
+    start();
   }
 
   std::shared_ptr<const BackgroundMesh>
@@ -75,39 +76,16 @@ namespace meltfront::reference_fem::cut
                                                   options.refinement, divided, rim);
   }
 
-  cases::Cost CutRun::run(cases::Observer &observer)
+  void CutRun::take_steps()
   {
-    start();
-    cases::Cost cost;
-    const auto setup = watch.elapsed();
-    watch.restart();
-    watch.without(
-        [&]
-        {
-          observer.begin(description());
-          observe_initial(observer);
-        });
+    report_initial();
     if(state.time > scene.start_time)
-      report(observer, false);
+      reached(step_number, state.time);
     while(state.time < scene.end_time)
     {
       step();
-      report(observer, state.time == scene.end_time);
+      reached(step_number, state.time);
     }
-    const auto stepping = watch.elapsed();
-    cost.setup_wall = setup.wall;
-    cost.setup_cpu = setup.cpu;
-    cost.stepping_wall = stepping.wall;
-    cost.stepping_cpu = stepping.cpu;
-    cost.steps = step_number;
-    cost.unknowns = heat.most_unknowns;
-    cost.work = heat.entries;
-    cost.solver_iterations = heat.solves;
-    cost.most_iterations = options.solves;
-    cost.capped_steps = capped_steps;
-    cost.evidence = evidence();
-    cost.effects = effect_costs();
-    return cost;
   }
 
   void CutRun::start()

@@ -1,9 +1,8 @@
 #ifndef meltfront_reference_fem_cut_run_h
 #define meltfront_reference_fem_cut_run_h
 
-#include <cases/method.h>
+#include <cases/run.h>
 #include <cases/scene.h>
-#include <cases/stopwatch.h>
 #include <reference_fem/cut/heat_problem.h>
 #include <reference_fem/cut/options.h>
 
@@ -20,15 +19,19 @@ namespace meltfront::reference_fem::cut
   inline constexpr const char *method_name = "fem-cut";
 
   /** A run of `fem-cut`: start, time steps, snapshots. */
-  class CutRun
+  class CutRun : public cases::Run
   {
   public:
     CutRun(const cases::Scene &scene, const cases::EffectSet &effects,
            const cases::Resolution &resolution);
 
-    cases::Cost run(cases::Observer &observer);
+    // In run_report.cc:
+    cases::RunDescription describe() const override;
+    cases::Cost cost() const override;
 
   private:
+    void take_steps() override;
+    cases::Snapshot snapshot(long step, double time) override; // in run_report.cc
     std::shared_ptr<const BackgroundMesh> make_mesh(const RefinementCriterion &divided,
                                                     const BackgroundMesh *rim) const;
     void start();
@@ -68,10 +71,7 @@ namespace meltfront::reference_fem::cut
     /** @return the length of the step that is made, which may become shorter */
     double shorten_to_bounds(double step, State &next);
 
-    cases::RunDescription description() const;
-    void report(cases::Observer &observer, bool always);
-    void observe(cases::Observer &observer);
-    void observe_initial(cases::Observer &observer);
+    void report_initial();
     void collect_sites();
     void add_site(const Point &point, double weight, double temperature, bool solid);
     void add_vertices();
@@ -81,7 +81,6 @@ namespace meltfront::reference_fem::cut
     const cases::Scene &scene;
     const cases::EffectSet &effects;
     const cases::Resolution &resolution;
-    cases::Stopwatch watch;
     RunOptions options;
     std::shared_ptr<const BackgroundMesh> finest_rim; ///< none for boxes
     State state;

@@ -8,7 +8,7 @@
 
 namespace meltfront::reference_fem::cut
 {
-  cases::RunDescription CutRun::description() const
+  cases::RunDescription CutRun::describe() const
   {
     cases::RunDescription result;
     result.dimension = dim;
@@ -45,40 +45,40 @@ namespace meltfront::reference_fem::cut
     return result;
   }
 
-  void CutRun::report(cases::Observer &observer, bool always)
+  cases::Cost CutRun::cost() const
   {
-    watch.without(
-        [&]
-        {
-          if(observer.wants(step_number, state.time) || always)
-            observe(observer);
-        });
+    cases::Cost cost;
+    cost.steps = step_number;
+    cost.unknowns = heat.most_unknowns;
+    cost.work = heat.entries;
+    cost.solver_iterations = heat.solves;
+    cost.most_iterations = options.solves;
+    cost.capped_steps = capped_steps;
+    cost.evidence = evidence();
+    cost.effects = effect_costs();
+    return cost;
   }
 
   /** The scene's own initial state, also where the run starts from a front that was
    * seeded later. */
-  void CutRun::observe_initial(cases::Observer &observer)
+  void CutRun::report_initial()
   {
-    observer.wants(0, scene.start_time);
-    if(state.time == scene.start_time)
+    std::optional<State> seeded;
+    if(state.time > scene.start_time)
     {
-      initial_heat = heat.sensible_heat(state) + heat.latent_heat(state);
-      observe(observer);
-      return;
+      seeded = std::move(state);
+      state = State{scene.start_time, seeded->mesh, {}, {}, {}, {}, 0};
+      heat.set_front(state,
+                     Values(state.mesh->level_set_positions.size(), state.mesh->spacing));
+      heat.project(state,
+                   [this](const Point &point) {
+                     return scene.initial.temperature(position(point), scene.start_time);
+                   });
     }
-    State seeded = std::move(state);
-    state = State{scene.start_time, seeded.mesh, {}, {}, {}, {}, 0};
-    heat.set_front(state,
-                   Values(state.mesh->level_set_positions.size(), state.mesh->spacing));
-    heat.project(state,
-                 [this](const Point &point) {
-                   return scene.initial.temperature(position(point), scene.start_time);
-                 });
     initial_heat = heat.sensible_heat(state) + heat.latent_heat(state);
-    const long seeded_step = std::exchange(step_number, 0);
-    observe(observer);
-    step_number = seeded_step;
-    state = std::move(seeded);
+    reached(0, scene.start_time);
+    if(seeded)
+      state = *std::move(seeded);
   }
 
   void CutRun::add_site(const Point &point, double weight, double temperature, bool solid)
@@ -152,12 +152,12 @@ namespace meltfront::reference_fem::cut
       }
   }
 
-  void CutRun::observe(cases::Observer &observer)
+  cases::Snapshot CutRun::snapshot(long step, double time)
   {
     collect_sites();
     cases::Snapshot snapshot;
-    snapshot.step = step_number;
-    snapshot.time = state.time;
+    snapshot.step = step;
+    snapshot.time = time;
     snapshot.dimension = dim;
     for(int d = 0; d < dim; ++d)
     {
@@ -171,7 +171,7 @@ namespace meltfront::reference_fem::cut
     snapshot.obeys_maximum_principle = false;
     snapshot.heat = {heat.sensible_heat(state), heat.latent_heat(state), boundary_heat,
                      heat.sinks.energy(state.time), initial_heat};
-    observer.observe(snapshot);
+    return snapshot;
   }
 
   std::vector<cases::EffectCost> CutRun::effect_costs() const

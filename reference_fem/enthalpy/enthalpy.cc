@@ -3,8 +3,8 @@
 #include <cases/demand.h>
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/options.h>
+#include <reference_fem/enthalpy/run.h>
 #include <reference_fem/enthalpy/shaped_triangulation.h>
-#include <reference_fem/enthalpy/solver.h>
 
 #include <cmath>
 
@@ -72,19 +72,11 @@ namespace meltfront::reference_fem
                 double(options.steps)};
       }
 
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
-        StepStatistics statistics;
-        cases::Cost cost = run_enthalpy(scene, effects, resolution, observer, statistics);
-        cost.most_iterations = statistics.iterations;
-        cost.evidence = {
-            {"largest distance from the enthalpy graph", statistics.graph_inconsistency},
-            {"largest defect of a step's heat balance", statistics.balance_defect},
-            {"steps halved", double(statistics.halvings)},
-            {"steps left to backward Euler", double(statistics.euler_steps)}};
-        return cost;
+        return std::make_unique<EnthalpyRun>(scene, effects, resolution);
       }
     };
   } // namespace

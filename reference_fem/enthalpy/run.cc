@@ -137,7 +137,7 @@ namespace meltfront::reference_fem
     return outcome;
   }
 
-  void EnthalpyRun::accept(const StepFormula &step, StepStatistics &statistics)
+  void EnthalpyRun::accept(const StepFormula &step)
   {
     if(alloy)
       alloy->accept();
@@ -166,7 +166,7 @@ namespace meltfront::reference_fem
     time_before = time;
     time = step.next;
     ++step_number;
-    check_balance(statistics);
+    check_balance();
   }
 
   void EnthalpyRun::check_temperatures(const StepFormula &step) const
@@ -203,7 +203,7 @@ namespace meltfront::reference_fem
    * Solve a step. BDF2 obeys no maximum principle: where it swings beyond the bounds
    * after a sudden change, the step is made with backward Euler instead.
    */
-  StepOutcome EnthalpyRun::solve(StepFormula &step, StepStatistics &statistics)
+  StepOutcome EnthalpyRun::solve(StepFormula &step)
   {
     StepOutcome outcome = attempt(step);
     if(!outcome.converged)
@@ -235,7 +235,7 @@ namespace meltfront::reference_fem
     return (sources ? sources->energy(time) : 0) + released_heat.now;
   }
 
-  void EnthalpyRun::check_balance(StepStatistics &statistics)
+  void EnthalpyRun::check_balance()
   {
     const double total = total_heat();
     const double magnitude
@@ -254,22 +254,16 @@ namespace meltfront::reference_fem
                       accepted_balance_defect));
   }
 
-  cases::Cost EnthalpyRun::run(cases::Observer &observer, StepStatistics &statistics)
+  void EnthalpyRun::take_steps()
   {
-    cases::Cost cost;
-    const cases::Stopwatch::Seconds setup = watch.elapsed();
-    const cases::RunDescription run_description = description();
-    observer.begin(run_description);
-    watch.restart();
-    report(observer, true);
-
+    reached(0, time);
     StepQueue queue(scene.start_time, scene.end_time, options.steps,
                     options.start_halvings, breakpoints);
     u_accepted = u;
     while(!queue.empty())
     {
       StepFormula step = formula(queue.next());
-      const StepOutcome outcome = solve(step, statistics);
+      const StepOutcome outcome = solve(step);
       if(!outcome.converged)
       {
         require_halvable(step, outcome);
@@ -284,26 +278,14 @@ namespace meltfront::reference_fem
       statistics.graph_inconsistency
           = std::max(statistics.graph_inconsistency, outcome.graph_inconsistency);
       statistics.iterations = std::max(statistics.iterations, outcome.iterations);
-      accept(step, statistics);
-      report(observer, queue.empty());
+      accept(step);
+      reached(step_number, time);
       if(outcome.iterations > comfortable_iterations && !queue.empty())
       {
         queue.halve(time);
         ++statistics.halvings;
       }
     }
-    const cases::Stopwatch::Seconds stepping = watch.elapsed();
-    cost.setup_wall = setup.wall;
-    cost.setup_cpu = setup.cpu;
-    cost.stepping_wall = stepping.wall;
-    cost.stepping_cpu = stepping.cpu;
-    cost.steps = step_number;
-    cost.unknowns = run_description.unknowns;
-    cost.work = solver->work();
-    cost.solver_iterations = alloy ? alloy->iterations() : iterations;
-    cost.capped_steps = capped_steps;
-    cost.effects = effect_costs();
-    return cost;
   }
 
   void EnthalpyRun::require_halvable(const StepFormula &step,

@@ -1,13 +1,13 @@
 #ifndef meltfront_reference_fem_enthalpy_run_h
 #define meltfront_reference_fem_enthalpy_run_h
 
-#include <cases/stopwatch.h>
+#include <cases/run.h>
+#include <cases/scene.h>
 #include <reference_fem/enthalpy/alloy_solver.h>
 #include <reference_fem/enthalpy/heat_release.h>
 #include <reference_fem/enthalpy/heat_sources.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/options.h>
-#include <reference_fem/enthalpy/solver.h>
 #include <reference_fem/enthalpy/time_scheme.h>
 #include <reference_fem/enthalpy/truncated_newton.h>
 #include <reference_fem/enthalpy/wall_flux.h>
@@ -20,40 +20,60 @@
 
 namespace meltfront::reference_fem
 {
+  /** Worst values over the steps of a run. */
+  struct StepStatistics
+  {
+    double graph_inconsistency = 0; ///< see StepOutcome::graph_inconsistency
+    double balance_defect = 0;      ///< of one step, over the heat at hand
+    int iterations = 0;
+    long halvings = 0;    ///< steps that were halved
+    long euler_steps = 0; ///< steps that BDF2 left to backward Euler
+  };
+
+  /** The largest relative defect of a step's heat balance that is accepted. */
+  inline constexpr double accepted_balance_defect = 1e-13;
+
   /** A run: the state and the parts that the scene's effects call for. */
-  class EnthalpyRun
+  class EnthalpyRun : public cases::Run
   {
   public:
     EnthalpyRun(const cases::Scene &scene, const cases::EffectSet &effects,
                 const cases::Resolution &resolution);
 
-    cases::Cost run(cases::Observer &observer, StepStatistics &statistics);
+    // In run_report.cc:
+    cases::RunDescription describe() const override;
+    cases::Cost cost() const override;
+
+    const StepStatistics &worst_of_steps() const
+    {
+      return statistics;
+    }
 
   private:
+    void take_steps() override;
+    cases::Snapshot snapshot(long step, double time) override; // in run_report.cc
+
     /** What a quantity that is summed over time was at the last two times. */
     struct History
     {
       double now = 0, before = 0;
     };
 
-    cases::RunDescription description() const;
     std::string mesh_in_words() const;
     void make_solver();
     StepProblem problem() const;
     StepFormula formula(double next) const;
     void predict(double next);
     StepOutcome attempt(const StepFormula &step);
-    void accept(const StepFormula &step, StepStatistics &statistics);
+    void accept(const StepFormula &step);
     void require_halvable(const StepFormula &step, const StepOutcome &outcome) const;
-    StepOutcome solve(StepFormula &step, StepStatistics &statistics);
+    StepOutcome solve(StepFormula &step);
     void check_temperatures(const StepFormula &step) const;
     bool keeps_bounds(const StepFormula &step) const;
     double nominal_step() const;
     double total_heat() const;
-    void check_balance(StepStatistics &statistics);
+    void check_balance();
     double source_heat() const;
-    void report(cases::Observer &observer, bool always);
-    void observe(cases::Observer &observer);
     double density() const;
     void state_of_sites();
     double latent_heat(std::size_t node) const;
@@ -62,7 +82,6 @@ namespace meltfront::reference_fem
     const cases::Scene &scene;
     const cases::EffectSet &effects;
     const cases::Resolution &resolution;
-    cases::Stopwatch watch;
     RunOptions options;
 
     Discretization mesh;
@@ -76,7 +95,7 @@ namespace meltfront::reference_fem
     std::optional<WallFlux> flux;
     cases::TemperatureBounds bounds;
     bool obeys_maximum_principle; ///< discretely, whatever the spacing
-    double slack; ///< of temperatures, over the span of their bounds
+    double slack;                 ///< of temperatures, over the span of their bounds
 
     CompensatedVector u, u_accepted, u_before;     ///< by node, W/m
     std::vector<double> enthalpy, enthalpy_before; ///< by node, J/m^3
@@ -89,6 +108,7 @@ namespace meltfront::reference_fem
     double time, time_before;
     std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
     long step_number = 0, iterations = 0, capped_steps = 0;
+    StepStatistics statistics;
     std::vector<double> site_temperature, site_solid_fraction;
   };
 } // namespace meltfront::reference_fem

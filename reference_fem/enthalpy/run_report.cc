@@ -20,7 +20,7 @@ namespace meltfront::reference_fem
                        mesh.volume.size(), mesh.dimension, shape);
   }
 
-  cases::RunDescription EnthalpyRun::description() const
+  cases::RunDescription EnthalpyRun::describe() const
   {
     cases::RunDescription result;
     result.dimension = mesh.dimension;
@@ -80,11 +80,11 @@ namespace meltfront::reference_fem
                  : std::clamp(enthalpy[node], 0., whole);
   }
 
-  void EnthalpyRun::observe(cases::Observer &observer)
+  cases::Snapshot EnthalpyRun::snapshot(long step, double)
   {
     state_of_sites();
     cases::Snapshot snapshot;
-    snapshot.step = step_number;
+    snapshot.step = step;
     snapshot.time = time;
     snapshot.dimension = mesh.dimension;
     for(int d = 0; d < mesh.dimension; ++d)
@@ -109,17 +109,25 @@ namespace meltfront::reference_fem
     }
     if(alloy)
       alloy->report(snapshot);
-    observer.observe(snapshot);
+    return snapshot;
   }
 
-  void EnthalpyRun::report(cases::Observer &observer, bool always)
+  cases::Cost EnthalpyRun::cost() const
   {
-    watch.without(
-        [&]
-        {
-          if(observer.wants(step_number, time) || always)
-            observe(observer);
-        });
+    cases::Cost cost;
+    cost.steps = step_number;
+    cost.unknowns = describe().unknowns;
+    cost.work = solver->work();
+    cost.solver_iterations = alloy ? alloy->iterations() : iterations;
+    cost.most_iterations = statistics.iterations;
+    cost.capped_steps = capped_steps;
+    cost.effects = effect_costs();
+    cost.evidence
+        = {{"largest distance from the enthalpy graph", statistics.graph_inconsistency},
+           {"largest defect of a step's heat balance", statistics.balance_defect},
+           {"steps halved", double(statistics.halvings)},
+           {"steps left to backward Euler", double(statistics.euler_steps)}};
+    return cost;
   }
 
   std::vector<cases::EffectCost> EnthalpyRun::effect_costs() const

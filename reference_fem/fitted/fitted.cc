@@ -88,9 +88,9 @@ namespace meltfront::reference_fem
       }
 
     protected:
-      cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                      const cases::Resolution &resolution,
-                      cases::Observer &observer) const override
+      std::unique_ptr<cases::Run>
+      set_up(const cases::Scene &scene, const cases::EffectSet &effects,
+             const cases::Resolution &resolution) const override
       {
         const bool line = fitted::RunOptions(scene, resolution).dimension == 1;
         const cases::Capabilities form = line ? along_line() : in_more_dimensions();
@@ -98,7 +98,7 @@ namespace meltfront::reference_fem
            = cases::objection(form, scene, effects, resolution.threads);
            !reason.empty())
           throw cases::Refusal(fmt::format("{}: {} it {}", name(), form.form, reason));
-        return fitted::FittedRun(scene, effects, resolution).run(observer);
+        return std::make_unique<fitted::FittedRun>(scene, effects, resolution);
       }
     };
   } // namespace

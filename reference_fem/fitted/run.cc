@@ -141,14 +141,14 @@ namespace meltfront::reference_fem::fitted
                                  scene.domain));
   }
 
-  void FittedRun::enter(const Stretch &stretch, cases::Observer &observer)
+  void FittedRun::enter(const Stretch &stretch)
   {
     if(problem != stretch.problem)
       add_effect_costs();
     if(!stretch.event.text.empty())
     {
       ++events;
-      observer.note(stretch.event.time, stretch.event.text);
+      note(stretch.event.time, stretch.event.text);
     }
     problem = stretch.problem;
     before = stretch.before;
@@ -156,8 +156,10 @@ namespace meltfront::reference_fem::fitted
     most_unknowns = std::max<long>(most_unknowns, problem->size());
   }
 
-  IntegrationCost FittedRun::integrate(cases::Observer &observer)
+  void FittedRun::take_steps()
   {
+    check_temperatures(0, scene.start_time, initial_state);
+    most_unknowns = problem->size();
     const Clock &clock = problem->physics().clock;
     Stretch first{problem,
                   initial_state,
@@ -165,41 +167,17 @@ namespace meltfront::reference_fem::fitted
                   {},
                   {{clock.clock(scene.end_time), clock_step()}},
                   {}};
-    Timeline timeline(
-        {scene, effects, options, rays_of(scene, options)}, integration_options(),
-        {[&](const Stretch &stretch) { enter(stretch, observer); },
-         [&](long step, double time, const dealii::Vector<double> &u, bool last)
-         {
-           check_temperatures(step, time, u);
-           report(observer, step, time, u, last || step == 0);
-         }});
+    Timeline timeline({scene, effects, options, rays_of(scene, options)},
+                      integration_options(),
+                      {[&](const Stretch &stretch) { enter(stretch); },
+                       [&](long step, double time, const dealii::Vector<double> &u, bool)
+                       {
+                         check_temperatures(step, time, u);
+                         shown = &u;
+                         reached(step, time);
+                       }});
     timeline.run(std::move(first));
-    return timeline.cost();
-  }
-
-  cases::Cost FittedRun::run(cases::Observer &observer)
-  {
-    const cases::Stopwatch::Seconds setup = watch.elapsed();
-    const cases::RunDescription run_description = description();
-    observer.begin(run_description);
-    watch.restart();
-    check_temperatures(0, scene.start_time, initial_state);
-    most_unknowns = problem->size();
-    const IntegrationCost integration = integrate(observer);
-    const cases::Stopwatch::Seconds stepping = watch.elapsed();
-    cases::Cost cost;
-    cost.setup_wall = setup.wall;
-    cost.setup_cpu = setup.cpu;
-    cost.stepping_wall = stepping.wall;
-    cost.stepping_cpu = stepping.cpu;
-    cost.steps = integration.steps;
-    cost.unknowns = most_unknowns;
-    cost.work = integration.work;
-    cost.solver_iterations = integration.iterations;
-    cost.most_iterations = integration.most_iterations;
+    integration = timeline.cost();
     add_effect_costs();
-    cost.effects = effect_costs;
-    cost.evidence = evidence(integration);
-    return cost;
   }
 } // namespace meltfront::reference_fem::fitted

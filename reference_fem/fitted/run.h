@@ -1,7 +1,7 @@
 #ifndef meltfront_reference_fem_fitted_run_h
 #define meltfront_reference_fem_fitted_run_h
 
-#include <cases/stopwatch.h>
+#include <cases/run.h>
 #include <reference_fem/fitted/events/timeline.h>
 #include <reference_fem/fitted/fitted_problem.h>
 #include <reference_fem/fitted/setup.h>
@@ -16,35 +16,30 @@ namespace meltfront::reference_fem::fitted
 {
   /** A run of `fem-fitted`; in one dimension also from one phase, and on to the end of
    * one. */
-  class FittedRun
+  class FittedRun : public cases::Run
   {
   public:
     FittedRun(const cases::Scene &scene, const cases::EffectSet &effects,
               const cases::Resolution &resolution);
 
-    cases::Cost run(cases::Observer &observer);
+    cases::RunDescription describe() const override; // in run_report.cc
+    cases::Cost cost() const override;               // in run_report.cc
 
   private:
-    cases::RunDescription description() const;
+    void take_steps() override;
+    cases::Snapshot snapshot(long step, double time) override; // in run_report.cc
     void refuse_start_at_melting_wall() const;
     IntegrationOptions integration_options() const;
-    void enter(const Stretch &stretch, cases::Observer &observer);
-    IntegrationCost integrate(cases::Observer &observer);
+    void enter(const Stretch &stretch);
     double clock_step() const;
     void check_temperatures(long step, double time, const dealii::Vector<double> &u);
-    void report(cases::Observer &observer, long step, double time,
-                const dealii::Vector<double> &u, bool always);
-    void observe(cases::Observer &observer, long step, double time,
-                 const dealii::Vector<double> &u);
-
     /** Add what the present problem counted of each effect. */
     void add_effect_costs();
-    std::map<std::string, double> evidence(const IntegrationCost &cost) const;
+    std::map<std::string, double> evidence() const;
 
     const cases::Scene &scene;
     const cases::EffectSet &effects;
     const cases::Resolution &resolution;
-    cases::Stopwatch watch;
     RunOptions options;
     cases::TemperatureBounds bounds;
     std::shared_ptr<FittedProblem> problem;
@@ -55,6 +50,8 @@ namespace meltfront::reference_fem::fitted
     std::vector<cases::EffectCost> effect_costs; ///< of the effects that are on
     long events = 0;
     long most_unknowns = 0;
+    IntegrationCost integration;
+    const dealii::Vector<double> *shown = nullptr; ///< the state to take a snapshot of
   };
 } // namespace meltfront::reference_fem::fitted
 

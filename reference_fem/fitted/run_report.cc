@@ -6,7 +6,7 @@
 
 namespace meltfront::reference_fem::fitted
 {
-  cases::RunDescription FittedRun::description() const
+  cases::RunDescription FittedRun::describe() const
   {
     const RayMesh &mesh = problem->mesh();
     cases::RunDescription result;
@@ -38,30 +38,31 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  void FittedRun::observe(cases::Observer &observer, long step, double time,
-                          const dealii::Vector<double> &u)
+  cases::Snapshot FittedRun::snapshot(long step, double time)
   {
     cases::Snapshot snapshot;
     snapshot.step = step;
-    sites->read(time, u, snapshot);
-    const HeatContent heat = problem->heat(time, u);
+    sites->read(time, *shown, snapshot);
+    const HeatContent heat = problem->heat(time, *shown);
     snapshot.heat.stored = heat.sensible + before.sensible;
     snapshot.heat.latent = heat.latent + before.latent;
     snapshot.heat.boundary = heat.walls + before.walls;
     snapshot.heat.sources = heat.sources + before.sources;
     snapshot.heat.initial = initial_heat;
-    observer.observe(snapshot);
+    return snapshot;
   }
 
-  void FittedRun::report(cases::Observer &observer, long step, double time,
-                         const dealii::Vector<double> &u, bool always)
+  cases::Cost FittedRun::cost() const
   {
-    watch.without(
-        [&]
-        {
-          if(observer.wants(step, time) || always)
-            observe(observer, step, time, u);
-        });
+    cases::Cost cost;
+    cost.steps = integration.steps;
+    cost.unknowns = most_unknowns;
+    cost.work = integration.work;
+    cost.solver_iterations = integration.iterations;
+    cost.most_iterations = integration.most_iterations;
+    cost.effects = effect_costs;
+    cost.evidence = evidence();
+    return cost;
   }
 
   void FittedRun::add_effect_costs()
@@ -75,18 +76,20 @@ namespace meltfront::reference_fem::fitted
     }
   }
 
-  std::map<std::string, double> FittedRun::evidence(const IntegrationCost &cost) const
+  std::map<std::string, double> FittedRun::evidence() const
   {
     std::map<std::string, double> result{
         {"events that changed the mesh", static_cast<double>(events)},
-        {"steps divided in two", static_cast<double>(cost.halved)},
-        {"factorizations", static_cast<double>(cost.factorizations)}};
+        {"steps divided in two", static_cast<double>(integration.halved)},
+        {"factorizations", static_cast<double>(integration.factorizations)}};
     if(options.tolerance > 0)
-      result["steps repeated by the step control"] = static_cast<double>(cost.repeated);
+      result["steps repeated by the step control"]
+          = static_cast<double>(integration.repeated);
     if(resolution.options.get_string("scheme").starts_with("bdf"))
     {
-      result["steps that fell back to Radau"] = static_cast<double>(cost.fallbacks);
-      result["steps of Radau that start BDF"] = static_cast<double>(cost.starts);
+      result["steps that fell back to Radau"]
+          = static_cast<double>(integration.fallbacks);
+      result["steps of Radau that start BDF"] = static_cast<double>(integration.starts);
     }
     return result;
   }

@@ -46,6 +46,36 @@ namespace
    * that may change, and heat released in them. */
   struct Slab
   {
+    struct Posed : PosedProblem
+    {
+      explicit Posed(const Slab &slab)
+        : slab(slab)
+      {
+      }
+
+      const LinearProblem &linear() const override
+      {
+        return slab.problem;
+      }
+
+      LinearSites sites() const override
+      {
+        return {1, {slab.x, {}, {}}, slab.weights};
+      }
+
+      LinearDescription description() const override
+      {
+        return slab.description;
+      }
+
+      std::vector<cases::EffectCost> effect_costs(const cases::EffectSet &) const override
+      {
+        return {};
+      }
+
+      const Slab &slab;
+    };
+
     Slab()
     {
       scene.symmetry = cases::Symmetry::planar;
@@ -95,8 +125,10 @@ namespace
       resolution.options.set("time_scheme", scheme);
       resolution.options.set("steps", std::to_string(steps));
       Recorder recorder;
-      cost = run_linear_problem(scene, problem, {1, {x, {}, {}}, weights}, description,
-                                resolution, recorder);
+      const cases::Stopwatch watch;
+      const cases::EffectSet effects = cases::effects_called_for(scene);
+      cost = make_linear_run(scene, effects, std::make_unique<Posed>(*this), resolution)
+                 ->carry_out(scene, watch, recorder);
       return recorder;
     }
 

@@ -239,8 +239,10 @@ namespace meltfront::reference_fem::tests
       else
         resolution.options.set(key, text);
     Recorder recorder(scene, exact, record);
-    record.cost
-        = run_enthalpy(simulated, effects, resolution, recorder, record.statistics);
+    const Stopwatch watch;
+    EnthalpyRun solver(simulated, effects, resolution);
+    record.cost = solver.carry_out(simulated, watch, recorder);
+    record.statistics = solver.worst_of_steps();
     return record;
   }
 

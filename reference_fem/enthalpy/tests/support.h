@@ -4,7 +4,7 @@
 #include <cases/exact_solution.h>
 #include <cases/method.h>
 #include <cases/scene.h>
-#include <reference_fem/enthalpy/solver.h>
+#include <reference_fem/enthalpy/run.h>
 
 #include <array>
 #include <map>
