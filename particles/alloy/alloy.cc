@@ -62,7 +62,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return mixture_options();
+        return cases::options_of(MixtureParameters());
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
@@ -121,7 +121,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return two_population_options(policy);
+        return cases::options_of(TwoPopulationParameters(policy));
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,

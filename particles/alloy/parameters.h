@@ -15,12 +15,15 @@ namespace meltfront::particles
     harmonic    ///< 2 k_a k_b/(k_a + k_b)
   };
 
-  std::vector<cases::OptionDeclaration> mixture_options();
-
+  /** The options of `sph-mixture`. */
   struct MixtureParameters
   {
+    MixtureParameters();
+
+    void bind(cases::OptionBinder &options);
+
     SphParameters sph;
-    MeanConductivity mean;
+    MeanConductivity mean = MeanConductivity::integral;
   };
 
   /** How the particles of two populations exchange heat. */
@@ -45,10 +48,10 @@ namespace meltfront::particles
     std::string summary;
     std::string corrected_form;
     bool as_published; ///< in two dimensions, with steps in units of c rho h^2/k
-    std::string exchange;
-    std::string new_ice;
-    std::string latent_heat;
-    std::string layout;
+    PhaseExchange exchange;
+    NewIce new_ice;
+    bool constant_latent_heat;
+    LatticeLayout layout;
     bool moment_correction;
     double smoothing;
     double step_factor;
@@ -60,11 +63,13 @@ namespace meltfront::particles
   /** `sph-two-population-2005` */
   const TwoPopulationPolicy &published_two_population();
 
-  std::vector<cases::OptionDeclaration>
-  two_population_options(const TwoPopulationPolicy &policy);
-
+  /** The options of a method of two populations. */
   struct TwoPopulationParameters
   {
+    explicit TwoPopulationParameters(const TwoPopulationPolicy &policy);
+
+    void bind(cases::OptionBinder &options);
+
     std::string name;
     bool as_published;
     SphParameters sph;

@@ -97,7 +97,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return tracking_options();
+        return cases::options_of(TrackingParameters());
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,

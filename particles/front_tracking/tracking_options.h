@@ -2,10 +2,10 @@
 #define meltfront_particles_front_tracking_tracking_options_h
 
 #include <cases/method.h>
+#include <cases/option_binder.h>
 #include <cases/overshoot.h>
 
 #include <string>
-#include <vector>
 
 namespace meltfront::particles::front_tracking
 {
@@ -65,19 +65,33 @@ namespace meltfront::particles::front_tracking
     always
   };
 
-  /** A run's options, read. */
+  /** What n refines. */
+  enum class Refine
+  {
+    both,
+    space,
+    time
+  };
+
+  /** The options of the method. */
   struct TrackingParameters
   {
-    int intervals = 40; ///< of the spacing along the domain's side
-    int steps = 60;     ///< planned over the run; where fronts are fast there are more
+    void bind(cases::OptionBinder &options);
+
+    int dimension = 0;  ///< 0: the lowest
+    int intervals = 80; ///< of the spacing along the domain's side
+    int steps = 0;      ///< planned over the run; where fronts are fast there are more
+    Refine refine = Refine::both;
     int basis_order = 2;
-    double dilation = 2.6; ///< radius of the kernel over the spacing
+    double dilation = 0; ///< radius of the kernel over the spacing
     TimeScheme scheme = TimeScheme::bdf2;
+    std::string clock_name = "auto";
     Clock clock = Clock::time;
     double largest_move = 0.5; ///< of a front in a step, over the spacing
     double absorption = 0.1;   ///< nodes nearer to a front are interpolated, over the
                                ///< spacing
-    double jitter = 0;         ///< of inner nodes, over the spacing
+    bool jittered = false;
+    double jitter = 0.2; ///< of inner nodes, over the spacing
     Start start = Start::automatic;
     bool exact_history = true; ///< before the start, where the start is exact
     Displaced displaced = Displaced::liquid;
@@ -86,9 +100,6 @@ namespace meltfront::particles::front_tracking
     RelaxRule relax_rule = RelaxRule::homing;
   };
 
-  /** All options of the method. */
-  std::vector<cases::OptionDeclaration> tracking_options();
-
   /**
    * Dimension in which a scene is simulated: 1 for a slab and, unless asked otherwise,
    * for what depends on the distance from an axis or a centre.
@@ -96,7 +107,7 @@ namespace meltfront::particles::front_tracking
    */
   int simulated_dimension(const cases::Scene &scene, const cases::Options &options);
 
-  /** Read the options that both dimensions share. */
+  /** The options, made out for a scene. */
   TrackingParameters read_tracking_parameters(const cases::Scene &scene,
                                               const cases::Resolution &resolution);
 } // namespace meltfront::particles::front_tracking

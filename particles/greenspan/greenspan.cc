@@ -31,18 +31,19 @@ namespace meltfront::particles
         : scene(scene)
         , effects(effects)
         , experiment(experiment_of(scene, resolution))
-        , checkpoint_file(resolution.options.get_string("checkpoint"))
-        , checkpoint_interval(resolution.options.get_integer("checkpoint_interval"))
-        , resumed(checkpoint_file.empty() ? std::optional<Checkpoint>()
-                                          : read_checkpoint(checkpoint_file, experiment))
+        , options(cases::read_options(SolidOptions(), resolution.options))
+        , resumed(options.checkpoint.empty()
+                      ? std::optional<Checkpoint>()
+                      : read_checkpoint(options.checkpoint, experiment))
         , motion(experiment.parameters, resumed ? resumed->state : experiment.start)
         , witness(experiment)
         , conserves_energy(!experiment.parameters.base && !experiment.parameters.source)
       {
-        if(checkpoint_interval % experiment.interval != 0)
+        if(options.checkpoint_interval % experiment.interval != 0)
           throw cases::Refusal(fmt::format("checkpoint_interval = {} is no multiple of "
                                            "interval = {}",
-                                           checkpoint_interval, experiment.interval));
+                                           options.checkpoint_interval,
+                                           experiment.interval));
       }
 
       cases::RunDescription describe() const override
@@ -91,8 +92,8 @@ namespace meltfront::particles
           look();
           keep_checkpoint();
         }
-        if(!checkpoint_file.empty())
-          std::filesystem::remove(checkpoint_file); // it has served
+        if(!options.checkpoint.empty())
+          std::filesystem::remove(options.checkpoint); // it has served
         tell_outcomes();
       }
 
@@ -122,9 +123,9 @@ namespace meltfront::particles
 
       void keep_checkpoint()
       {
-        if(checkpoint_file.empty() || motion.step() % checkpoint_interval != 0)
+        if(options.checkpoint.empty() || motion.step() % options.checkpoint_interval != 0)
           return;
-        write_checkpoint(checkpoint_file,
+        write_checkpoint(options.checkpoint,
                          {run_fingerprint(experiment), motion.state(), witness.memory(),
                           initial_energy, energy_error});
       }
@@ -216,8 +217,7 @@ namespace meltfront::particles
       const cases::Scene &scene;
       const cases::EffectSet &effects;
       Experiment experiment;
-      std::string checkpoint_file;
-      long checkpoint_interval;
+      SolidOptions options;
       std::optional<Checkpoint> resumed;
       Motion motion;
       Witness witness;
@@ -264,26 +264,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return {
-            {"interval", "1", 100L,
-             "Steps from one look at the particles to the next; divides 1000.", 1, 1000},
-            {"skin", "1", 0.3, "Neighbours are kept that much beyond the cutoff.", 0, 2},
-            {"neighbours",
-             "",
-             std::string("automatic"),
-             "How neighbours are found: cells for large solids, or all pairs.",
-             {},
-             {},
-             {"automatic", "all pairs"}},
-            {"step_factor", "1", 1.,
-             "Time step over that of the scene, where nothing acts once per step.", 0.01,
-             10},
-            {"checkpoint", "", std::string(),
-             "File that a run is saved to and goes on from, bit for bit, removed at its "
-             "end; empty: none."},
-            {"checkpoint_interval", "1", 10000L,
-             "Steps from one checkpoint to the next, a multiple of the interval.", 1,
-             1e9}};
+        return cases::options_of(SolidOptions());
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,

@@ -39,10 +39,10 @@ namespace meltfront::particles::greenspan
     MotionParameters parameters_of(const cases::ParticleSolid &solid,
                                    const cases::Resolution &resolution)
     {
-      const cases::Options &options = resolution.options;
+      const auto options = cases::read_options(SolidOptions(), resolution.options);
       MotionParameters parameters;
       parameters.force = force_of(solid.law);
-      const double factor = options.get_double("step_factor");
+      const double factor = options.step_factor;
       if(factor != 1 && (solid.base || solid.heating))
         throw cases::Refusal("step_factor scales the time step, but a base and a source "
                              "act once in each step: with another step they are another "
@@ -54,9 +54,8 @@ namespace meltfront::particles::greenspan
       if(solid.heating)
         parameters.source = source_of(*solid.heating);
       parameters.temperatures = solid.test == cases::SolidTest::temperature;
-      parameters.skin = options.get_double("skin");
-      if(options.get_string("neighbours") == "all pairs")
-        parameters.search = NeighbourRows::Search::among_all;
+      parameters.skin = options.skin;
+      parameters.search = options.search;
       parameters.threads = resolution.threads;
       return parameters;
     }
@@ -108,6 +107,27 @@ namespace meltfront::particles::greenspan
     return force;
   }
 
+  void SolidOptions::bind(cases::OptionBinder &options)
+  {
+    options.add("interval", interval,
+                "Steps from one look at the particles to the next; divides 1000.", 1,
+                1000);
+    options.add("skin", skin, "Neighbours are kept that much beyond the cutoff.", 0, 2);
+    options.add("neighbours", search,
+                "How neighbours are found: cells for large solids, or all pairs.",
+                {{"automatic", NeighbourRows::Search::automatic},
+                 {"all pairs", NeighbourRows::Search::among_all}});
+    options.add("step_factor", step_factor,
+                "Time step over that of the scene, where nothing acts once per step.",
+                0.01, 10);
+    options.add("checkpoint", checkpoint,
+                "File that a run is saved to and goes on from, bit for bit, removed at "
+                "its end; empty: none.");
+    options.add("checkpoint_interval", checkpoint_interval,
+                "Steps from one checkpoint to the next, a multiple of the interval.", 1,
+                1e9);
+  }
+
   cases::Demand solid_demand(const cases::Scene &scene,
                              const cases::Resolution &resolution)
   {
@@ -117,18 +137,17 @@ namespace meltfront::particles::greenspan
     constexpr double per_particle = 300, per_neighbour = 12, of_pair = 4;
     const cases::ParticleSolid &solid = *scene.particle_solid;
     const bool bar = scene.problem == cases::ProblemKind::stefan;
+    const auto options = cases::read_options(SolidOptions(), resolution.options);
     const double n = resolution.n;
     const double particles = solid.arrangement == SolidArrangement::table ? n
                              : solid.arrangement == SolidArrangement::triangle
                                  ? n * (n + 1) / 2
                                  : n * solid.rows;
-    const double reach = (solid.law.cutoff + resolution.options.get_double("skin"))
-                         / force_of(solid.law).equilibrium_distance();
+    const double reach
+        = (solid.law.cutoff + options.skin) / force_of(solid.law).equilibrium_distance();
     const double neighbours = cases::points_within(2, reach) * std::sqrt(4. / 3);
-    const bool all_pairs
-        = !bar && resolution.options.get_string("neighbours") == "all pairs";
-    const double step
-        = solid.time_step * (bar ? 1 : resolution.options.get_double("step_factor"));
+    const bool all_pairs = !bar && options.search == NeighbourRows::Search::among_all;
+    const double step = solid.time_step * (bar ? 1 : options.step_factor);
     return {cases::program_bytes
                 + particles
                       * (per_particle + per_neighbour * neighbours
@@ -147,7 +166,8 @@ namespace meltfront::particles::greenspan
       disturb(experiment.start, solid.disturbance, resolution.seed);
     experiment.steps = std::lround((scene.end_time - scene.start_time)
                                    / experiment.parameters.time_step);
-    experiment.interval = resolution.options.get_integer("interval");
+    experiment.interval
+        = cases::read_options(SolidOptions(), resolution.options).interval;
     if(solid.test == cases::SolidTest::temperature)
       experiment.test = PhaseTest::temperature;
     for(const int corner : solid.corners)

@@ -2,11 +2,25 @@
 #define meltfront_particles_greenspan_scene_experiment_h
 
 #include <cases/method.h>
+#include <cases/option_binder.h>
 #include <cases/scene.h>
 #include <particles/greenspan/experiments.h>
 
 namespace meltfront::particles::greenspan
 {
+  /** The options of a solid of particles. */
+  struct SolidOptions
+  {
+    void bind(cases::OptionBinder &options);
+
+    long interval = 100;
+    double skin = 0.3;
+    NeighbourRows::Search search = NeighbourRows::Search::automatic;
+    double step_factor = 1;
+    std::string checkpoint;
+    long checkpoint_interval = 10000;
+  };
+
   /** The force of a scene's particles. */
   PairForce force_of(const cases::PairLaw &law);
 

@@ -1,5 +1,6 @@
 #include <cases/demand.h>
 #include <cases/error.h>
+#include <cases/option_binder.h>
 #include <cases/run.h>
 #include <cases/scene.h>
 #include <cases/shape.h>
@@ -47,79 +48,91 @@ namespace meltfront::particles
          "A level set that all markers correct by fits of the distances that they carry "
          "(Erickson et al. 2016)."}};
 
-    std::vector<cases::OptionDeclaration> grid_options()
+    /** The options of a scheme. */
+    struct FrontOptions
     {
-      return {
-          {"cfl", "1", 0.5,
-           "Part of a spacing that the fastest component of the velocity crosses in a "
-           "step.",
-           0.01, 1},
-          {"reinitialise_every", "1", 10L,
-           "Steps from one reinitialisation to the next; 0: never.", 0, 1e6},
-          {"iterations", "1", 10L, "Of one reinitialisation.", 1, 1000},
-          {"band_layers", "1", 6L,
-           "Layers of nodes beside the front that are computed; 0: the whole grid.", 0,
-           1000},
-          {"equal_parts", "1", 2L,
-           "Parts of the time whose ends fall on the ends of steps.", 1, 1000}};
+      explicit FrontOptions(Scheme scheme);
+
+      void bind(cases::OptionBinder &options);
+
+      Scheme scheme;
+      TransportParameters transport;
+      int band_layers = 6;
+      MarkerParameters markers;
+      EscapeMerge merge = EscapeMerge::smaller_magnitude;
+      std::string fit = "automatic";
+      bool carried = true;
+      double offset_x = 0, offset_y = 0;
+      long steps_at_rest = 5;
+    };
+
+    FrontOptions::FrontOptions(const Scheme scheme)
+      : scheme(scheme)
+    {
+      transport.equal_parts = 2;
+      if(scheme == Scheme::interpolative)
+        return;
+      markers.per_cell = 64;
+      markers.reseeding = ReseedingRule::none;
     }
 
-    std::vector<cases::OptionDeclaration> marker_options(const Scheme scheme)
+    void FrontOptions::bind(cases::OptionBinder &options)
     {
-      const bool fits = scheme == Scheme::interpolative;
-      std::vector<cases::OptionDeclaration> list{
-          {"per_cell", "1", fits ? 12L : 64L, "Markers in each cell near the front.", 1,
-           1000},
-          {"correct_every", "1", 1L, "Steps from one correction to the next.", 1, 1000},
-          {"reseeding",
-           "",
-           std::string(fits ? "midpoint" : "none"),
-           "Where markers are added: nowhere, in cells near the front from the grid's "
-           "distance, or between markers that have moved apart (not where the motion is "
-           "rigid).",
-           {},
-           {},
-           fits ? std::vector<std::string>{"none", "grid", "midpoint"}
-                : std::vector<std::string>{"none", "grid"}},
-          {"reseed_every", "1", 20L, "Steps from one reseeding to the next.", 1, 1e6},
-          {"offset_x", "1", 0.,
-           "By how many spacings the grid's front lies off at the start, which the "
-           "markers "
-           "know better: a test of corrections.",
-           -3, 3},
-          {"offset_y", "1", 0., "The same along y.", -3, 3},
-          {"steps_at_rest", "1", 5L, "Corrections where the velocity is zero.", 1, 1000}};
+      options.add("cfl", transport.courant_number,
+                  "Part of a spacing that the fastest component of the velocity crosses "
+                  "in a step.",
+                  0.01, 1);
+      options.add("reinitialise_every", transport.reinitialise_every,
+                  "Steps from one reinitialisation to the next; 0: never.", 0, 1e6);
+      options.add("iterations", transport.iterations, "Of one reinitialisation.", 1,
+                  1000);
+      options.add("band_layers", band_layers,
+                  "Layers of nodes beside the front that are computed; 0: the whole "
+                  "grid.",
+                  0, 1000);
+      options.add("equal_parts", transport.equal_parts,
+                  "Parts of the time whose ends fall on the ends of steps.", 1, 1000);
+      if(scheme == Scheme::alone)
+        return;
+      options.add("per_cell", markers.per_cell, "Markers in each cell near the front.", 1,
+                  1000);
+      options.add("correct_every", markers.correct_every,
+                  "Steps from one correction to the next.", 1, 1000);
+      cases::Words<ReseedingRule> rules{{"none", ReseedingRule::none},
+                                        {"grid", ReseedingRule::grid}};
+      if(scheme == Scheme::interpolative)
+        rules.emplace_back("midpoint", ReseedingRule::midpoint);
+      options.add("reseeding", markers.reseeding,
+                  "Where markers are added: nowhere, in cells near the front from the "
+                  "grid's distance, or between markers that have moved apart (not where "
+                  "the motion is rigid).",
+                  rules);
+      options.add("reseed_every", markers.reseed_every,
+                  "Steps from one reseeding to the next.", 1, 1e6);
+      options.add("offset_x", offset_x,
+                  "By how many spacings the grid's front lies off at the start, which "
+                  "the markers know better: a test of corrections.",
+                  -3, 3);
+      options.add("offset_y", offset_y, "The same along y.", -3, 3);
+      options.add("steps_at_rest", steps_at_rest,
+                  "Corrections where the velocity is zero.", 1, 1000);
       if(scheme == Scheme::corrected)
-        list.push_back({"merge",
-                        "",
-                        std::string("minabs"),
-                        "What a node takes: the value nearest to zero among the markers' "
-                        "and its own (4.15), or the markers' whatever its own.",
-                        {},
-                        {},
-                        {"minabs", "replace"}});
-      if(fits)
-      {
-        list.push_back(
-            {"fit",
-             "",
-             std::string("automatic"),
-             "One quadratic through all markers about a node, only through those "
-             "of the nearest front, or the one where the motion is rigid and "
-             "the other elsewhere.",
-             {},
-             {},
-             {"automatic", "single", "clustered"}});
-        list.push_back({"distances",
-                        "",
-                        std::string("carried"),
-                        "Whether markers' distances strain with the flow, or are kept as "
-                        "the report's are.",
-                        {},
-                        {},
-                        {"carried", "kept"}});
-      }
-      return list;
+        options.add("merge", merge,
+                    "What a node takes: the value nearest to zero among the markers' and "
+                    "its own (4.15), or the markers' whatever its own.",
+                    {{"minabs", EscapeMerge::smaller_magnitude},
+                     {"replace", EscapeMerge::replace}});
+      if(scheme != Scheme::interpolative)
+        return;
+      options.add("fit", fit,
+                  "One quadratic through all markers about a node, only through those of "
+                  "the nearest front, or the one where the motion is rigid and the other "
+                  "elsewhere.",
+                  cases::themselves({"automatic", "single", "clustered"}));
+      options.add("distances", carried,
+                  "Whether markers' distances strain with the flow, or are kept as the "
+                  "report's are.",
+                  {{"carried", true}, {"kept", false}});
     }
 
     Grid grid_of(const cases::Domain &domain, const int n)
@@ -156,32 +169,27 @@ namespace meltfront::particles
       return double(count.steps) * n / few;
     }
 
-    MarkerParameters marker_parameters(const Scheme scheme, const cases::Scene &scene,
+    MarkerParameters marker_parameters(const FrontOptions &options,
+                                       const cases::Scene &scene,
                                        const cases::Resolution &resolution)
     {
-      const cases::Options &options = resolution.options;
       MarkerParameters markers;
-      if(scheme == Scheme::original)
+      if(options.scheme == Scheme::original)
         markers = MarkerParameters::original();
-      else if(scheme == Scheme::corrected)
-        markers = MarkerParameters::corrected(options.get_string("merge") == "replace"
-                                                  ? EscapeMerge::replace
-                                                  : EscapeMerge::smaller_magnitude);
+      else if(options.scheme == Scheme::corrected)
+        markers = MarkerParameters::corrected(options.merge);
       else
       {
-        const std::string fit = options.get_string("fit");
-        const bool single = fit == "single"
-                            || (fit == "automatic" && scene.interface->velocity->rigid());
+        const bool single
+            = options.fit == "single"
+              || (options.fit == "automatic" && scene.interface->velocity->rigid());
         markers = MarkerParameters::interpolating(scene.domain.dimension, !single);
-        markers.carry_distance = options.get_string("distances") == "carried";
+        markers.carry_distance = options.carried;
       }
-      const std::string reseeding = options.get_string("reseeding");
-      markers.reseeding = reseeding == "none"   ? ReseedingRule::none
-                          : reseeding == "grid" ? ReseedingRule::grid
-                                                : ReseedingRule::midpoint;
-      markers.per_cell = static_cast<int>(options.get_integer("per_cell"));
-      markers.correct_every = static_cast<int>(options.get_integer("correct_every"));
-      markers.reseed_every = static_cast<int>(options.get_integer("reseed_every"));
+      markers.reseeding = options.markers.reseeding;
+      markers.per_cell = options.markers.per_cell;
+      markers.correct_every = options.markers.correct_every;
+      markers.reseed_every = options.markers.reseed_every;
       markers.seed = resolution.seed;
       markers.threads = resolution.threads;
       return markers;
@@ -190,24 +198,18 @@ namespace meltfront::particles
     MarkerRunParameters run_parameters(const Scheme scheme, const cases::Scene &scene,
                                        const cases::Resolution &resolution)
     {
-      const cases::Options &options = resolution.options;
+      const auto options = cases::read_options(FrontOptions(scheme), resolution.options);
       MarkerRunParameters parameters;
       TransportParameters &transport = parameters.transport;
+      transport = options.transport;
       transport.end_time = scene.end_time - scene.start_time;
-      transport.courant_number = options.get_double("cfl");
-      transport.reinitialise_every
-          = static_cast<int>(options.get_integer("reinitialise_every"));
-      transport.iterations = static_cast<int>(options.get_integer("iterations"));
-      transport.equal_parts = options.get_integer("equal_parts");
-      transport.level_set.band_layers
-          = static_cast<int>(options.get_integer("band_layers"));
+      transport.level_set.band_layers = options.band_layers;
       transport.level_set.threads = resolution.threads;
       if(scheme == Scheme::alone)
         return parameters;
-      parameters.markers = marker_parameters(scheme, scene, resolution);
-      parameters.grid_offset
-          = {options.get_double("offset_x"), options.get_double("offset_y"), 0};
-      parameters.steps_at_rest = options.get_integer("steps_at_rest");
+      parameters.markers = marker_parameters(options, scene, resolution);
+      parameters.grid_offset = {options.offset_x, options.offset_y, 0};
+      parameters.steps_at_rest = options.steps_at_rest;
       return parameters;
     }
 
@@ -355,11 +357,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        std::vector<cases::OptionDeclaration> list = grid_options();
-        if(variant.scheme != Scheme::alone)
-          for(cases::OptionDeclaration &option : marker_options(variant.scheme))
-            list.push_back(std::move(option));
-        return list;
+        return cases::options_of(FrontOptions(variant.scheme));
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,

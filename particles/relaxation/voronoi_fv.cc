@@ -48,6 +48,52 @@ namespace meltfront::particles
           fmt::format("{:.3g}", descent.largest_force * length / scale), "1");
     }
 
+    struct VoronoiOptions
+    {
+      void bind(cases::OptionBinder &options);
+
+      std::string arrangement = "relaxed";
+      double jitter = 0.2;
+      double length_over_spacing = 1;
+      LennardJonesRelaxation relaxation;
+      long sweeps = 20;
+      std::string source = "centroid";
+      LinearOptions linear;
+    };
+
+    void VoronoiOptions::bind(cases::OptionBinder &options)
+    {
+      options.add(
+          "arrangement", arrangement,
+          "Where the n particles along a side inside the walls are (spacing 1/(n + 1) "
+          "of the side): on a lattice, displaced from it, at random, or moved from "
+          "there to a minimum of the Lennard-Jones energy or by Lloyd's sweeps.",
+          cases::themselves({"lattice", "jittered", "random", "relaxed", "lloyd"}));
+      options.add("jitter", jitter,
+                  "Largest displacement from the lattice over its spacing, if jittered.",
+                  0, 0.5);
+      options.add("length_over_spacing", length_over_spacing,
+                  "Length sigma of the Lennard-Jones potential over the spacing of the "
+                  "lattice; below 0.95 voids remain.",
+                  0.5, 2);
+      options.add("relaxation_tolerance", relaxation.tolerance,
+                  "Relative change of the Lennard-Jones energy in an iteration at which "
+                  "the relaxation stops.",
+                  1e-16, 1);
+      options.add("relaxation_fall", relaxation.least_fall,
+                  "Fall of the Lennard-Jones energy per particle in 100 iterations, over "
+                  "epsilon, below which the relaxation stops too; 0: not.",
+                  0, 1);
+      options.add("relaxation_iterations", relaxation.most_iterations,
+                  "Most iterations of the relaxation by conjugate gradients.", 0, 1e9);
+      options.add("sweeps", sweeps, "Lloyd's sweeps.", 0, 1e6);
+      options.add("source", source,
+                  "Where the heat released in a cell is evaluated: at its particle (as "
+                  "published) or at its centroid.",
+                  cases::themselves({"particle", "centroid"}));
+      linear.bind(options);
+    }
+
     NodeArrangement start_of(const std::string &arrangement)
     {
       if(arrangement == "lattice")
@@ -56,78 +102,34 @@ namespace meltfront::particles
                                        : NodeArrangement::random;
     }
 
-    Arranged arrange(const cases::Scene &scene, const cases::Resolution &resolution)
+    Arranged arrange(const cases::Scene &scene, const VoronoiOptions &options,
+                     const cases::Resolution &resolution)
     {
-      const cases::Options &options = resolution.options;
-      const std::string &arrangement = options.get_string("arrangement");
       // A conductivity that jumps is met by the cells, not by moving particles onto it.
       cases::Scene uniform = scene;
       uniform.inclusion.reset();
       Arranged result;
       result.nodes
-          = arrange_nodes(uniform, resolution.n + 1, start_of(arrangement),
-                          options.get_double("jitter"), resolution.seed, method_name);
-      result.parameters.push_back({"arrangement", arrangement, ""});
-      if(arrangement == "relaxed")
+          = arrange_nodes(uniform, resolution.n + 1, start_of(options.arrangement),
+                          options.jitter, resolution.seed, method_name);
+      result.parameters.push_back({"arrangement", options.arrangement, ""});
+      if(options.arrangement == "relaxed")
       {
-        LennardJonesRelaxation relaxation;
+        LennardJonesRelaxation relaxation = options.relaxation;
         relaxation.threads = resolution.threads;
-        relaxation.tolerance = options.get_double("relaxation_tolerance");
-        relaxation.least_fall = options.get_double("relaxation_fall");
-        relaxation.most_iterations = options.get_integer("relaxation_iterations");
-        const double factor = options.get_double("length_over_spacing");
+        const double factor = options.length_over_spacing;
         const Descent descent
             = relax_inner_nodes(result.nodes, scene.domain, relaxation, factor);
         describe(descent, relaxation, factor * result.nodes.spacing, result.parameters);
       }
-      if(arrangement == "lloyd")
+      if(options.arrangement == "lloyd")
       {
-        const long sweeps = options.get_integer("sweeps");
         lloyd(result.nodes.positions, result.nodes.inner, coordinate_box(scene.domain),
-              static_cast<int>(sweeps));
-        result.parameters.push_back({"Lloyd sweeps", std::to_string(sweeps), "1"});
+              static_cast<int>(options.sweeps));
+        result.parameters.push_back(
+            {"Lloyd sweeps", std::to_string(options.sweeps), "1"});
       }
       return result;
-    }
-
-    std::vector<cases::OptionDeclaration> arrangement_options()
-    {
-      return {
-          {"arrangement",
-           "",
-           std::string("relaxed"),
-           "Where the n particles along a side inside the walls are (spacing 1/(n + 1) "
-           "of the side): on a lattice, displaced from it, at random, or moved from "
-           "there to a minimum of the Lennard-Jones energy or by Lloyd's sweeps.",
-           0,
-           0,
-           {"lattice", "jittered", "random", "relaxed", "lloyd"}},
-          {"jitter", "1", 0.2,
-           "Largest displacement from the lattice over its spacing, if jittered.", 0,
-           0.5},
-          {"length_over_spacing", "1", 1.,
-           "Length sigma of the Lennard-Jones potential over the spacing of the "
-           "lattice; below 0.95 voids remain.",
-           0.5, 2},
-          {"relaxation_tolerance", "1", 1e-12,
-           "Relative change of the Lennard-Jones energy in an iteration at which the "
-           "relaxation stops.",
-           1e-16, 1},
-          {"relaxation_fall", "1", LennardJonesRelaxation().least_fall,
-           "Fall of the Lennard-Jones energy per particle in 100 iterations, over "
-           "epsilon, below which the relaxation stops too; 0: not.",
-           0, 1},
-          {"relaxation_iterations", "1", 200000L,
-           "Most iterations of the relaxation by conjugate gradients.", 0, 1e9},
-          {"sweeps", "1", 20L, "Lloyd's sweeps.", 0, 1e6},
-          {"source",
-           "",
-           std::string("centroid"),
-           "Where the heat released in a cell is evaluated: at its particle (as "
-           "published) or at its centroid.",
-           0,
-           0,
-           {"particle", "centroid"}}};
     }
 
     class CellsOnNodes : public PosedProblem
@@ -135,12 +137,13 @@ namespace meltfront::particles
     public:
       CellsOnNodes(const cases::Scene &scene, const cases::Resolution &resolution)
         : dimension(scene.domain.dimension)
-        , source(resolution.options.get_string("source"))
-        , arranged(arrange(scene, resolution))
+        , options(cases::read_options(VoronoiOptions(), resolution.options))
+        , arranged(arrange(scene, options, resolution))
         , conduction(
               scene, arranged.nodes,
               voronoi_cells(arranged.nodes.positions, coordinate_box(scene.domain)),
-              source == "particle" ? SourcePoint::particle : SourcePoint::centroid)
+              options.source == "particle" ? SourcePoint::particle
+                                           : SourcePoint::centroid)
         , problem(conduction.problem())
       {
       }
@@ -162,7 +165,7 @@ namespace meltfront::particles
         result.run.dimension = dimension;
         result.run.spacing = arranged.nodes.spacing;
         result.run.parameters = arranged.parameters;
-        result.run.parameters.push_back({"heat release at", source, ""});
+        result.run.parameters.push_back({"heat release at", options.source, ""});
         result.obeys_maximum_principle = true;
         result.overshoot = allowed_overshoot;
         result.setup_work = static_cast<long>(problem.operator_rows.size());
@@ -177,7 +180,7 @@ namespace meltfront::particles
 
     private:
       int dimension;
-      std::string source;
+      VoronoiOptions options;
       Arranged arranged;
       CellConduction conduction;
       LinearProblem problem;
@@ -219,9 +222,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        std::vector<cases::OptionDeclaration> result = arrangement_options();
-        std::ranges::move(linear_options(), std::back_inserter(result));
-        return result;
+        return cases::options_of(VoronoiOptions());
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,

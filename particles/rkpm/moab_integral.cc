@@ -3,7 +3,6 @@
 #include <particles/relaxation/relax_nodes.h>
 #include <particles/rkpm/integral_problem.h>
 #include <particles/rkpm/moab_integral.h>
-#include <particles/scattered/linear_choices.h>
 
 #include <fmt/format.h>
 
@@ -20,12 +19,56 @@ namespace meltfront::particles
      * heat is exchanged with an ambient temperature far off. */
     constexpr cases::Overshoot overshoot{0.16, 0.5};
 
-    /** Every kernel with a Laplacian. */
-    std::vector<std::string> kernels_with_laplacian()
+    struct IntegralOptions
     {
-      std::vector<std::string> names = kernel_names();
-      std::erase(names, kernel_name(KernelShape::hat));
-      return names;
+      void bind(cases::OptionBinder &options);
+
+      IntegralParameters parameters{.dilation = 0};
+      NodeArrangement arrangement = NodeArrangement::lattice;
+      double jitter = 0.2;
+      LinearOptions linear{};
+    };
+
+    /** Every kernel with a Laplacian. */
+    cases::Words<KernelShape> kernels_with_laplacian()
+    {
+      cases::Words<KernelShape> words;
+      for(const std::string &name : kernel_names())
+        if(name != kernel_name(KernelShape::hat))
+          words.emplace_back(name, kernel_shape(name));
+      return words;
+    }
+
+    void IntegralOptions::bind(cases::OptionBinder &options)
+    {
+      options.add("kernel", parameters.kernel, "Shape of the kernel.",
+                  kernels_with_laplacian());
+      options.add(
+          "weights", parameters.weights,
+          "Weights of the particles: a set for each integral; one set with (3.13) and "
+          "(3.14) of Erickson et al. 2016; one with (3.13) alone; or their volumes.",
+          cases::in_order<WeightPolicy>(weight_policy_names()));
+      options.add("constraint_order", parameters.order,
+                  "Degree of the polynomials for which rows are exact.", 3, 4);
+      options.add("dilation", parameters.dilation,
+                  "Radius of the kernel over the spacing; 0: 2.5 on a line; in the plane "
+                  "2.6, with walls of given flux 3.5, and 3.5 and 4.5 for constraint "
+                  "order 4.",
+                  0, 20);
+      options.add("support", parameters.enlarge,
+                  "Enlarge the dilation where constraints cannot be met, or meet them as "
+                  "well as the dilation allows.",
+                  {{"enlarged", true}, {"fixed", false}});
+      options.add("moments", parameters.sampled_moments,
+                  "Moments of the kernel: integrals, or sums over the particles.",
+                  {{"exact", false}, {"sampled", true}});
+      options.add("arrangement", arrangement, "How the inner particles are arranged.",
+                  cases::in_order<NodeArrangement>(arrangement_names()));
+      options.add("jitter", jitter,
+                  "Largest displacement of jittered particles over the spacing, in each "
+                  "direction.",
+                  0, 0.5);
+      linear.bind(options);
     }
 
     /** The smallest that is good on displaced particles, too, measured; rows at walls
@@ -46,23 +89,16 @@ namespace meltfront::particles
                                  });
     }
 
-    IntegralParameters read_parameters(const cases::Scene &scene,
-                                       const cases::Resolution &resolution)
+    IntegralOptions options_for(const cases::Scene &scene,
+                                const cases::Resolution &resolution)
     {
-      const cases::Options &options = resolution.options;
-      IntegralParameters parameters;
-      parameters.kernel = kernel_shape(options.get_string("kernel"));
-      parameters.weights
-          = choice<WeightPolicy>(weight_policy_names(), options.get_string("weights"));
-      parameters.order = static_cast<int>(options.get_integer("constraint_order"));
-      parameters.dilation = options.get_double("dilation");
+      auto options = cases::read_options(IntegralOptions(), resolution.options);
+      IntegralParameters &parameters = options.parameters;
       if(parameters.dilation == 0)
         parameters.dilation = default_dilation(scene.domain.dimension, parameters.order,
                                                has_flux_walls(scene));
-      parameters.enlarge = options.get_string("support") == "enlarged";
-      parameters.sampled_moments = options.get_string("moments") == "sampled";
       parameters.threads = resolution.threads;
-      return parameters;
+      return options;
     }
 
     class MoabIntegral : public cases::Method
@@ -98,7 +134,10 @@ namespace meltfront::particles
              .overshoot = overshoot}};
       }
 
-      std::vector<cases::OptionDeclaration> option_declarations() const override;
+      std::vector<cases::OptionDeclaration> option_declarations() const override
+      {
+        return cases::options_of(IntegralOptions());
+      }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
                            const cases::Resolution &resolution) const override
@@ -107,8 +146,8 @@ namespace meltfront::particles
         return linear_demand(
             scene, resolution,
             {.nodes = cases::lattice_points(scene.domain, dimension, resolution.n),
-             .entries = cases::points_within(dimension,
-                                             read_parameters(scene, resolution).dilation),
+             .entries = cases::points_within(
+                 dimension, options_for(scene, resolution).parameters.dilation),
              .matrices = 8,
              .per_node = 500});
       }
@@ -118,53 +157,16 @@ namespace meltfront::particles
              const cases::Resolution &resolution) const override;
     };
 
-    std::vector<cases::OptionDeclaration> MoabIntegral::option_declarations() const
-    {
-      std::vector<cases::OptionDeclaration> options{
-          {"kernel", "", std::string("wendland_c4"), "Shape of the kernel.", 0, 0,
-           kernels_with_laplacian()},
-          {"weights", "", std::string("separate"),
-           "Weights of the particles: a set for each integral; one set with (3.13) and "
-           "(3.14) of Erickson et al. 2016; one with (3.13) alone; or their volumes.",
-           0, 0, weight_policy_names()},
-          {"constraint_order", "1", 3L,
-           "Degree of the polynomials for which rows are exact.", 3, 4},
-          {"dilation", "1", 0.,
-           "Radius of the kernel over the spacing; 0: 2.5 on a line; in the plane 2.6, "
-           "with "
-           "walls of given flux 3.5, and 3.5 and 4.5 for constraint order 4.",
-           0, 20},
-          {"support", "", std::string("enlarged"),
-           "Enlarge the dilation where constraints cannot be met, or meet them as well "
-           "as "
-           "the dilation allows.",
-           0, 0, std::vector<std::string>{"enlarged", "fixed"}},
-          {"moments", "", std::string("exact"),
-           "Moments of the kernel: integrals, or sums over the particles.", 0, 0,
-           std::vector<std::string>{"exact", "sampled"}},
-          {"arrangement", "", std::string("lattice"),
-           "How the inner particles are arranged.", 0, 0, arrangement_names()},
-          {"jitter", "1", 0.2,
-           "Largest displacement of jittered particles over the spacing, in each "
-           "direction.",
-           0, 0.5}};
-      for(const cases::OptionDeclaration &option : linear_options())
-        options.push_back(option);
-      return options;
-    }
-
     class IntegralOnNodes : public PosedProblem
     {
     public:
       IntegralOnNodes(const cases::Scene &scene, const cases::Resolution &resolution)
         : dimension(scene.domain.dimension)
-        , nodes(arrange_nodes(
-              scene, resolution.n - 1,
-              choice<NodeArrangement>(arrangement_names(),
-                                      resolution.options.get_string("arrangement")),
-              resolution.options.get_double("jitter"), resolution.seed, method_name,
-              [&scene](NodeSet &set) { relax_inner_nodes(set, scene); }))
-        , problem(scene, nodes, read_parameters(scene, resolution))
+        , options(options_for(scene, resolution))
+        , nodes(arrange_nodes(scene, resolution.n - 1, options.arrangement,
+                              options.jitter, resolution.seed, method_name,
+                              [&scene](NodeSet &set) { relax_inner_nodes(set, scene); }))
+        , problem(scene, nodes, options.parameters)
       {
       }
 
@@ -199,6 +201,7 @@ namespace meltfront::particles
 
     private:
       int dimension;
+      IntegralOptions options;
       NodeSet nodes;
       IntegralProblem problem;
     };

@@ -118,7 +118,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return rkpm::rkpm_options(policy);
+        return cases::options_of(rkpm::RkpmOptions{.policy = policy});
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,

@@ -11,12 +11,13 @@ namespace meltfront::particles::rkpm
   namespace
   {
     /** The kernels that a user may name: those of all dimensions. */
-    std::vector<std::string> shapes()
+    cases::Words<KernelShape> shapes()
     {
-      std::vector<std::string> names = kernel_names();
-      std::erase_if(names,
-                    [](const std::string &name) { return name.ends_with("_line"); });
-      return names;
+      cases::Words<KernelShape> words;
+      for(const std::string &name : kernel_names())
+        if(!name.ends_with("_line"))
+          words.emplace_back(name, kernel_shape(name));
+      return words;
     }
 
     /** Dilation over spacing that n nearest neighbours have inside a cubic lattice, the
@@ -80,68 +81,62 @@ namespace meltfront::particles::rkpm
     return policies;
   }
 
-  std::vector<cases::OptionDeclaration> rkpm_options(const RkpmPolicy &policy)
+  void RkpmOptions::bind(cases::OptionBinder &options)
   {
-    std::vector<cases::OptionDeclaration> options{
-        {"kernel", "", std::string("wendland_c4"), "Shape of the kernel.", 0, 0,
-         shapes()},
-        {"basis_order", "1", 2L, "Order of the polynomials that are reproduced.", 2,
-         highest_order},
-        {"support", "", std::string("nearest"),
-         "The nearest neighbours, or all nodes within a fixed dilation.", 0, 0,
-         std::vector<std::string>{"nearest", "dilation"}},
-        {"neighbours", "1", 0L,
-         "Neighbours of a nearest support, the node itself counted; 0: twice the number "
-         "of basis functions, or fewer where that has a spurious mode.",
-         0, 1000},
-        {"dilation", "1", 0.,
-         "Radius of a fixed support over the spacing; 0: basis_order + 0.5.", 0, 20},
-        {"stability", "", std::string("refuse"),
-         "Refuse kernels and dilations with a spurious mode on the infinite lattice, or "
-         "only report it.",
-         0, 0, std::vector<std::string>{"refuse", "report"}},
-        {"unknowns", "", std::string("nodal"),
-         "Temperatures at the nodes, or the coefficients that they are reconstructed "
-         "from.",
-         0, 0, std::vector<std::string>{"nodal", "reconstructed"}},
-        {"flux_row", "", std::string("derivative"),
-         "A wall's flux prescribes the normal derivative; printed: the second "
-         "derivative, "
-         "which is singular (Erickson et al. 2016, equation 2.33).",
-         0, 0, std::vector<std::string>{"derivative", "printed"}},
-        {"arrangement", "", std::string("lattice"), "How the inner nodes are arranged.",
-         0, 0, arrangement_names()},
-        {"jitter", "1", 0.2,
-         "Largest displacement of jittered nodes over the spacing, in each direction.", 0,
-         0.5}};
+    options.add("kernel", kernel, "Shape of the kernel.", shapes());
+    options.add("basis_order", basis_order,
+                "Order of the polynomials that are reproduced.", 2, highest_order);
+    options.add("support", support,
+                "The nearest neighbours, or all nodes within a fixed dilation.",
+                {{"nearest", SupportRule::nearest_neighbours},
+                 {"dilation", SupportRule::fixed_dilation}});
+    options.add("neighbours", neighbours,
+                "Neighbours of a nearest support, the node itself counted; 0: twice the "
+                "number of basis functions, or fewer where that has a spurious mode.",
+                0, 1000);
+    options.add("dilation", dilation,
+                "Radius of a fixed support over the spacing; 0: basis_order + 0.5.", 0,
+                20);
+    options.add("stability", refuse_unstable,
+                "Refuse kernels and dilations with a spurious mode on the infinite "
+                "lattice, or only report it.",
+                {{"refuse", true}, {"report", false}});
+    options.add("unknowns", unknowns,
+                "Temperatures at the nodes, or the coefficients that they are "
+                "reconstructed from.",
+                {{"nodal", Unknowns::nodal}, {"reconstructed", Unknowns::reconstructed}});
+    options.add("flux_row", flux_row_as_printed,
+                "A wall's flux prescribes the normal derivative; printed: the second "
+                "derivative, which is singular (Erickson et al. 2016, equation 2.33).",
+                {{"derivative", false}, {"printed", true}});
+    options.add("arrangement", arrangement, "How the inner nodes are arranged.",
+                cases::in_order<NodeArrangement>(arrangement_names()));
+    options.add(
+        "jitter", jitter,
+        "Largest displacement of jittered nodes over the spacing, in each direction.", 0,
+        0.5);
     if(policy.variant == Variant::fixed_point || policy.variant == Variant::moving)
-      options.push_back(
-          {"origin", "", std::string("point"),
-           "Origin of the monomials: the point itself, or that of space, as "
-           "printed.",
-           0, 0, std::vector<std::string>{"point", "absolute"}});
-    for(const cases::OptionDeclaration &option : linear_options())
-      options.push_back(option);
-    return options;
+      options.add("origin", origin,
+                  "Origin of the monomials: the point itself, or that of space, as "
+                  "printed.",
+                  {{"point", Origin::point}, {"absolute", Origin::absolute}});
+    linear.bind(options);
   }
 
-  RkpmParameters read_parameters(const RkpmPolicy &policy, const cases::Options &options,
+  RkpmParameters read_parameters(const RkpmPolicy &policy, const cases::Options &given,
                                  int dimension)
   {
+    const auto options = cases::read_options(RkpmOptions{.policy = policy}, given);
     RkpmParameters result;
     MomentSettings &moments = result.moments;
     moments.variant = policy.variant;
-    moments.kernel = kernel_shape(options.get_string("kernel"));
+    moments.kernel = options.kernel;
     moments.dimension = dimension;
-    moments.order = static_cast<int>(options.get_integer("basis_order"));
-    if(policy.variant == Variant::fixed_point || policy.variant == Variant::moving)
-      moments.origin
-          = options.get_string("origin") == "point" ? Origin::point : Origin::absolute;
+    moments.order = options.basis_order;
+    moments.origin = options.origin;
     SupportSettings &supports = result.supports;
-    supports.rule = options.get_string("support") == "nearest"
-                        ? SupportRule::nearest_neighbours
-                        : SupportRule::fixed_dilation;
-    supports.neighbours = static_cast<int>(options.get_integer("neighbours"));
+    supports.rule = options.support;
+    supports.neighbours = options.neighbours;
     if(supports.rule == SupportRule::nearest_neighbours)
     {
       if(supports.neighbours == 0)
@@ -149,20 +144,13 @@ namespace meltfront::particles::rkpm
       supports.alpha = lattice_alpha(dimension, supports.neighbours);
     }
     else
-    {
-      supports.alpha = options.get_double("dilation");
-      if(supports.alpha == 0)
-        supports.alpha = default_alpha(moments.order);
-    }
-    result.unknowns = options.get_string("unknowns") == "nodal" ? Unknowns::nodal
-                                                                : Unknowns::reconstructed;
-    result.refuse_unstable = options.get_string("stability") == "refuse";
-    result.flux_row_as_printed = options.get_string("flux_row") == "printed";
-    result.jitter = options.get_double("jitter");
-    const std::string &arrangement = options.get_string("arrangement");
-    result.arrangement
-        = static_cast<NodeArrangement>(std::ranges::find(arrangement_names(), arrangement)
-                                       - arrangement_names().begin());
+      supports.alpha
+          = options.dilation == 0 ? default_alpha(moments.order) : options.dilation;
+    result.unknowns = options.unknowns;
+    result.refuse_unstable = options.refuse_unstable;
+    result.flux_row_as_printed = options.flux_row_as_printed;
+    result.jitter = options.jitter;
+    result.arrangement = options.arrangement;
     return result;
   }
 } // namespace meltfront::particles::rkpm

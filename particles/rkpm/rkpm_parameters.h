@@ -4,6 +4,7 @@
 #include <cases/method.h>
 #include <particles/rkpm/moment_engine.h>
 #include <particles/rkpm/supports.h>
+#include <particles/scattered/linear_problem.h>
 #include <particles/scattered/node_set.h>
 
 #include <vector>
@@ -51,9 +52,27 @@ namespace meltfront::particles::rkpm
    * up to 0.025 at n = 34 where heat comes in from a wall. */
   inline constexpr cases::Overshoot overshoot_at_inclusions{0.05, 1};
 
-  std::vector<cases::OptionDeclaration> rkpm_options(const RkpmPolicy &policy);
+  /** The options of a method. */
+  struct RkpmOptions
+  {
+    void bind(cases::OptionBinder &options);
 
-  /** The options of a run in some dimension. */
+    RkpmPolicy policy;
+    KernelShape kernel = KernelShape::wendland_c4;
+    int basis_order = 2;
+    SupportRule support = SupportRule::nearest_neighbours;
+    int neighbours = 0;  ///< 0: by the basis
+    double dilation = 0; ///< 0: by the order
+    bool refuse_unstable = true;
+    Unknowns unknowns = Unknowns::nodal;
+    bool flux_row_as_printed = false;
+    NodeArrangement arrangement = NodeArrangement::lattice;
+    double jitter = 0.2;
+    Origin origin = Origin::point;
+    LinearOptions linear{};
+  };
+
+  /** The options of a run in some dimension, made out. */
   RkpmParameters read_parameters(const RkpmPolicy &policy, const cases::Options &options,
                                  int dimension);
 } // namespace meltfront::particles::rkpm

@@ -4,7 +4,6 @@
 #include <cases/method.h>
 #include <particles/scattered/linear_problem.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,7 @@ namespace meltfront::particles
   const std::vector<std::string> &linear_scheme_names();
 
   /** The steps that are asked for, or those by default, of which a run takes no more. */
-  long linear_steps(const cases::Resolution &resolution);
+  long linear_steps(const LinearOptions &options, int n);
 
   /** As many steps as a run may have, of at least s^2 / (2 d a) each, with s^2 the
    * largest mean square distance over which a row of the mass matrix spreads what a site
@@ -23,13 +22,6 @@ namespace meltfront::particles
    * (Vermeer and Verruijt 1981; linear elements: h^2 / (6 a)). */
   long most_monotone_steps(const cases::Scene &scene, const LinearProblem &problem,
                            const LinearSites &sites);
-
-  /** The member of an enumeration that has a name, which is one of these. */
-  template <typename Enumeration>
-  Enumeration choice(const std::vector<std::string> &names, const std::string &name)
-  {
-    return static_cast<Enumeration>(std::ranges::find(names, name) - names.begin());
-  }
 } // namespace meltfront::particles
 
 #endif

@@ -13,10 +13,9 @@ namespace meltfront::particles
     return names;
   }
 
-  long linear_steps(const cases::Resolution &resolution)
+  long linear_steps(const LinearOptions &options, int n)
   {
-    const long wanted = resolution.options.get_integer("steps");
-    return wanted > 0 ? wanted : std::max(50L, 4L * resolution.n);
+    return options.steps > 0 ? options.steps : std::max(50L, 4L * n);
   }
 
   long most_monotone_steps(const cases::Scene &scene, const LinearProblem &problem,
@@ -45,22 +44,22 @@ namespace meltfront::particles
     return std::lround(std::floor(std::min(paths, any_number)));
   }
 
-  std::vector<cases::OptionDeclaration> linear_options()
+  void LinearOptions::bind(cases::OptionBinder &options)
   {
-    return {{"linear_solver", "", std::string("automatic"),
-             "Solver of the linear systems: direct factors for small ones, incomplete "
-             "factors or multigrid with a Krylov method for large ones.",
-             0, 0, linear_method_names()},
-            {"solver_tolerance", "1", 1e-12,
-             "Residual over the right-hand side at which an iterative solver stops.",
-             1e-16, 1},
-            {"time_scheme", "", std::string("bdf2"), "Time steps of transient scenes.", 0,
-             0, linear_scheme_names()},
-            {"steps", "1", 0L,
-             "Time steps of transient scenes; 0: four times n, but at least 50; fewer, "
-             "but at least 10, where heat would move less far in a step than the rows of "
-             "the mass matrix reach.",
-             0, 1e9}};
+    options.add("linear_solver", linear_solver,
+                "Solver of the linear systems: direct factors for small ones, incomplete "
+                "factors or multigrid with a Krylov method for large ones.",
+                cases::in_order<LinearMethod>(linear_method_names()));
+    options.add("solver_tolerance", solver_tolerance,
+                "Residual over the right-hand side at which an iterative solver stops.",
+                1e-16, 1);
+    options.add("time_scheme", time_scheme, "Time steps of transient scenes.",
+                cases::in_order<LinearScheme>(linear_scheme_names()));
+    options.add("steps", steps,
+                "Time steps of transient scenes; 0: four times n, but at least 50; "
+                "fewer, but at least 10, where heat would move less far in a step than "
+                "the rows of the mass matrix reach.",
+                0, 1e9);
   }
 
   cases::Demand linear_demand(const cases::Scene &scene,
@@ -69,8 +68,8 @@ namespace meltfront::particles
     // An entry has a coefficient and a column.
     constexpr double per_entry = 16;
     LinearSolverParameters solver;
-    solver.method = choice<LinearMethod>(linear_method_names(),
-                                         resolution.options.get_string("linear_solver"));
+    const auto options = cases::read_options(LinearOptions(), resolution.options);
+    solver.method = options.linear_solver;
     solver.dimension = scene.domain.dimension;
     double fill = 2;
     switch(chosen_method(static_cast<std::size_t>(size.nodes), solver))
@@ -88,7 +87,8 @@ namespace meltfront::particles
         cases::program_bytes
             + size.nodes
                   * (size.per_node + size.entries * per_entry * (size.matrices + fill)),
-        scene.problem == cases::ProblemKind::poisson ? 1.
-                                                     : double(linear_steps(resolution))};
+        scene.problem == cases::ProblemKind::poisson
+            ? 1.
+            : double(linear_steps(options, resolution.n))};
   }
 } // namespace meltfront::particles

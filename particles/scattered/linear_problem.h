@@ -1,6 +1,7 @@
 #ifndef meltfront_particles_scattered_linear_problem_h
 #define meltfront_particles_scattered_linear_problem_h
 
+#include <cases/option_binder.h>
 #include <cases/run.h>
 #include <cases/scene.h>
 #include <particles/scattered/compressed_rows.h>
@@ -59,7 +60,7 @@ namespace meltfront::particles
   LinearSites sites_of(const NodeSet &nodes, int dimension,
                        std::span<const double> weights);
 
-  /** How a linear problem is stepped; chosen by linear_options(). */
+  /** How a linear problem is stepped. */
   enum class LinearScheme
   {
     backward_euler,
@@ -67,9 +68,16 @@ namespace meltfront::particles
     bdf2
   };
 
-  /** The options that all methods on linear problems share: linear solver and tolerance,
-   * time scheme, number of steps. */
-  std::vector<cases::OptionDeclaration> linear_options();
+  /** The options that all methods on linear problems share. */
+  struct LinearOptions
+  {
+    void bind(cases::OptionBinder &options);
+
+    LinearMethod linear_solver = LinearMethod::automatic;
+    double solver_tolerance = 1e-12;
+    LinearScheme time_scheme = LinearScheme::bdf2;
+    long steps = 0; ///< 0: by n
+  };
 
   /** Matrices of a method, for what a run of it takes. */
   struct LinearSize
@@ -80,8 +88,7 @@ namespace meltfront::particles
     double per_node; ///< bytes that each node takes beside its rows
   };
 
-  /** What a run on the linear problem of a scene takes, with the options of
-   * linear_options(). */
+  /** What a run on the linear problem of a scene takes,. */
   cases::Demand linear_demand(const cases::Scene &scene,
                               const cases::Resolution &resolution,
                               const LinearSize &size);

@@ -55,7 +55,7 @@ namespace meltfront::particles
                                    "1"});
     if(length > 0)
       result.parameters.push_back(
-          {"time scheme", linear_scheme_names()[std::size_t(scheme)], ""});
+          {"time scheme", linear_scheme_names()[std::size_t(options.time_scheme)], ""});
     else
     {
       result.parameters.push_back(

@@ -32,8 +32,7 @@ namespace meltfront::particles
     , sites(posed->sites())
     , description(posed->description())
     , n(problem.operator_rows.rows())
-    , scheme(choice<LinearScheme>(linear_scheme_names(),
-                                  resolution.options.get_string("time_scheme")))
+    , options(cases::read_options(LinearOptions(), resolution.options))
     , threads(resolution.threads)
     , bounds(cases::temperature_bounds(scene))
     , breakpoints(cases::breakpoints_of(scene))
@@ -42,14 +41,12 @@ namespace meltfront::particles
     , source(n)
     , solid_fraction(n, 0.)
   {
-    const cases::Options &options = resolution.options;
-    solver_parameters.method = choice<LinearMethod>(linear_method_names(),
-                                                    options.get_string("linear_solver"));
-    solver_parameters.tolerance = options.get_double("solver_tolerance");
+    solver_parameters.method = options.linear_solver;
+    solver_parameters.tolerance = options.solver_tolerance;
     solver_parameters.symmetric = problem.symmetric;
     solver_parameters.dimension = sites.dimension;
-    steps = linear_steps(resolution);
-    if(options.get_integer("steps") == 0)
+    steps = linear_steps(options, resolution.n);
+    if(options.steps == 0)
       steps = std::min(
           steps, std::max(fewest_steps, most_monotone_steps(scene, problem, sites)));
     if(!problem.reconstruction.columns.empty())
@@ -180,7 +177,7 @@ namespace meltfront::particles
   bool LinearRun::obeys_maximum_principle() const
   {
     return description.obeys_maximum_principle
-           && (steady() || scheme == LinearScheme::backward_euler);
+           && (steady() || options.time_scheme == LinearScheme::backward_euler);
   }
 
   void LinearRun::check(long k, double time)

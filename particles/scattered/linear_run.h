@@ -77,7 +77,7 @@ namespace meltfront::particles
     LinearSites sites;
     LinearDescription description;
     std::size_t n;
-    LinearScheme scheme;
+    LinearOptions options;
     int threads;
     cases::TemperatureBounds bounds;
     std::vector<double> breakpoints;      ///< ascending (s)

@@ -6,20 +6,20 @@ namespace meltfront::particles
 {
   double LinearRun::rate_of(double length) const
   {
-    return scheme == LinearScheme::backward_euler   ? 1 / length
-           : scheme == LinearScheme::crank_nicolson ? 2 / length
-                                                    : 1.5 / length;
+    return options.time_scheme == LinearScheme::backward_euler   ? 1 / length
+           : options.time_scheme == LinearScheme::crank_nicolson ? 2 / length
+                                                                 : 1.5 / length;
   }
 
   void LinearRun::advance(LinearSolver &solver, long k, double end, double length)
   {
     const bool anew = k == 1 || looks_back_over_breakpoint(end, length);
-    if(scheme == LinearScheme::bdf2 && anew)
+    if(options.time_scheme == LinearScheme::bdf2 && anew)
     {
       start_bdf2(k, end, length);
       return;
     }
-    if(scheme == LinearScheme::crank_nicolson)
+    if(options.time_scheme == LinearScheme::crank_nicolson)
     {
       // Two half steps of backward Euler damp what a jump excites (Rannacher 1984);
       // their matrix is the same.
@@ -30,7 +30,7 @@ namespace meltfront::particles
         take_crank_nicolson_step(solver, k, end, length);
       return;
     }
-    if(scheme == LinearScheme::backward_euler)
+    if(options.time_scheme == LinearScheme::backward_euler)
       take_euler_step(solver, k, end, length);
     else
       take_bdf2_step(solver, k, end, length);
@@ -46,7 +46,7 @@ namespace meltfront::particles
   {
     const double begin = end - length;
     return {knows_before ? begin - length : begin, begin, end,
-            knows_before && scheme == LinearScheme::bdf2 ? 0.5 : 0., end};
+            knows_before && options.time_scheme == LinearScheme::bdf2 ? 0.5 : 0., end};
   }
 
   void LinearRun::set_load(double factor, std::span<const double> vector,

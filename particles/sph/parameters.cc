@@ -18,13 +18,6 @@ namespace meltfront::particles
       return names;
     }
 
-    /** The enumerator that a word stands for. */
-    template <typename Enumeration>
-    Enumeration choice(const std::vector<std::string> &names, const std::string &name)
-    {
-      return static_cast<Enumeration>(std::find(names.begin(), names.end(), name)
-                                      - names.begin());
-    }
   } // namespace
 
   const std::vector<std::string> &time_scheme_names()
@@ -34,9 +27,17 @@ namespace meltfront::particles
     return names;
   }
 
-  TimeScheme time_scheme(const std::string &name)
+  cases::Words<KernelShape> smoothing_kernels()
   {
-    return choice<TimeScheme>(time_scheme_names(), name);
+    cases::Words<KernelShape> words;
+    for(const std::string &name : smoothing_kernel_names())
+      words.emplace_back(name, kernel_shape(name));
+    return words;
+  }
+
+  cases::Words<LatticeLayout> layouts()
+  {
+    return {{"cell", LatticeLayout::cell_centred}, {"edge", LatticeLayout::on_edge}};
   }
 
   const SphPolicy &corrected_policy()
@@ -47,11 +48,11 @@ namespace meltfront::particles
         "fronts placed within particles, mirrored walls.",
         "",
         false,
-        "cell",
-        "sub_particle",
+        LatticeLayout::cell_centred,
+        FrontRule::sub_particle,
         true,
         1.0,
-        "rkl2",
+        TimeScheme::rkl2,
         1.0};
     return policy;
   }
@@ -64,79 +65,89 @@ namespace meltfront::particles
         "computed.",
         "sph",
         true,
-        "edge",
-        "liquid",
+        LatticeLayout::on_edge,
+        FrontRule::liquid,
         false,
         0.0,
-        "euler",
+        TimeScheme::euler,
         0.0};
     return policy;
   }
 
-  std::vector<cases::OptionDeclaration> sph_options(const SphPolicy &policy)
+  SphOptions::SphOptions(const SphPolicy &policy)
   {
-    return {
-        {"dimension", "1", 0L,
-         "Dimension in which a slab is simulated; 0: the lowest (the paper's: 2).", 0, 3},
-        {"kernel", "", std::string("cubic_spline"), "Shape of the smoothing kernel.", 0,
-         0, smoothing_kernel_names()},
-        {"smoothing", "1", policy.smoothing,
-         "Smoothing length over particle spacing; 0: as the paper, 1.2 in planar scenes "
-         "and 1.3 in others.",
-         0, 4},
-        {"layout", "", policy.layout,
-         "Where the outermost particles are: half a spacing inside, or on the edge.", 0,
-         0, std::vector<std::string>{"cell", "edge"}},
-        {"moment_correction", "", policy.moment_correction,
-         "Divide the kernel's gradient by its second moment, so that the Laplacian of a "
-         "quadratic is exact."},
-        {"front", "", policy.front,
-         "Exchange of heat at a front: with the front at its place within the melting "
-         "particle, with a melting particle conducting as its partner, or as the liquid "
-         "until it has frozen.",
-         0, 0, std::vector<std::string>{"sub_particle", "partner", "liquid"}},
-        {"time_scheme", "", policy.time_scheme,
-         "Explicit Euler steps, Runge-Kutta-Legendre super steps of second order, or "
-         "implicit steps of first or second order.",
-         0, 0, time_scheme_names()},
-        {"stages", "1", 8L, "Most stages of a super step.", 3, 64},
-        {"step_factor", "1", policy.step_factor,
-         "Time step over the largest that keeps the maximum principle; 0: as the paper, "
-         "0.15 c rho h^2/k. More than 1 is for implicit steps only.",
-         0, 1e6},
-        {"step_error", "1", 0.0,
-         "Wanted relative error of each implicit step, which sets its length; 0: steps "
-         "of equal length by step_factor.",
-         0, 1},
-        {"refine", "", std::string("space"),
-         "What n is the number of: particles along the side, or equal steps in time.", 0,
-         0, std::vector<std::string>{"space", "time"}},
-        {"particles", "1", 80L,
-         "Particles along the side where n is the number of steps.", 5, 1e6},
-        {"arrangement", "", std::string("jittered"),
-         "Particles on a lattice, displaced from it by `jitter` (by nothing if that is "
-         "0), or relaxed after that until they crowd nowhere; in a box also random, or "
-         "moved from there to a minimum of the Lennard-Jones energy.",
-         0, 0, arrangement_names()},
-        {"jitter", "1", 0.0,
-         "Random displacement of each particle, in particle spacings and per direction.",
-         0, 0.4},
-    };
+    values.layout = policy.layout;
+    values.front = policy.front;
+    values.moment_correction = policy.moment_correction;
+    values.smoothing = policy.smoothing;
+    values.time_scheme = policy.time_scheme;
+    values.step_factor = policy.step_factor;
+    values.arrangement = Arrangement::jittered;
+    values.whole_cells = policy.as_published;
+  }
+
+  void SphOptions::bind(cases::OptionBinder &options)
+  {
+    options.add("dimension", values.dimension,
+                "Dimension in which a slab is simulated; 0: the lowest (the paper's: 2).",
+                0, 3);
+    options.add("kernel", values.kernel, "Shape of the smoothing kernel.",
+                smoothing_kernels());
+    options.add("smoothing", values.smoothing,
+                "Smoothing length over particle spacing; 0: as the paper, 1.2 in planar "
+                "scenes and 1.3 in others.",
+                0, 4);
+    options.add("layout", values.layout,
+                "Where the outermost particles are: half a spacing inside, or on the "
+                "edge.",
+                layouts());
+    options.add(
+        "moment_correction", values.moment_correction,
+        "Divide the kernel's gradient by its second moment, so that the Laplacian "
+        "of a quadratic is exact.");
+    options.add("front", values.front,
+                "Exchange of heat at a front: with the front at its place within the "
+                "melting particle, with a melting particle conducting as its partner, or "
+                "as the liquid until it has frozen.",
+                {{"sub_particle", FrontRule::sub_particle},
+                 {"partner", FrontRule::partner},
+                 {"liquid", FrontRule::liquid}});
+    options.add("time_scheme", values.time_scheme,
+                "Explicit Euler steps, Runge-Kutta-Legendre super steps of second order, "
+                "or implicit steps of first or second order.",
+                cases::in_order<TimeScheme>(time_scheme_names()));
+    options.add("stages", values.stages, "Most stages of a super step.", 3, 64);
+    options.add("step_factor", values.step_factor,
+                "Time step over the largest that keeps the maximum principle; 0: as the "
+                "paper, 0.15 c rho h^2/k. More than 1 is for implicit steps only.",
+                0, 1e6);
+    options.add("step_error", values.step_error,
+                "Wanted relative error of each implicit step, which sets its length; 0: "
+                "steps of equal length by step_factor.",
+                0, 1);
+    options.add("refine", refines_time,
+                "What n is the number of: particles along the side, or equal steps in "
+                "time.",
+                {{"space", false}, {"time", true}});
+    options.add("particles", particles,
+                "Particles along the side where n is the number of steps.", 5, 1e6);
+    options.add("arrangement", values.arrangement,
+                "Particles on a lattice, displaced from it by `jitter` (by nothing if "
+                "that is 0), or relaxed after that until they crowd nowhere; in a box "
+                "also random, or moved from there to a minimum of the Lennard-Jones "
+                "energy.",
+                cases::in_order<Arrangement>(arrangement_names()));
+    options.add("jitter", values.jitter,
+                "Random displacement of each particle, in particle spacings and per "
+                "direction.",
+                0, 0.4);
   }
 
   namespace
   {
-    FrontRule front_rule(const std::string &name)
+    /** @throws Refusal for a jitter that the arrangement has no use for. */
+    void require_jitter(const SphPolicy &policy, Arrangement arrangement, double jitter)
     {
-      if(name == "sub_particle")
-        return FrontRule::sub_particle;
-      return name == "partner" ? FrontRule::partner : FrontRule::liquid;
-    }
-
-    Arrangement resolve_arrangement(const SphPolicy &policy, const std::string &name,
-                                    double jitter)
-    {
-      const auto arrangement = choice<Arrangement>(arrangement_names(), name);
       if(arrangement == Arrangement::lattice && jitter > 0)
         throw cases::Refusal(fmt::format(
             "{} does not displace particles from a lattice: jitter has to be 0",
@@ -148,7 +159,6 @@ namespace meltfront::particles
       if(arrangement >= Arrangement::random && jitter > 0)
         throw cases::Refusal(fmt::format(
             "{} does not displace random particles: jitter has to be 0", policy.name));
-      return arrangement;
     }
 
     int resolve_dimension(const SphPolicy &policy, const cases::Scene &scene, long wanted)
@@ -171,26 +181,15 @@ namespace meltfront::particles
   SphParameters resolve_parameters(const SphPolicy &policy, const cases::Scene &scene,
                                    const cases::Resolution &resolution)
   {
-    const cases::Options &options = resolution.options;
-    SphParameters p;
-    p.dimension = resolve_dimension(policy, scene, options.get_integer("dimension"));
-    const bool in_time = options.get_string("refine") == "time";
-    p.n = in_time ? static_cast<int>(options.get_integer("particles")) : resolution.n;
+    const auto options = cases::read_options(SphOptions(policy), resolution.options);
+    const bool in_time = options.refines_time;
+    SphParameters p = options.values;
+    p.dimension = resolve_dimension(policy, scene, p.dimension);
+    p.n = in_time ? options.particles : resolution.n;
     p.steps = in_time ? resolution.n : 0;
     p.columns = policy.as_published ? p.n : 0;
-    p.kernel = kernel_shape(options.get_string("kernel"));
-    p.smoothing = options.get_double("smoothing");
     if(p.smoothing == 0)
       p.smoothing = scene.symmetry == cases::Symmetry::planar ? 1.2 : 1.3;
-    p.layout = options.get_string("layout") == "edge" ? LatticeLayout::on_edge
-                                                      : LatticeLayout::cell_centred;
-    p.moment_correction = options.get_bool("moment_correction");
-    p.whole_cells = policy.as_published;
-    p.front = front_rule(options.get_string("front"));
-    p.time_scheme = time_scheme(options.get_string("time_scheme"));
-    p.stages = static_cast<int>(options.get_integer("stages"));
-    p.step_factor = options.get_double("step_factor");
-    p.step_error = options.get_double("step_error");
     if(p.step_error > 0 && !is_implicit(p.time_scheme))
       throw cases::Refusal(fmt::format(
           "{} chooses steps by a wanted error (step_error) for the implicit schemes "
@@ -200,9 +199,7 @@ namespace meltfront::particles
       throw cases::Refusal(fmt::format(
           "{} takes as many steps as n says or as step_error asks for, not both",
           policy.name));
-    p.jitter = options.get_double("jitter");
-    p.arrangement
-        = resolve_arrangement(policy, options.get_string("arrangement"), p.jitter);
+    require_jitter(policy, p.arrangement, p.jitter);
     p.seed = resolution.seed;
     p.threads = resolution.threads;
     return p;

@@ -2,6 +2,7 @@
 #define meltfront_particles_sph_parameters_h
 
 #include <cases/method.h>
+#include <cases/option_binder.h>
 #include <particles/core/arrangement.h>
 #include <particles/core/kernels.h>
 
@@ -41,8 +42,9 @@ namespace meltfront::particles
   /** The words for the schemes, in the order of the enumeration. */
   const std::vector<std::string> &time_scheme_names();
 
-  /** The scheme that a word stands for. */
-  TimeScheme time_scheme(const std::string &name);
+  /** The words for kernels that smooth, and for layouts. */
+  cases::Words<KernelShape> smoothing_kernels();
+  cases::Words<LatticeLayout> layouts();
 
   /** Whether steps of a scheme need the solution of equations. */
   inline bool is_implicit(TimeScheme scheme)
@@ -60,11 +62,11 @@ namespace meltfront::particles
     std::string summary;
     std::string corrected_form;
     bool as_published; ///< a slab is a square of n x n particles, as in the paper
-    std::string layout;
-    std::string front;
+    LatticeLayout layout;
+    FrontRule front;
     bool moment_correction;
     double smoothing; ///< 0: as the paper, by the scene's symmetry
-    std::string time_scheme;
+    TimeScheme time_scheme;
     double step_factor; ///< 0: as the paper, 0.15 c rho h^2/k
   };
 
@@ -74,32 +76,42 @@ namespace meltfront::particles
   /** The method as Monaghan, Huppert and Worster (2005) computed, `sph-2005`. */
   const SphPolicy &published_policy();
 
-  std::vector<cases::OptionDeclaration> sph_options(const SphPolicy &policy);
-
   /** The values of a run's options, resolved for a scene. */
   struct SphParameters
   {
-    int dimension;
-    int columns; ///< particles across the strip that stands for a slab; 0: what the
-                 ///< kernel needs
-    KernelShape kernel;
-    double smoothing; ///< h/dp
-    LatticeLayout layout;
-    bool moment_correction;
-    FrontRule front;
-    TimeScheme time_scheme;
-    int stages;         ///< most stages of a super step
-    double step_factor; ///< 0: the paper's step
-    double step_error;  ///< wanted of each implicit step; 0: steps of equal length
+    int dimension = 0; ///< 0: the lowest
+    int columns = 0;   ///< particles across the strip that stands for a slab; 0: what the
+                       ///< kernel needs
+    KernelShape kernel = KernelShape::cubic_spline;
+    double smoothing = 1; ///< h/dp
+    LatticeLayout layout = LatticeLayout::cell_centred;
+    bool moment_correction = true;
+    FrontRule front = FrontRule::partner;
+    TimeScheme time_scheme = TimeScheme::euler;
+    int stages = 8;         ///< most stages of a super step
+    double step_factor = 1; ///< 0: the paper's step
+    double step_error = 0;  ///< wanted of each implicit step; 0: steps of equal length
     /** Particles beside walls that bend stand for a whole cell of the lattice, as in the
      * paper: the domain has the volume of the cells. */
-    bool whole_cells;
-    Arrangement arrangement;
-    double jitter; ///< in particle spacings
-    std::uint64_t seed;
-    int threads;
-    int n;     ///< particles along the domain's side
-    int steps; ///< of the run; 0: by step_factor or step_error
+    bool whole_cells = false;
+    Arrangement arrangement = Arrangement::lattice;
+    double jitter = 0; ///< in particle spacings
+    std::uint64_t seed = 1;
+    int threads = 1;
+    int n = 0;     ///< particles along the domain's side
+    int steps = 0; ///< of the run; 0: by step_factor or step_error
+  };
+
+  /** The options of a method. */
+  struct SphOptions
+  {
+    explicit SphOptions(const SphPolicy &policy);
+
+    void bind(cases::OptionBinder &options);
+
+    SphParameters values; ///< as asked for
+    bool refines_time = false;
+    int particles = 80;
   };
 
   /** @throws cases::Refusal for a dimension in which the scene cannot be simulated. */

@@ -57,7 +57,7 @@ namespace meltfront::particles
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return sph_options(policy);
+        return cases::options_of(SphOptions(policy));
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,

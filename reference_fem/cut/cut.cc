@@ -45,7 +45,7 @@ namespace meltfront::reference_fem
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return cut::cut_options();
+        return cases::options_of(cut::RunOptions());
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
@@ -53,7 +53,7 @@ namespace meltfront::reference_fem
       {
         // Of three states on a mesh, geometry and factors, as measured.
         constexpr double per_cell = 3000;
-        const cut::RunOptions options(resolution.options);
+        const auto options = cases::read_options(cut::RunOptions(), resolution.options);
         const double n = resolution.n;
         double cells = cases::lattice_points(scene.domain, cut::dim, n);
         if(options.refinement > 0)

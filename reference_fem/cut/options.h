@@ -2,11 +2,10 @@
 #define meltfront_reference_fem_cut_options_h
 
 #include <cases/method.h>
+#include <cases/option_binder.h>
 #include <cases/overshoot.h>
 #include <reference_fem/cut/front_band.h>
 #include <reference_fem/cut/phase_problem.h>
-
-#include <vector>
 
 namespace meltfront::reference_fem::cut
 {
@@ -16,21 +15,18 @@ namespace meltfront::reference_fem::cut
   inline constexpr cases::Overshoot overshoot{0.04, 1.5};
 
   /** The options of `fem-cut`. */
-  std::vector<cases::OptionDeclaration> cut_options();
-
-  /** Their values. */
   struct RunOptions
   {
-    explicit RunOptions(const cases::Options &options);
+    void bind(cases::OptionBinder &options);
 
-    int degree, level_set_degree;
-    int refinement;
+    int degree = 1, level_set_degree = 2;
+    int refinement = 0;
     BandWidths widths;
-    double step_factor;
-    long fewest_steps;
-    int solves;
-    double smoothing;
-    double seed_cells;
+    double step_factor = 0.25;
+    long fewest_steps = 100;
+    int solves = 2;
+    double smoothing = 0.25;
+    double seed_cells = 3;
     Stabilization stabilization;
   };
 } // namespace meltfront::reference_fem::cut

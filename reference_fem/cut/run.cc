@@ -56,7 +56,7 @@ namespace meltfront::reference_fem::cut
     : scene(scene)
     , effects(effects)
     , resolution(resolution)
-    , options(resolution.options)
+    , options(cases::read_options(RunOptions(), resolution.options))
     , finest_rim(options.refinement > 0 && scene.domain.round()
                      ? make_mesh(divided_at_rim(scene.domain), nullptr)
                      : nullptr)

@@ -55,7 +55,7 @@ namespace meltfront::reference_fem
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return enthalpy_options();
+        return cases::options_of(RunOptions());
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
@@ -63,7 +63,7 @@ namespace meltfront::reference_fem
       {
         // Of mesh, matrix, preconditioner and snapshots together, as measured.
         constexpr double per_node[] = {0, 1000, 1600, 2500};
-        const RunOptions options(scene, resolution);
+        const RunOptions options = options_for(scene, resolution);
         double nodes
             = cases::lattice_points(scene.domain, options.dimension, resolution.n);
         if(scene.domain.shape == cases::DomainShape::slab)

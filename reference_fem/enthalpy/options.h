@@ -2,34 +2,34 @@
 #define meltfront_reference_fem_enthalpy_options_h
 
 #include <cases/method.h>
+#include <cases/option_binder.h>
 #include <cases/overshoot.h>
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/linear_solver.h>
 
-#include <vector>
-
 namespace meltfront::reference_fem
 {
-  /** Cells along a curve are no rectangles: their matrix is none of the monotone ones that
-   * obey the maximum principle. On meshes of rectangles it is obeyed. */
+  /** Cells along a curve are no rectangles: their matrix is none of the monotone ones
+   * that obey the maximum principle. On meshes of rectangles it is obeyed. */
   inline constexpr cases::Overshoot overshoot{0.05, 0.5};
 
   /** The options of `fem-enthalpy`. */
-  std::vector<cases::OptionDeclaration> enthalpy_options();
-
-  /** Their values, made out for a scene. */
   struct RunOptions
   {
-    /** @throws Refusal for a dimension that the scene cannot be simulated in. */
-    RunOptions(const cases::Scene &scene, const cases::Resolution &resolution);
+    void bind(cases::OptionBinder &options);
 
-    int dimension;
-    bool bdf2; ///< else backward Euler
-    long steps;
-    int start_halvings;
-    int iteration_limit;
-    Preconditioner preconditioner;
+    bool bdf2 = true; ///< else backward Euler
+    double steps_per_cell = 0.78125;
+    long steps = 0; ///< 0: by steps_per_cell
+    int start_halvings = 3;
+    int dimension = 0; ///< 0: the lowest
+    int iteration_limit = 100;
+    Preconditioner preconditioner = Preconditioner::automatic;
   };
+
+  /** Their values, made out for a scene.
+   * @throws Refusal for a dimension that the scene cannot be simulated in. */
+  RunOptions options_for(const cases::Scene &scene, const cases::Resolution &resolution);
 } // namespace meltfront::reference_fem
 
 #endif

@@ -32,7 +32,7 @@ namespace meltfront::reference_fem
     : scene(scene)
     , effects(effects)
     , resolution(resolution)
-    , options(scene, resolution)
+    , options(options_for(scene, resolution))
     , bounds(cases::temperature_bounds(scene))
     , time(scene.start_time)
     , time_before(scene.start_time)

@@ -78,13 +78,13 @@ namespace meltfront::reference_fem
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
-        return fitted::fitted_options();
+        return cases::options_of(fitted::RunOptions());
       }
 
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
                            const cases::Resolution &resolution) const override
       {
-        return fitted::demand_of(scene, fitted::RunOptions(scene, resolution));
+        return fitted::demand_of(scene, fitted::options_for(scene, resolution));
       }
 
     protected:
@@ -92,7 +92,7 @@ namespace meltfront::reference_fem
       set_up(const cases::Scene &scene, const cases::EffectSet &effects,
              const cases::Resolution &resolution) const override
       {
-        const bool line = fitted::RunOptions(scene, resolution).dimension == 1;
+        const bool line = fitted::options_for(scene, resolution).dimension == 1;
         const cases::Capabilities form = line ? along_line() : in_more_dimensions();
         if(const std::string reason
            = cases::objection(form, scene, effects, resolution.threads);

@@ -24,7 +24,7 @@ namespace meltfront::reference_fem::fitted
     constexpr int steps_per_cell = 2;
     constexpr int fewest_cells_around = 8;
 
-    int choose_dimension(const cases::Scene &scene, const cases::Options &options)
+    int choose_dimension(const cases::Scene &scene, int wanted)
     {
       std::vector<int> possible{scene.domain.dimension};
       const bool radial = scene.symmetry == Symmetry::cylindrical
@@ -34,7 +34,6 @@ namespace meltfront::reference_fem::fitted
                              "walls of a box; it takes a ball or a shell");
       if(radial)
         possible.insert(possible.begin(), 1);
-      const int wanted = static_cast<int>(options.get_integer("dimension"));
       if(wanted == 0)
         return possible.front();
       if(std::find(possible.begin(), possible.end(), wanted) == possible.end())
@@ -43,15 +42,9 @@ namespace meltfront::reference_fem::fitted
                         fmt::join(possible, " or "), wanted));
       return wanted;
     }
-  } // namespace
-
-  namespace
-  {
     /** What depends on the radius alone is solved the same with any number of them. */
-    int choose_cells_around(const cases::Scene &scene, const cases::Options &options,
-                            int cells)
+    int choose_cells_around(const cases::Scene &scene, int wanted, int cells)
     {
-      const int wanted = static_cast<int>(options.get_integer("cells_around"));
       if(wanted > 0)
         return wanted;
       return scene.symmetry == Symmetry::none ? std::max(fewest_cells_around, cells)
@@ -59,29 +52,27 @@ namespace meltfront::reference_fem::fitted
     }
   } // namespace
 
-  RunOptions::RunOptions(const cases::Scene &scene, const cases::Resolution &resolution)
-    : dimension(choose_dimension(scene, resolution.options))
-    , degree(static_cast<int>(resolution.options.get_integer("degree")))
-    , cells(resolution.n)
-    , steps(static_cast<int>(resolution.options.get_integer("steps")))
-    , refines_time(resolution.options.get_string("refine") == "time")
-    , grading(resolution.options.get_double("grading"))
-    , tolerance(resolution.options.get_double("tolerance"))
-    , scheme(scheme_of(resolution.options.get_string("scheme")))
-    , clock(resolution.options.get_string("clock"))
+  RunOptions options_for(const cases::Scene &scene, const cases::Resolution &resolution)
   {
-    if(refines_time)
+    auto options = cases::read_options(RunOptions(), resolution.options);
+    options.dimension = choose_dimension(scene, options.dimension);
+    options.scheme = scheme_of(options.scheme_name);
+    if(options.refine == Refine::time)
+      options.steps = resolution.n;
+    else
     {
-      cells = static_cast<int>(resolution.options.get_integer("cells"));
-      steps = resolution.n;
-    }
-    else if(steps == 0)
-      steps = resolution.options.get_string("refine") == "space"
+      options.cells = resolution.n;
+      if(options.steps == 0)
+        options.steps
+            = options.refine == Refine::space
                   ? 200
-                  : std::max(dimension == 1 ? fewest_steps
-                                            : fewest_steps_with_kept_jacobian,
+                  : std::max(options.dimension == 1 ? fewest_steps
+                                                    : fewest_steps_with_kept_jacobian,
                              steps_per_cell * resolution.n);
-    cells_around = choose_cells_around(scene, resolution.options, cells);
+    }
+    options.cells_around
+        = choose_cells_around(scene, options.cells_around, options.cells);
+    return options;
   }
 
   cases::Demand demand_of(const cases::Scene &scene, const RunOptions &options)
@@ -116,54 +107,44 @@ namespace meltfront::reference_fem::fitted
             .steps = static_cast<double>(options.steps)};
   }
 
-  std::vector<cases::OptionDeclaration> fitted_options()
+  void RunOptions::bind(cases::OptionBinder &options)
   {
-    return {
-        {"degree", "1", 4L, "Degree of the elements.", 1, 4},
-        {"dimension", "1", 0L,
-         "Dimension in which a symmetric scene is simulated; 0: the lowest.", 0, 3},
-        {"scheme",
-         "",
-         std::string("radau5"),
-         "Time scheme: backward differentiation (bdf2, bdf3, bdf4) or Radau IIA of order "
-         "3 or 5 (radau3, radau5).",
-         0,
-         0,
-         {"bdf2", "bdf3", "bdf4", "radau3", "radau5"}},
-        {"steps", "1", 0L,
-         "Time steps over the run; 0: two for each of the n cells and at least 50 (300 "
-         "in "
-         "2D and 3D), or 200 where only space is refined.",
-         0, 1e7},
-        {"refine",
-         "",
-         std::string("both"),
-         "What n refines: both, space (the steps stay) or time (n steps, the cells "
-         "stay).",
-         0,
-         0,
-         {"both", "space", "time"}},
-        {"cells", "1", 32L, "Cells along the domain's side where n refines time.", 2,
-         1e5},
-        {"cells_around", "1", 0L,
-         "Cells around a round front in 2D and 3D (4 for each edge of a sphere's cube); "
-         "0: n, at least 8, or 8 where everything depends on the radius alone.",
-         0, 1e5},
-        {"clock",
-         "",
-         std::string("auto"),
-         "Steps are equal in t or in sqrt(t); auto: sqrt(t) for a scene that starts from "
-         "an exact solution some time after that began, else t.",
-         0,
-         0,
-         {"auto", "t", "sqrt(t)"}},
-        {"tolerance", "1", 0.,
-         "Error of a time step, relative, that the steps are chosen for (Radau); 0: "
-         "equal "
-         "steps.",
-         0, 1},
-        {"grading", "1", 1.,
-         "Width of a cell over that of its neighbour towards the front, in both phases.",
-         1, 10}};
+    options.add("degree", degree, "Degree of the elements.", 1, 4);
+    options.add("dimension", dimension,
+                "Dimension in which a symmetric scene is simulated; 0: the lowest.", 0,
+                3);
+    options.add(
+        "scheme", scheme_name,
+        "Time scheme: backward differentiation (bdf2, bdf3, bdf4) or Radau IIA of "
+        "order 3 or 5 (radau3, radau5).",
+        cases::themselves({"bdf2", "bdf3", "bdf4", "radau3", "radau5"}));
+    options.add("steps", steps,
+                "Time steps over the run; 0: two for each of the n cells and at least 50 "
+                "(300 in 2D and 3D), or 200 where only space is refined.",
+                0, 1e7);
+    options.add(
+        "refine", refine,
+        "What n refines: both, space (the steps stay) or time (n steps, the cells "
+        "stay).",
+        {{"both", Refine::both}, {"space", Refine::space}, {"time", Refine::time}});
+    options.add("cells", cells, "Cells along the domain's side where n refines time.", 2,
+                1e5);
+    options.add("cells_around", cells_around,
+                "Cells around a round front in 2D and 3D (4 for each edge of a sphere's "
+                "cube); 0: n, at least 8, or 8 where everything depends on the radius "
+                "alone.",
+                0, 1e5);
+    options.add("clock", clock,
+                "Steps are equal in t or in sqrt(t); auto: sqrt(t) for a scene that "
+                "starts from an exact solution some time after that began, else t.",
+                cases::themselves({"auto", "t", "sqrt(t)"}));
+    options.add("tolerance", tolerance,
+                "Error of a time step, relative, that the steps are chosen for (Radau); "
+                "0: equal steps.",
+                0, 1);
+    options.add("grading", grading,
+                "Width of a cell over that of its neighbour towards the front, in both "
+                "phases.",
+                1, 10);
   }
 } // namespace meltfront::reference_fem::fitted

@@ -2,12 +2,12 @@
 #define meltfront_reference_fem_fitted_options_h
 
 #include <cases/method.h>
+#include <cases/option_binder.h>
 #include <cases/overshoot.h>
 #include <cases/scene.h>
 #include <reference_fem/fitted/time/integrator.h>
 
 #include <string>
-#include <vector>
 
 namespace meltfront::reference_fem::fitted
 {
@@ -18,26 +18,35 @@ namespace meltfront::reference_fem::fitted
    * their root, the more there are. */
   inline constexpr cases::Overshoot overshoot{0.05, 0.5};
 
-  /** The options of `fem-fitted`. */
-  std::vector<cases::OptionDeclaration> fitted_options();
+  /** What n refines. */
+  enum class Refine
+  {
+    both,
+    space,
+    time
+  };
 
-  /** Their values, made out for a scene. */
+  /** The options of `fem-fitted`. */
   struct RunOptions
   {
-    /** @throws Refusal for a dimension that the scene cannot be simulated in. */
-    RunOptions(const cases::Scene &scene, const cases::Resolution &resolution);
+    void bind(cases::OptionBinder &options);
 
-    int dimension;
-    int degree;
-    int cells;            ///< along the domain's side
-    int cells_around = 0; ///< a round front
-    int steps;
-    bool refines_time; ///< n counts steps, not cells
-    double grading;
-    double tolerance;
-    Scheme scheme;
-    std::string clock; ///< auto, t or sqrt(t)
+    int degree = 4;
+    int dimension = 0; ///< 0: the lowest
+    std::string scheme_name = "radau5";
+    int steps = 0; ///< 0: by the cells
+    Refine refine = Refine::both;
+    int cells = 32;             ///< along the domain's side
+    int cells_around = 0;       ///< a round front; 0: by the cells
+    std::string clock = "auto"; ///< auto, t or sqrt(t)
+    double tolerance = 0;
+    double grading = 1;
+    Scheme scheme{};
   };
+
+  /** Their values, made out for a scene.
+   * @throws Refusal for a dimension that the scene cannot be simulated in. */
+  RunOptions options_for(const cases::Scene &scene, const cases::Resolution &resolution);
 
   /**
    * Memory and steps of a run, from numbers alone: unknowns, entries of a row, and what

@@ -18,7 +18,7 @@ namespace meltfront::reference_fem::fitted
     : scene(scene)
     , effects(effects)
     , resolution(resolution)
-    , options(scene, resolution)
+    , options(options_for(scene, resolution))
     , bounds(cases::temperature_bounds(scene))
   {
     for(const cases::EffectDecision &decision : effects.decisions())

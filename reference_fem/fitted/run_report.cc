@@ -24,7 +24,7 @@ namespace meltfront::reference_fem::fitted
                         mesh.surface.n_rays(), mesh.surface.cells.size(),
                         mesh.layers.size(), options.dimension),
             ""},
-           {"time scheme", resolution.options.get_string("scheme"), ""},
+           {"time scheme", options.scheme_name, ""},
            {"clock", problem->physics().clock.root ? "sqrt(t)" : "t", ""},
            {"steps",
             options.tolerance > 0
@@ -85,7 +85,7 @@ namespace meltfront::reference_fem::fitted
     if(options.tolerance > 0)
       result["steps repeated by the step control"]
           = static_cast<double>(integration.repeated);
-    if(resolution.options.get_string("scheme").starts_with("bdf"))
+    if(options.scheme_name.starts_with("bdf"))
     {
       result["steps that fell back to Radau"]
           = static_cast<double>(integration.fallbacks);
