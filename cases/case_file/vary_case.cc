@@ -81,13 +81,17 @@ namespace meltfront::cases
     return varied;
   }
 
-  Case vary_case(const Case &base, const std::string &name, const CaseSettings &settings)
+  Case read_varied_text(const std::string &text, const std::string &name)
   {
-    const std::string file = name + ".prm";
-    Case varied = read_case_text(varied_text(base.text, file, settings), file);
+    Case varied = read_case_text(text, name + ".prm");
     varied.criteria.clear();
     varied.printed.clear();
     varied.printed_figures.clear();
     return varied;
+  }
+
+  Case vary_case(const Case &base, const std::string &name, const CaseSettings &settings)
+  {
+    return read_varied_text(varied_text(base.text, name + ".prm", settings), name);
   }
 } // namespace meltfront::cases

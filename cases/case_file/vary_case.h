@@ -24,12 +24,15 @@ namespace meltfront::cases
                           const CaseSettings &settings);
 
   /**
-   * A case with other values of some keys, under a name of its own. Acceptance criteria
-   * and printed values are those of the case as it is written, and are left out.
+   * Read a case from a text that varied_text() gave, under a name of its own. Acceptance
+   * criteria and printed values are those of the case as it is written, and are left out.
    *
    * @throws InputError, with the line in the varied text, for a key that there is not and
    * for a value that does not suit it or makes no sense in the case.
    */
+  Case read_varied_text(const std::string &text, const std::string &name);
+
+  /** The same from the case and the other values of some keys. */
   Case vary_case(const Case &base, const std::string &name, const CaseSettings &settings);
 } // namespace meltfront::cases
 

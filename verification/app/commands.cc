@@ -1,22 +1,22 @@
 #include <cases/case_file/case_file.h>
-#include <cases/case_file/vary_case.h>
 #include <cases/error.h>
 #include <verification/app/capability_list.h>
 #include <verification/app/commands.h>
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
 #include <verification/app/methods.h>
-#include <verification/matrix/child_process.h>
-#include <verification/matrix/criteria.h>
-#include <verification/matrix/json_values.h>
-#include <verification/matrix/label.h>
+#include <verification/judge/criteria.h>
+#include <verification/judge/stability.h>
 #include <verification/matrix/matrix_file.h>
 #include <verification/matrix/matrix_files.h>
-#include <verification/matrix/memory_limit.h>
-#include <verification/matrix/run_one.h>
 #include <verification/matrix/runner.h>
-#include <verification/report/report.h>
-#include <verification/studies/stability.h>
+#include <verification/measure/measure.h>
+#include <verification/record/json_values.h>
+#include <verification/record/label.h>
+#include <verification/report/page/report.h>
+#include <verification/run/child_process.h>
+#include <verification/run/memory_limit.h>
+#include <verification/run/run_one.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -79,12 +79,11 @@ namespace meltfront::verification
     cases::Case load_checked_case(const std::string &name)
     {
       cases::Case c = cases::load_case(name);
-      const std::vector<std::string> quantities = table_value_names();
-      const auto check = [&c](const std::string &label, const std::string &where)
+      const auto check = [&c](const std::string &where, const auto &check_it)
       {
         try
         {
-          check_label(label, method_named);
+          check_it();
         }
         catch(const cases::InputError &error)
         {
@@ -92,18 +91,15 @@ namespace meltfront::verification
         }
       };
       if(c.reference)
-        check(c.reference->label, "reference");
+        check("reference", [&] { check_label(c.reference->label, method_named); });
       for(const cases::Criterion &criterion : c.criteria)
-      {
-        check(criterion.method, fmt::format("criterion '{}'", criterion.text));
-        if(criterion.statistic != cases::Statistic::failure
-           && std::find(quantities.begin(), quantities.end(), criterion.quantity)
-                  == quantities.end())
-          throw cases::InputError(fmt::format(
-              "{}: criterion '{}': there is no quantity '{}'; the nearest is '{}'",
-              c.file, criterion.text, criterion.quantity,
-              cases::nearest_name(criterion.quantity, quantities)));
-      }
+        check(fmt::format("criterion '{}'", criterion.text),
+              [&]
+              {
+                check_label(criterion.method, method_named);
+                if(criterion.statistic != cases::Statistic::failure)
+                  require_quantity(criterion.quantity);
+              });
       return c;
     }
 
@@ -124,8 +120,6 @@ namespace meltfront::verification
       options.program_version = program_version;
       options.command_line = command_line;
       options.progress = stderr;
-      options.vary_case = [](const cases::Case &base, const PlannedCase &planned)
-      { return cases::vary_case(base, planned.name, planned.settings); };
       int status = all_well;
       options.conclude
           = [&](MatrixResult &result) { status = conclude(result, directory); };
@@ -186,7 +180,7 @@ namespace meltfront::verification
             const RunRecord record
                 = run_one(c, method, resolution, label, provenance, &fields, once);
             if(record.status == RunStatus::finished)
-              write_run_page(record, make_case_record(c), directory);
+              write_run_page(record, stored_case(c), directory);
             write_json(file, record);
           },
           log);

@@ -1,7 +1,7 @@
 #include <verification/app/console.h>
-#include <verification/matrix/criteria.h>
-#include <verification/matrix/reference.h>
-#include <verification/matrix/refinement.h>
+#include <verification/judge/criteria.h>
+#include <verification/judge/reference.h>
+#include <verification/judge/refinement.h>
 
 #include <fmt/format.h>
 
@@ -33,16 +33,16 @@ namespace meltfront::verification
       const char *words;
     };
 
-    FirstColumn first_column(const CaseRecord &record,
+    FirstColumn first_column(const StoredCase &record,
                              const std::vector<const RunRecord *> &finished)
     {
-      if(record.moving && record.moving->problem == "interface advection")
+      if(record.scene.problem == cases::ProblemKind::interface_advection)
         return {"shape_mismatch_end", "mismatch, end"};
-      if(record.moving)
+      if(!record.scene.conducts_heat())
         return {"solid_end", "solid particles"};
-      if(record.exact.empty() && record.reference)
+      if(!record.exact && record.reference)
         return {"solid_volume_end_error", "solid, end"};
-      if(!record.changes_phase)
+      if(!record.scene.changes_phase())
         return {"temperature_rmse", "temperature rmse"};
       // Few steps have no root mean square.
       const bool all = std::none_of(finished.begin(), finished.end(),
@@ -61,19 +61,19 @@ namespace meltfront::verification
       return sum / static_cast<double>(runs.size());
     }
 
-    std::string measured_text(const CaseRecord &record,
+    std::string measured_text(const StoredCase &record,
                               const std::vector<const RunRecord *> &finished,
                               const RunRecord &finest)
     {
       const FirstColumn column = first_column(record, finished);
-      if(record.moving && record.moving->solid)
+      if(record.scene.problem == cases::ProblemKind::particle_solid)
         return fmt::format("{:.1f} particles solid at the end, mean of {}",
                            mean_over(finished, column.name), finished.size());
       if(is_reference(record, finest))
         return "the reference";
       const double error = table_value(finest, column.name);
       if(std::isnan(error))
-        return record.exact.empty() ? "no exact solution" : "no error";
+        return !record.exact ? "no exact solution" : "no error";
       const Refinement refinement(finished);
       ErrorLevels levels;
       for(const RunRecord *run : finished)
@@ -89,7 +89,7 @@ namespace meltfront::verification
                              : "");
     }
 
-    std::string convergence_line(const MatrixResult &result, const CaseRecord &record,
+    std::string convergence_line(const MatrixResult &result, const StoredCase &record,
                                  const std::string &label)
     {
       std::vector<const RunRecord *> finished;
@@ -97,7 +97,7 @@ namespace meltfront::verification
       std::string message;
       for(const RunRecord &run : result.runs)
       {
-        if(run.case_name != record.name || run.label != label)
+        if(run.case_name != record.name() || run.label != label)
           continue;
         if(run.status != RunStatus::finished)
         {
@@ -148,7 +148,7 @@ namespace meltfront::verification
     std::string variations_text(const MatrixResult &result)
     {
       std::map<std::string, int> count;
-      for(const CaseRecord &c : result.cases)
+      for(const StoredCase &c : result.cases)
         if(!c.variation.empty())
           ++count[c.variation_of];
       std::string text;
@@ -218,12 +218,12 @@ namespace meltfront::verification
   std::string console_summary(const MatrixResult &result)
   {
     std::string text;
-    for(const CaseRecord &c : result.cases)
+    for(const StoredCase &c : result.cases)
     {
       if(!c.variation.empty())
         continue;
-      text += fmt::format("{}\n", c.name);
-      for(const std::string &label : labels_of(result, c.name))
+      text += fmt::format("{}\n", c.name());
+      for(const std::string &label : labels_of(result, c.name()))
         text += convergence_line(result, c, label);
     }
     text += variations_text(result);

@@ -2,7 +2,7 @@
 #define meltfront_verification_app_console_h
 
 #include <cases/case.h>
-#include <verification/matrix/matrix_result.h>
+#include <verification/judge/matrix_result.h>
 
 #include <string>
 

@@ -3,6 +3,7 @@
 #include <verification/app/list.h>
 #include <verification/app/methods.h>
 #include <verification/matrix/matrix_file.h>
+#include <verification/measure/measure.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -66,6 +67,17 @@ namespace meltfront::verification
         text += fmt::format("  {:22} {}\n", name, load_matrix(name).title);
       return text;
     }
+    std::string quantity_list()
+    {
+      std::string text = "Quantities (columns of the CSV, words of criteria):\n";
+      for(const Quantity &quantity : all_quantities())
+        text
+            += quantity.heading.empty()
+                   ? fmt::format("  {}\n", quantity.name)
+                   : fmt::format("  {:26} {}{}\n", quantity.name, quantity.heading,
+                                 quantity.unit.empty() ? "" : " (" + quantity.unit + ")");
+      return text;
+    }
   } // namespace
 
   std::string list_text(const std::string &what)
@@ -79,6 +91,8 @@ namespace meltfront::verification
       text += effect_list();
     if(what.empty() || what == "matrices")
       text += matrix_list();
+    if(what == "quantities")
+      text += quantity_list();
     if(what == "capabilities")
       text += capability_text();
     if(what == "keys")

@@ -191,10 +191,10 @@ namespace
     list_command
         ->add_option(
             "what", list_what,
-            "cases, methods, effects, matrices, keys of case files, or capabilities "
-            "of methods")
-        ->check(CLI::IsMember(
-            {"cases", "methods", "effects", "matrices", "keys", "capabilities"}));
+            "cases, methods, effects, matrices, quantities, keys of case files, or "
+            "capabilities of methods")
+        ->check(CLI::IsMember({"cases", "methods", "effects", "matrices", "quantities",
+                               "keys", "capabilities"}));
     list_command->add_flag("--json", list_as_json, "capabilities as JSON");
     list_command->callback(
         [this]

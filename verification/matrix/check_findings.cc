@@ -1,7 +1,7 @@
 #include <cases/error.h>
-#include <verification/matrix/criteria.h>
-#include <verification/matrix/label.h>
 #include <verification/matrix/matrix.h>
+#include <verification/measure/measure.h>
+#include <verification/record/label.h>
 
 #include <fmt/format.h>
 
@@ -22,15 +22,6 @@ namespace meltfront::verification
       throw cases::InputError(
           fmt::format("the matrix has no case '{}'; the nearest is '{}'", pattern,
                       cases::nearest_name(pattern, names)));
-    }
-
-    void require_quantity(const std::string &name)
-    {
-      const std::vector<std::string> names = table_value_names();
-      if(std::ranges::find(names, name) == names.end())
-        throw cases::InputError(
-            fmt::format("there is no quantity '{}'; the nearest is '{}'", name,
-                        cases::nearest_name(name, names)));
     }
 
     /** Calls check() and says of what its complaint is. */

@@ -1,6 +1,6 @@
 #include <cases/error.h>
 #include <verification/matrix/matrix.h>
-#include <verification/matrix/run_one.h>
+#include <verification/run/run_one.h>
 
 #include <fmt/format.h>
 

@@ -3,7 +3,8 @@
 
 #include <cases/case.h>
 #include <cases/method.h>
-#include <verification/matrix/finding.h>
+#include <verification/judge/finding.h>
+#include <verification/record/label.h>
 
 #include <cstdint>
 #include <functional>
@@ -80,13 +81,6 @@ namespace meltfront::verification
 
   /** Finds a case by name. @throws InputError */
   using CaseLoader = std::function<cases::Case(const std::string &name)>;
-
-  /** Gives other values to keys of a case. @throws InputError */
-  using CaseVariation
-      = std::function<cases::Case(const cases::Case &base, const PlannedCase &planned)>;
-
-  /** Finds a method by name. @throws InputError */
-  using MethodLookup = std::function<const cases::Method &(const std::string &name)>;
 
   /** The name of a case that is given by name or by the path of its file: `x` for
    * `folder/x.prm`. */

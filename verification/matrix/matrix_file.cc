@@ -1,6 +1,6 @@
 #include <cases/case_file/prm_file.h>
 #include <cases/error.h>
-#include <verification/matrix/finding_reader.h>
+#include <verification/judge/finding_reader.h>
 #include <verification/matrix/matrix_file.h>
 
 #include <fmt/format.h>

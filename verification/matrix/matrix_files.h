@@ -1,8 +1,8 @@
 #ifndef meltfront_verification_matrix_matrix_files_h
 #define meltfront_verification_matrix_matrix_files_h
 
+#include <verification/judge/matrix_result.h>
 #include <verification/matrix/matrix.h>
-#include <verification/matrix/matrix_result.h>
 
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ namespace meltfront::verification
    * matrix that is still running or was killed.
    */
   void write_plan(const std::string &directory, const Matrix &matrix,
-                  const std::vector<CaseRecord> &cases,
+                  const std::vector<StoredCase> &cases,
                   const std::vector<PlannedRun> &runs,
                   const std::string &program_version);
 
@@ -26,6 +26,10 @@ namespace meltfront::verification
    * `findings` (each with `claim` and `holds`), `omissions`.
    */
   void write_summary(const std::string &directory, const MatrixResult &result);
+
+  /** Read a matrix's directory back (DIR/matrix.json, DIR/cases, DIR/runs): nothing is
+   * run. */
+  MatrixResult load_matrix_result(const std::string &directory);
 } // namespace meltfront::verification
 
 #endif

@@ -1,12 +1,12 @@
 #include <cases/error.h>
-#include <verification/matrix/child_process.h>
 #include <verification/matrix/directory_lock.h>
-#include <verification/matrix/hash.h>
-#include <verification/matrix/json_values.h>
 #include <verification/matrix/matrix_files.h>
-#include <verification/matrix/memory_limit.h>
 #include <verification/matrix/progress.h>
 #include <verification/matrix/runner.h>
+#include <verification/record/hash.h>
+#include <verification/record/json_values.h>
+#include <verification/run/child_process.h>
+#include <verification/run/memory_limit.h>
 
 #include <fmt/format.h>
 
@@ -225,40 +225,27 @@ namespace meltfront::verification
       return options;
     }
 
-    cases::Case varied(const cases::Case &base, const PlannedCase &planned,
-                       const CaseVariation &vary_case)
-    {
-      if(planned.settings.empty())
-        return base;
-      if(!vary_case)
-        throw std::logic_error("there is nothing that could vary a case");
-      return vary_case(base, planned);
-    }
-
     std::map<std::string, cases::Case> load_cases(const Matrix &matrix,
-                                                  const CaseLoader &load_case,
-                                                  const CaseVariation &vary_case)
+                                                  const CaseLoader &load_case)
     {
       std::map<std::string, cases::Case> written, planned_ones;
       for(const std::string &name : case_names(matrix))
         written.emplace(name, load_case(name));
       for(const PlannedCase &planned : planned_cases(matrix))
-        if(!planned_ones
-                .emplace(planned.name,
-                         varied(written.at(planned.base), planned, vary_case))
-                .second)
+      {
+        const cases::Case &base = written.at(planned.base);
+        const bool is_new
+            = planned_ones
+                  .emplace(planned.name,
+                           planned.settings.empty()
+                               ? base
+                               : cases::vary_case(base, planned.name, planned.settings))
+                  .second;
+        if(!is_new)
           throw cases::InputError(fmt::format(
               "matrix '{}' has two cases of the name '{}'", matrix.name, planned.name));
+      }
       return planned_ones;
-    }
-
-    CaseRecord record_of(const cases::Case &c, const PlannedCase &planned)
-    {
-      CaseRecord record = make_case_record(c);
-      if(!planned.settings.empty())
-        record.variation_of = short_case_name(planned.base);
-      record.variation = planned.settings;
-      return record;
     }
   } // namespace
 
@@ -268,13 +255,16 @@ namespace meltfront::verification
     const std::vector<PlannedRun> plan = plan_runs(matrix, methods);
     check_findings(matrix, methods);
     const std::map<std::string, cases::Case> cases_by_name
-        = load_cases(matrix, load_case, given.vary_case);
+        = load_cases(matrix, load_case);
     const RunnerOptions options = completed(given);
     const DirectoryLock lock(options.directory);
 
-    std::vector<CaseRecord> case_records;
+    std::vector<StoredCase> case_records;
     for(const PlannedCase &planned : planned_cases(matrix))
-      case_records.push_back(record_of(cases_by_name.at(planned.name), planned));
+      case_records.push_back(
+          stored_case(cases_by_name.at(planned.name),
+                      planned.settings.empty() ? "" : short_case_name(planned.base),
+                      planned.settings));
     write_plan(options.directory, matrix, case_records, plan, options.program_version);
 
     std::deque<Job> jobs;

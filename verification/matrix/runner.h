@@ -1,9 +1,9 @@
 #ifndef meltfront_verification_matrix_runner_h
 #define meltfront_verification_matrix_runner_h
 
+#include <verification/judge/matrix_result.h>
 #include <verification/matrix/matrix.h>
-#include <verification/matrix/matrix_result.h>
-#include <verification/matrix/run_one.h>
+#include <verification/run/run_one.h>
 
 #include <cstdio>
 #include <functional>
@@ -23,7 +23,6 @@ namespace meltfront::verification
     std::string program_hash; ///< empty: the SHA-256 of the running program's file
     std::string command_line;
     std::FILE *progress = nullptr; ///< null: say nothing
-    CaseVariation vary_case{};     ///< for matrices that give values to keys of cases
     RepeatPolicy repeats{};
     /** What is to be done with the result while the directory is still held against other
      * processes: the report, for one. */

@@ -1,4 +1,4 @@
-#include <verification/matrix/temporary_directory.h>
+#include <verification/record/temporary_directory.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 #include <cases/case_file/case_file.h>
 #include <cases/error.h>
 #include <verification/app/methods.h>
-#include <verification/matrix/child_process.h>
-#include <verification/matrix/temporary_directory.h>
+#include <verification/record/temporary_directory.h>
+#include <verification/run/child_process.h>
 
 #include <gtest/gtest.h>
 

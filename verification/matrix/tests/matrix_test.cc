@@ -1,6 +1,6 @@
 #include <verification/matrix/matrix.h>
 #include <verification/matrix/progress.h>
-#include <verification/matrix/tests/fakes.h>
+#include <verification/run/tests/fakes.h>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,9 @@
-#include <verification/matrix/child_process.h>
 #include <verification/matrix/directory_lock.h>
-#include <verification/matrix/json_values.h>
+#include <verification/matrix/matrix_files.h>
 #include <verification/matrix/runner.h>
-#include <verification/matrix/tests/fakes.h>
+#include <verification/record/json_values.h>
+#include <verification/run/child_process.h>
+#include <verification/run/tests/fakes.h>
 
 #include <gtest/gtest.h>
 
@@ -334,6 +335,14 @@ namespace meltfront::verification
       const MatrixResult result = load_matrix_result(options.directory);
       EXPECT_EQ(result.runs.size(), 40u);
       EXPECT_TRUE(result.passed);
+    }
+
+    TEST(MatrixResult, SaysWhatIsWrongWithItsFiles)
+    {
+      const tests::ScratchDirectory directory;
+      EXPECT_THROW(load_matrix_result(directory.path()), cases::OutputError);
+      write_atomically(directory.path("matrix.json"), "{}");
+      EXPECT_THROW(load_matrix_result(directory.path()), cases::OutputError);
     }
 
     TEST(ChildProcess, DiesWithItsParent)

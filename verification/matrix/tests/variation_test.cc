@@ -1,5 +1,5 @@
 #include <verification/matrix/runner.h>
-#include <verification/matrix/tests/fakes.h>
+#include <verification/run/tests/fakes.h>
 
 #include <gtest/gtest.h>
 
@@ -39,13 +39,6 @@ namespace meltfront::verification::tests
       RunnerOptions options;
       options.directory = directory.path("results");
       options.repeats.most = 1;
-      options.vary_case = [](const cases::Case &base, const PlannedCase &planned)
-      {
-        cases::Case c = base;
-        c.scene.name = planned.name;
-        c.text += planned.name;
-        return c;
-      };
       return options;
     }
   } // namespace
@@ -100,9 +93,12 @@ namespace meltfront::verification::tests
   TEST(Variations, AreRunAndRemembered)
   {
     const ScratchDirectory directory;
+    Matrix neutral = matrix();
+    neutral.blocks[0].variations
+        = {{"Measure/samples", {"50", "60"}}, {"title", {"A", "B", "C"}}};
     int loaded = 0;
     const MatrixResult result = run_matrix(
-        matrix(), options_in(directory),
+        neutral, options_in(directory),
         [&loaded](const std::string &)
         {
           ++loaded;
@@ -111,11 +107,11 @@ namespace meltfront::verification::tests
         method_named);
     EXPECT_EQ(loaded, 1);
     ASSERT_EQ(result.cases.size(), 6u);
-    EXPECT_EQ(result.cases[3].name, "slab[density=0.5,latent_heat=10]");
+    EXPECT_EQ(result.cases[3].name(), "slab[samples=60,title=A]");
     EXPECT_EQ(result.cases[3].variation_of, "slab");
     ASSERT_EQ(result.cases[3].variation.size(), 2u);
-    EXPECT_EQ(result.cases[3].variation[1].first, "Scene/Material/Solid/density");
-    EXPECT_EQ(result.cases[3].variation[1].second, "0.5");
+    EXPECT_EQ(result.cases[3].variation[1].first, "title");
+    EXPECT_EQ(result.cases[3].variation[1].second, "A");
     std::set<std::string> hashes;
     for(const RunRecord &run : result.runs)
     {
@@ -124,14 +120,5 @@ namespace meltfront::verification::tests
     }
     EXPECT_EQ(result.runs.size(), 12u);
     EXPECT_EQ(hashes.size(), 6u); // each case has a text of its own
-  }
-
-  TEST(Variations, NeedSomethingThatVaries)
-  {
-    const ScratchDirectory directory;
-    RunnerOptions options = options_in(directory);
-    options.vary_case = {};
-    EXPECT_THROW(run_matrix(matrix(), options, slab_case, method_named),
-                 std::logic_error);
   }
 } // namespace meltfront::verification::tests

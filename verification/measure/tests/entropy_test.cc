@@ -1,6 +1,6 @@
 #include <cases/alloy.h>
 #include <cases/error.h>
-#include <verification/measure/entropy.h>
+#include <verification/measure/formulas/entropy.h>
 #include <verification/measure/tests/fixtures.h>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include <verification/measure/event_watch.h>
-#include <verification/measure/mirror_symmetry.h>
+#include <verification/measure/formulas/event_watch.h>
+#include <verification/measure/formulas/mirror_symmetry.h>
 #include <verification/measure/tests/fixtures.h>
 
 #include <gtest/gtest.h>

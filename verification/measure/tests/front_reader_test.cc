@@ -1,4 +1,4 @@
-#include <verification/measure/front_reader.h>
+#include <verification/measure/formulas/front_reader.h>
 #include <verification/measure/tests/fixtures.h>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include <verification/measure/front_reader.h>
-#include <verification/measure/front_shape.h>
+#include <verification/measure/formulas/front_reader.h>
+#include <verification/measure/formulas/front_shape.h>
 #include <verification/measure/tests/fixtures.h>
 
 #include <gtest/gtest.h>

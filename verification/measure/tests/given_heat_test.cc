@@ -1,5 +1,5 @@
-#include <verification/measure/given_heat.h>
-#include <verification/measure/scene_quadrature.h>
+#include <verification/measure/checks/given_heat.h>
+#include <verification/measure/checks/scene_quadrature.h>
 #include <verification/measure/tests/fixtures.h>
 
 #include <gtest/gtest.h>

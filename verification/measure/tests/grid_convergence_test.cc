@@ -1,5 +1,5 @@
 #include <cases/error.h>
-#include <verification/measure/grid_convergence.h>
+#include <verification/measure/formulas/grid_convergence.h>
 
 #include <gtest/gtest.h>
 

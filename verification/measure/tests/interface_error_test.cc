@@ -1,7 +1,7 @@
 #include <cases/shape.h>
 #include <cases/velocity_field.h>
-#include <verification/measure/exact_front.h>
-#include <verification/measure/interface_error.h>
+#include <verification/measure/formulas/exact_front.h>
+#include <verification/measure/formulas/interface_error.h>
 
 #include <gtest/gtest.h>
 

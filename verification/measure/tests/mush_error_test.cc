@@ -1,4 +1,4 @@
-#include <verification/measure/mush_error.h>
+#include <verification/measure/formulas/mush_error.h>
 #include <verification/measure/tests/fixtures.h>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #include <cases/error.h>
-#include <verification/measure/order_fit.h>
+#include <verification/measure/formulas/order_fit.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include <cases/error.h>
-#include <verification/measure/snapshot_checks.h>
+#include <verification/measure/checks/snapshot_checks.h>
 #include <verification/measure/tests/fixtures.h>
 
 #include <gtest/gtest.h>

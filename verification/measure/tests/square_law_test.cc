@@ -1,4 +1,4 @@
-#include <verification/measure/square_law.h>
+#include <verification/measure/formulas/square_law.h>
 
 #include <gtest/gtest.h>
 

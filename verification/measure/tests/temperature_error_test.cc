@@ -1,4 +1,4 @@
-#include <verification/measure/temperature_error.h>
+#include <verification/measure/formulas/temperature_error.h>
 #include <verification/measure/tests/fixtures.h>
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-#include <verification/report/case_runs.h>
-#include <verification/report/report.h>
+#include <verification/report/chapters/variation_group.h>
+#include <verification/report/page/case_runs.h>
+#include <verification/report/page/report.h>
+#include <verification/report/plots/variation_plots.h>
 #include <verification/report/tests/fixture.h>
 #include <verification/report/tests/well_formed.h>
-#include <verification/report/variation_group.h>
-#include <verification/report/variation_plots.h>
 
 #include <gtest/gtest.h>
 
@@ -32,20 +32,19 @@ namespace meltfront::verification
       for(const double latent_heat : {10., 1.})
         for(const double conductivity : {0.1, 1.})
         {
-          CaseRecord record = fixture::plane_case(
+          StoredCase record = fixture::plane_case(
               "slab[conductivity=" + std::to_string(conductivity)
               + ",latent_heat=" + std::to_string(latent_heat) + "]");
           record.variation_of = "slab";
           record.variation
               = {{"Scene/Material/latent heat", std::to_string(latent_heat)},
                  {"Scene/Material/Solid/conductivity", std::to_string(conductivity)}};
-          record.material.latent_heat = latent_heat;
-          record.material.solid.conductivity = conductivity;
-          record.material.liquid.conductivity = 1;
-          record.stefan_number = 1 / latent_heat;
+          record.scene.material.latent_heat = latent_heat;
+          record.scene.material.solid.conductivity = conductivity;
+          record.scene.material.liquid.conductivity = 1;
           for(const int n : {20, 40, 80, 160})
           {
-            RunRecord run = fixture::run(record.name, "sph", n, 0.5,
+            RunRecord run = fixture::run(record.name(), "sph", n, 0.5,
                                          conductivity < 1 ? 1.5 : 2, 0.01);
             if(conductivity < 1)
               run.events = {{0.1, "layer <thin>: 3 at n = " + std::to_string(n)}};
@@ -93,9 +92,9 @@ namespace meltfront::verification
 
   TEST(Variations, ThePecletNumberIsSpeedTimesSpacingOverDiffusivity)
   {
-    CaseRecord record = fixture::plane_case("slab");
-    record.material.solid = {0.5, 2, 5}; // diffusivity 0.05
-    record.material.liquid = {1, 1, 1};
+    StoredCase record = fixture::plane_case("slab");
+    record.scene.material.solid = {0.5, 2, 5}; // diffusivity 0.05
+    record.scene.material.liquid = {1, 1, 1};
     RunRecord run;
     run.description.spacing = 0.1;
     run.series.time = {0, 1, 2};
@@ -126,7 +125,7 @@ namespace meltfront::verification
   {
     MatrixResult result = varied();
     for(RunRecord &run : result.runs)
-      if(run.case_name == result.cases.front().name)
+      if(run.case_name == result.cases.front().name())
         run.quantities["front_rms"] = 0.02; // stagnates
     const std::vector<CaseRuns> runs = collect_runs(result);
     const std::vector<VariationGroup> groups = variation_groups(runs);
@@ -163,7 +162,7 @@ namespace meltfront::verification
     EXPECT_TRUE(holds(html, "1 of 3 findings hold"));
     EXPECT_TRUE(holds(html, "A &lt;caption&gt;."));
     // The cases that break the second one are named.
-    EXPECT_TRUE(holds(html, result.cases[0].name + ": 1.5"));
-    EXPECT_FALSE(holds(html, result.cases[1].name + ": 2"));
+    EXPECT_TRUE(holds(html, result.cases[0].name() + ": 1.5"));
+    EXPECT_FALSE(holds(html, result.cases[1].name() + ": 2"));
   }
 } // namespace meltfront::verification

@@ -1,3 +1,4 @@
+#include <verification/measure/tests/fixtures.h>
 #include <verification/report/tests/fixture.h>
 
 #include <gtest/gtest.h>
@@ -91,47 +92,95 @@ namespace meltfront::verification::fixture
     return run;
   }
 
-  CaseRecord plane_case(const std::string &name)
+  namespace
   {
-    CaseRecord record;
-    record.name = name;
+    /** A front at 0.4 sqrt(t) and a wall at -1. */
+    class Known : public tests::LinearProfile
+    {
+    public:
+      Known(cases::Symmetry symmetry, const std::string &words)
+        : LinearProfile(symmetry)
+        , words(words)
+      {
+      }
+
+      std::string description() const override
+      {
+        return words;
+      }
+
+      double front(double time) const override
+      {
+        return 0.4 * std::sqrt(time);
+      }
+
+      double temperature(double coordinate, double time) const override
+      {
+        return coordinate / front(time) - 1;
+      }
+
+    private:
+      std::string words;
+    };
+
+    cases::Field field(const std::string &expression)
+    {
+      cases::Field result = cases::Field::uniform(0);
+      result.expression = expression;
+      result.constant = false;
+      return result;
+    }
+  } // namespace
+
+  void set_wall(StoredCase &record, cases::Side side, cases::BoundaryKind kind,
+                const std::string &expression)
+  {
+    record.scene.boundaries[static_cast<std::size_t>(side)]
+        = cases::Boundary{kind, field(expression), false};
+  }
+
+  StoredCase plane_case(const std::string &name)
+  {
+    using cases::BoundaryKind;
+    StoredCase record;
+    cases::Scene &scene = record.scene;
+    scene = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+    scene.name = name;
+    scene.units = "normalised";
+    scene.material.liquid.conductivity = 0.5;
+    scene.initial.temperature = field("1.2 where x > 0 & t < 1");
+    scene.boundaries[static_cast<std::size_t>(cases::Side::x_min)] = cases::Boundary{
+        BoundaryKind::fixed_temperature, cases::Field::uniform(-10.123456789), false};
     record.title = "Plane <freezing> & \"melting\"";
     record.description = "A <slab> & nothing else.";
     record.tags = {"plane", "a&b"};
     record.limits = {"Nothing holds for x < 0 & t < 0."};
-    record.units = "normalised";
-    record.symmetry = "planar";
-    record.shape = "slab";
-    record.upper = {1, 0, 0};
-    record.material.liquid.conductivity = 0.5;
-    record.initial_state = "temperature 1.2 where x > 0 & t < 1";
-    record.boundaries = {"x_min: fixed temperature -10.123456789", "x_max: insulated"};
-    record.exact = "planar two-phase Neumann solution, lambda = 0.5";
-    record.front_exact_end = 0.4;
+    record.exact = std::make_shared<Known>(
+        cases::Symmetry::planar, "planar two-phase Neumann solution, lambda = 0.5");
     record.text = "set title = <&>\n";
     record.hash = std::string(64, 'a');
     return record;
   }
 
-  CaseRecord sink_case(const std::string &name)
+  StoredCase sink_case(const std::string &name)
   {
-    CaseRecord record = plane_case(name);
+    using cases::BoundaryKind, cases::Side;
+    StoredCase record = plane_case(name);
     record.title
         = "A line sink with a rather long title that has to wrap on a small screen "
           "without pushing anything aside";
-    record.units = "SI";
-    record.symmetry = "none";
-    record.shape = "box";
-    record.dimension = 2;
-    record.lower = {-0.5, -0.5, 0};
-    record.upper = {0.5, 0.5, 0};
-    record.boundaries
-        = {"x_min: insulated", "x_max: periodic",
-           "y_min: heat flux inward sin(pi*x)*exp(-t)",
-           "y_max: fixed temperature sin(3*pi*x) + 0.25*cos(7*pi*x)*exp(-t) - 1"};
-    record.source_positions = {{0, 0, 0}};
-    record.sources = {"at (0, 0): -148.45 W/m"};
-    record.exact = "line sink, lambda = 0.15";
+    record.scene.units = "SI";
+    record.scene.symmetry = cases::Symmetry::none;
+    record.scene.domain
+        = tests::scene_of(cases::DomainShape::box, 2, cases::Symmetry::none).domain;
+    set_wall(record, Side::x_min, BoundaryKind::insulated, "");
+    set_wall(record, Side::x_max, BoundaryKind::periodic, "");
+    set_wall(record, Side::y_min, BoundaryKind::flux, "sin(pi*x)*exp(-t)");
+    set_wall(record, Side::y_max, BoundaryKind::fixed_temperature,
+             "sin(3*pi*x) + 0.25*cos(7*pi*x)*exp(-t) - 1");
+    record.scene.sources = {{{}, "-148.45", {}, {}}};
+    record.exact
+        = std::make_shared<Known>(cases::Symmetry::none, "line sink, lambda = 0.15");
     record.measurement.front_floor = 3e-5;
     for(const int n : {20, 40, 80, 160})
       record.printed.push_back(

@@ -1,8 +1,8 @@
 #ifndef meltfront_verification_report_tests_fixture_h
 #define meltfront_verification_report_tests_fixture_h
 
-#include <verification/matrix/matrix_result.h>
-#include <verification/matrix/temporary_directory.h>
+#include <verification/judge/matrix_result.h>
+#include <verification/record/temporary_directory.h>
 
 #include <string>
 
@@ -13,9 +13,13 @@ namespace meltfront::verification::fixture
   RunRecord run(const std::string &case_name, const std::string &label, int n,
                 double factor, double order, double seconds);
 
-  CaseRecord plane_case(const std::string &name);
+  StoredCase plane_case(const std::string &name);
 
-  CaseRecord sink_case(const std::string &name);
+  StoredCase sink_case(const std::string &name);
+
+  /** What a wall prescribes, by its words. */
+  void set_wall(StoredCase &record, cases::Side side, cases::BoundaryKind kind,
+                const std::string &expression);
 
   /**
    * Two cases and three methods: exact orders, a failed and a refused run, a run with NaN

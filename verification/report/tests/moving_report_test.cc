@@ -1,10 +1,12 @@
 #include <cases/outcomes.h>
-#include <verification/matrix/criteria.h>
-#include <verification/report/case_runs.h>
-#include <verification/report/ensemble_table.h>
-#include <verification/report/particle_frames.h>
-#include <verification/report/report.h>
-#include <verification/report/solid_plots.h>
+#include <cases/shape.h>
+#include <cases/velocity_field.h>
+#include <verification/judge/criteria.h>
+#include <verification/report/page/case_runs.h>
+#include <verification/report/page/report.h>
+#include <verification/report/pictures/particle_frames.h>
+#include <verification/report/plots/solid_plots.h>
+#include <verification/report/tables/ensemble_table.h>
 #include <verification/report/tests/fixture.h>
 #include <verification/report/tests/well_formed.h>
 
@@ -29,26 +31,24 @@ namespace meltfront::verification
       return found;
     }
 
-    CaseRecord solid_case(const std::string &name)
+    StoredCase solid_case(const std::string &name)
     {
-      CaseRecord record;
-      record.name = name;
+      StoredCase record;
+      record.scene.name = name;
+      record.scene.units = "normalised";
+      record.scene.problem = cases::ProblemKind::particle_solid;
+      record.scene.domain.shape = cases::DomainShape::box;
+      record.scene.domain.dimension = 2;
+      record.scene.end_time = 10;
       record.title = "A <solid>";
-      record.units = "normalised";
-      record.dimension = 2;
-      record.changes_phase = false;
-      record.end_time = 10;
-      record.front_exact_end = std::nan("");
       record.measurement.marks = {8};
-      record.moving = MovingRecord();
-      record.moving->problem = "particle solid";
       cases::ParticleSolid solid;
       solid.gravity = 32;
       solid.disturbance = 1e-6;
       solid.base = cases::SolidBase{0.1, cases::HotBase{1, 1.5, 0.025}};
       solid.heating = cases::PointHeating{
           {0.2, 2.5, 0}, {{50000, 0.008}, {50000, 0.0095}}, -2, 2.5};
-      record.moving->solid = solid;
+      record.scene.particle_solid = solid;
       cases::Criterion criterion;
       criterion.text = "greenspan: least_solid at n=3 in 1..2";
       criterion.method = "greenspan";
@@ -203,7 +203,7 @@ namespace meltfront::verification
 
   TEST(ParticleFrames, DrawBondsOfSolidsAndArrowsOfFastFluid)
   {
-    const CaseRecord record = solid_case("solid");
+    const StoredCase record = solid_case("solid");
     const std::vector<ParticleFrame> frames
         = {triangle(0, 0), triangle(1, 8), triangle(2, 7)};
     const FrameDrawing drawing(record, frames, DrawingColours::of_file());
@@ -229,7 +229,7 @@ namespace meltfront::verification
     many.solid.resize(many.x.size(), 1);
     later = many;
     later.x[0] = -50;
-    const CaseRecord record = solid_case("solid");
+    const StoredCase record = solid_case("solid");
     const FrameDrawing drawing(record, {many, later}, DrawingColours::of_file());
     EXPECT_EQ(count(drawing.frame(many), "<text"), 1u);
     EXPECT_EQ(drawing.frame(many).find("out of"), std::string::npos);
@@ -286,15 +286,15 @@ namespace meltfront::verification
   {
     MatrixResult result;
     result.name = "fronts";
-    CaseRecord record = solid_case("disk");
-    record.shape = "box";
-    record.upper = {1, 1, 0};
+    StoredCase record = solid_case("disk");
+    record.scene.problem = cases::ProblemKind::interface_advection;
+    record.scene.domain.upper = {1, 1, 0};
     record.criteria.clear();
     record.printed.clear();
-    record.moving->solid.reset();
-    record.moving->problem = "interface advection";
-    record.moving->region = "disk of radius <0.2>";
-    record.moving->velocity = "at rest";
+    record.scene.particle_solid.reset();
+    record.scene.interface = cases::InterfaceAdvection{
+        std::make_shared<cases::Ball>(2, cases::Position{0.5, 0.5, 0}, 0.2),
+        std::make_shared<cases::RigidMotion>(cases::Position{}, 0, cases::Position{})};
     FrontFrame edge;
     edge.time = 10;
     for(int i = 0; i < 40; ++i)
@@ -303,7 +303,6 @@ namespace meltfront::verification
         edge.x.push_back(0.5 + 0.2 * std::cos(std::numbers::pi * end / 20));
         edge.y.push_back(0.5 + 0.2 * std::sin(std::numbers::pi * end / 20));
       }
-    record.moving->exact_fronts = {edge};
     result.cases = {record};
     for(const int n : {20, 40, 80, 160})
     {
@@ -320,9 +319,8 @@ namespace meltfront::verification
       result.runs.push_back(run);
     }
     const std::string html = page_of(result);
-    for(const char *present :
-        {"disk of radius &lt;0.2&gt;", "mismatch, end", "front, L1, end",
-         "Fronts over the exact ones", "Work-precision", "2.00"})
+    for(const char *present : {"disk of radius 0.2", "mismatch, end", "front, L1, end",
+                               "Fronts over the exact ones", "Work-precision", "2.00"})
       EXPECT_NE(html.find(present), std::string::npos) << present;
     for(const char *absent : {"curvature, RMS", "Stefan", "Temperature"})
       EXPECT_EQ(html.find(absent), std::string::npos) << absent;

@@ -1,7 +1,7 @@
 #include <cases/error.h>
-#include <verification/report/gnuplot.h>
-#include <verification/report/method_styles.h>
-#include <verification/report/plot_layout.h>
+#include <verification/report/plots/gnuplot.h>
+#include <verification/report/plots/method_styles.h>
+#include <verification/report/plots/plot_layout.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include <cases/error.h>
-#include <verification/report/report.h>
+#include <verification/report/page/report.h>
 #include <verification/report/tests/fixture.h>
 #include <verification/report/tests/well_formed.h>
 
@@ -173,10 +173,11 @@ namespace meltfront::verification
       run.cost.setup_cpu = run.cost.stepping_wall = nan;
       run.description.spacing = nan;
     }
-    for(CaseRecord &record : result.cases)
+    for(StoredCase &record : result.cases)
     {
-      record.front_exact_end = record.end_time = record.material.latent_heat = nan;
-      record.material.solid.density = record.material.liquid.conductivity = nan;
+      cases::Material &material = record.scene.material;
+      record.scene.end_time = material.melting_temperature = nan;
+      material.solid.density = material.liquid.conductivity = nan;
     }
     report_of(result);
   }
@@ -184,11 +185,8 @@ namespace meltfront::verification
   TEST(Report, CaseWithoutExactSolution)
   {
     MatrixResult result = fixture::matrix();
-    for(CaseRecord &record : result.cases)
-    {
-      record.exact.clear();
-      record.front_exact_end = std::nan("");
-    }
+    for(StoredCase &record : result.cases)
+      record.exact = nullptr;
     for(RunRecord &run : result.runs)
     {
       run.series.front_exact.clear();
@@ -201,13 +199,13 @@ namespace meltfront::verification
   TEST(Report, BallsAndSpheres)
   {
     MatrixResult result = fixture::matrix();
-    for(CaseRecord &record : result.cases)
+    for(StoredCase &record : result.cases)
     {
-      record.shape = "ball";
-      record.symmetry = "spherical";
-      record.dimension = 3;
-      record.radius = 0.5;
-      record.boundaries = {"outer: temperature of the exact solution"};
+      record.scene.symmetry = cases::Symmetry::spherical;
+      record.scene.domain = {cases::DomainShape::ball, 3, {}, {}, 0.5};
+      record.scene.boundaries = {};
+      record.scene.boundaries[static_cast<std::size_t>(cases::Side::outer)]
+          = cases::Boundary{cases::BoundaryKind::fixed_temperature, {}, true};
     }
     report_of(result);
   }

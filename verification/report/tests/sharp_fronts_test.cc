@@ -1,15 +1,15 @@
-#include <verification/matrix/reference.h>
-#include <verification/report/case_plots.h>
-#include <verification/report/chapters.h>
-#include <verification/report/convergence_table.h>
-#include <verification/report/cost_at_error.h>
-#include <verification/report/curve_labels.h>
-#include <verification/report/gnuplot.h>
-#include <verification/report/report.h>
-#include <verification/report/scene_picture.h>
+#include <verification/judge/reference.h>
+#include <verification/report/chapters/chapters.h>
+#include <verification/report/page/report.h>
+#include <verification/report/pictures/scene_picture.h>
+#include <verification/report/pictures/tracked_front.h>
+#include <verification/report/plots/case_plots.h>
+#include <verification/report/plots/curve_labels.h>
+#include <verification/report/plots/gnuplot.h>
+#include <verification/report/tables/convergence_table.h>
+#include <verification/report/tables/cost_at_error.h>
 #include <verification/report/tests/fixture.h>
 #include <verification/report/tests/well_formed.h>
-#include <verification/report/tracked_front.h>
 
 #include <gtest/gtest.h>
 
@@ -37,17 +37,16 @@ namespace meltfront::verification
       return frame;
     }
 
-    CaseRecord annulus_case()
+    StoredCase annulus_case()
     {
-      CaseRecord record = fixture::plane_case("annulus");
-      record.symmetry = "none";
-      record.shape = "shell";
-      record.dimension = 2;
-      record.radius = 1;
-      record.inner_radius = 0.2;
-      record.boundaries = {"outer: fixed temperature 1", "inner: fixed temperature -1"};
-      record.exact = "";
-      record.front_exact_end = std::nan("");
+      StoredCase record = fixture::plane_case("annulus");
+      cases::Scene &scene = record.scene;
+      scene.symmetry = cases::Symmetry::none;
+      scene.domain = {cases::DomainShape::shell, 2, {}, {}, 1, 0.2};
+      scene.boundaries = {};
+      for(const cases::Side side : {cases::Side::outer, cases::Side::inner})
+        fixture::set_wall(record, side, cases::BoundaryKind::fixed_temperature, "1");
+      record.exact = nullptr;
       record.measurement.front_mode = 4;
       record.measurement.marks = {0.5};
       record.reference = cases::Reference{"fem-fitted", 80};
@@ -103,7 +102,7 @@ namespace meltfront::verification
     const CaseRuns *runs_of(const std::vector<CaseRuns> &all, const std::string &name)
     {
       for(const CaseRuns &runs : all)
-        if(runs.record->name == name)
+        if(runs.record->name() == name)
           return &runs;
       return nullptr;
     }

@@ -1,6 +1,6 @@
-#include <verification/report/convergence_table.h>
-#include <verification/report/cost_at_error.h>
-#include <verification/report/scene_picture.h>
+#include <verification/report/pictures/scene_picture.h>
+#include <verification/report/tables/convergence_table.h>
+#include <verification/report/tables/cost_at_error.h>
 #include <verification/report/tests/fixture.h>
 
 #include <gtest/gtest.h>

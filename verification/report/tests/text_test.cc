@@ -1,6 +1,6 @@
-#include <verification/report/markup.h>
-#include <verification/report/number_text.h>
-#include <verification/report/table.h>
+#include <verification/report/page/markup.h>
+#include <verification/report/page/number_text.h>
+#include <verification/report/tables/table.h>
 
 #include <gtest/gtest.h>
 

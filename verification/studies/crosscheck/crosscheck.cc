@@ -1,8 +1,8 @@
 #include <cases/error.h>
 #include <verification/matrix/directory_lock.h>
-#include <verification/matrix/hash.h>
-#include <verification/matrix/json_values.h>
 #include <verification/matrix/progress.h>
+#include <verification/record/hash.h>
+#include <verification/record/json_values.h>
 #include <verification/studies/crosscheck/crosscheck.h>
 #include <verification/studies/crosscheck/scene_generator.h>
 #include <verification/studies/crosscheck/verdict_record.h>

@@ -1,7 +1,7 @@
-#include <verification/matrix/child_process.h>
-#include <verification/matrix/json_values.h>
-#include <verification/matrix/run_one.h>
-#include <verification/matrix/temporary_directory.h>
+#include <verification/record/json_values.h>
+#include <verification/record/temporary_directory.h>
+#include <verification/run/child_process.h>
+#include <verification/run/run_one.h>
 #include <verification/studies/crosscheck/level_runs.h>
 
 #include <fmt/format.h>

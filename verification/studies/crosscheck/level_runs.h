@@ -3,7 +3,7 @@
 
 #include <cases/case.h>
 #include <cases/method.h>
-#include <verification/matrix/run_record.h>
+#include <verification/record/run_record.h>
 #include <verification/studies/crosscheck/state_course.h>
 
 #include <functional>

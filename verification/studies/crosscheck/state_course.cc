@@ -1,7 +1,7 @@
 #include <cases/numbers.h>
-#include <verification/matrix/json_values.h>
-#include <verification/measure/scene_quadrature.h>
-#include <verification/measure/site_heat.h>
+#include <verification/measure/checks/scene_quadrature.h>
+#include <verification/measure/checks/site_heat.h>
+#include <verification/record/json_values.h>
 #include <verification/studies/crosscheck/state_course.h>
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 
 #include <cases/method.h>
 #include <cases/scene.h>
-#include <verification/matrix/run_statistics.h>
-#include <verification/measure/site_coordinates.h>
+#include <verification/measure/formulas/run_statistics.h>
+#include <verification/measure/formulas/site_coordinates.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -1,4 +1,4 @@
-#include <verification/matrix/json_values.h>
+#include <verification/record/json_values.h>
 #include <verification/studies/crosscheck/verdict_record.h>
 
 #include <fmt/format.h>

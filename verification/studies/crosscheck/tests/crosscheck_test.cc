@@ -1,5 +1,5 @@
-#include <verification/matrix/json_values.h>
-#include <verification/matrix/tests/fakes.h>
+#include <verification/record/json_values.h>
+#include <verification/run/tests/fakes.h>
 #include <verification/studies/crosscheck/crosscheck.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <cases/case_file/case_file.h>
 #include <cases/error.h>
-#include <verification/matrix/hash.h>
+#include <verification/record/hash.h>
 #include <verification/studies/crosscheck/random_stream.h>
 #include <verification/studies/crosscheck/scene_generator.h>
 

@@ -1,4 +1,4 @@
-#include <verification/measure/site_heat.h>
+#include <verification/measure/checks/site_heat.h>
 #include <verification/measure/tests/fixtures.h>
 #include <verification/studies/crosscheck/state_course.h>
 

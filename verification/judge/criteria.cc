@@ -1,0 +1,251 @@
+#include <cases/numbers.h>
+#include <verification/judge/criteria.h>
+#include <verification/judge/reference.h>
+#include <verification/judge/refinement.h>
+#include <verification/measure/measure.h>
+#include <verification/record/label.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using cases::nan;
+    constexpr int fewest_levels = 4;
+
+    using Runs = std::vector<const RunRecord *>;
+
+    /** The runs that a criterion is about. */
+    Runs runs_of(const MatrixResult &result, const StoredCase &record,
+                 const cases::Criterion &criterion)
+    {
+      Runs runs;
+      const bool at_one_n = criterion.statistic == cases::Statistic::value
+                            || criterion.statistic == cases::Statistic::median
+                            || criterion.statistic == cases::Statistic::failure;
+      const bool derived = is_derived_quantity(criterion.quantity);
+      for(const RunRecord &run : result.runs)
+        if(run.case_name == record.name() && label_matches(criterion.method, run.label)
+           && !(derived && is_reference(record, run))
+           && (at_one_n ? run.n == criterion.n
+                        : run.n >= criterion.n_from && run.n <= criterion.n_to))
+          runs.push_back(&run);
+      return runs;
+    }
+
+    int different_resolutions(const Runs &runs)
+    {
+      std::vector<int> n;
+      for(const RunRecord *run : runs)
+        if(std::ranges::find(n, run->n) == n.end())
+          n.push_back(run->n);
+      return static_cast<int>(n.size());
+    }
+
+    /** By an error that the method saw itself, not by a crash or for want of time. */
+    bool failed_numerically(const RunRecord &run)
+    {
+      return run.status == RunStatus::failed && !run.provenance.contains("ended");
+    }
+
+    /** Whether a criterion says that the run is known to fail. */
+    bool known_to_fail(const MatrixResult &result, const RunRecord &run)
+    {
+      for(const StoredCase &record : result.cases)
+        for(const cases::Criterion &criterion : record.criteria)
+        {
+          if(criterion.statistic != cases::Statistic::failure)
+            continue;
+          const Runs runs = runs_of(result, record, criterion);
+          if(std::ranges::find(runs, &run) != runs.end())
+            return failed_numerically(run);
+        }
+      return false;
+    }
+
+    double order_over(const StoredCase &record, const Runs &runs,
+                      const std::string &quantity)
+    {
+      const Refinement refinement(runs);
+      ErrorLevels levels;
+      for(const RunRecord *run : runs)
+        if(run->status != RunStatus::refused)
+        {
+          levels.abscissa.push_back(
+              run->status == RunStatus::finished ? refinement.of(*run) : nan);
+          levels.error.push_back(table_value(*run, quantity));
+        }
+      const OrderFit fit
+          = fit_levels(levels, record, quantity, *runs.front(), refinement);
+      return fit.levels >= fewest_levels ? fit.order : nan;
+    }
+
+    double worst_over(const Runs &runs, const std::string &quantity)
+    {
+      double worst = nan;
+      for(const RunRecord *run : runs)
+      {
+        if(run->status == RunStatus::refused)
+          continue;
+        const double value = table_value(*run, quantity);
+        if(std::isnan(value))
+          return nan;
+        worst = std::fmax(worst, value);
+      }
+      return worst;
+    }
+
+    double mean_over(const Runs &runs, const std::string &quantity)
+    {
+      double sum = 0;
+      for(const RunRecord *run : runs)
+        sum += table_value(*run, quantity);
+      return sum / static_cast<double>(runs.size());
+    }
+
+    double median_over(const Runs &runs, const std::string &quantity)
+    {
+      std::vector<double> values;
+      for(const RunRecord *run : runs)
+        values.push_back(table_value(*run, quantity));
+      if(std::ranges::any_of(values, [](double value) { return std::isnan(value); }))
+        return nan;
+      std::ranges::sort(values);
+      const std::size_t half = values.size() / 2;
+      return values.size() % 2 == 1 ? values[half]
+                                    : 0.5 * (values[half - 1] + values[half]);
+    }
+
+    double value_of(const StoredCase &record, const Runs &runs,
+                    const cases::Criterion &criterion)
+    {
+      switch(criterion.statistic)
+      {
+      case cases::Statistic::order:
+        return order_over(record, runs, criterion.quantity);
+      case cases::Statistic::worst:
+        return worst_over(runs, criterion.quantity);
+      case cases::Statistic::median:
+        return median_over(runs, criterion.quantity);
+      case cases::Statistic::failure:
+        return std::ranges::all_of(runs, [](const RunRecord *run)
+                                   { return failed_numerically(*run); })
+                   ? 1
+                   : 0;
+      default:
+        return mean_over(runs, criterion.quantity);
+      }
+    }
+
+    std::string omission(const RunRecord &run)
+    {
+      return fmt::format("{}, {}, n = {}{}: {}: {}", run.case_name, run.label, run.n,
+                         run.seed == 1 ? "" : fmt::format(", seed {}", run.seed),
+                         to_string(run.status), run.message);
+    }
+  } // namespace
+
+  std::string quantity_text(const cases::Criterion &criterion)
+  {
+    if(criterion.statistic == cases::Statistic::failure)
+      return fmt::format("fails at n={}", criterion.n);
+    if(criterion.statistic == cases::Statistic::value)
+      return fmt::format("{} at n={}", criterion.quantity, criterion.n);
+    if(criterion.statistic == cases::Statistic::median)
+      return fmt::format("median {} at n={}", criterion.quantity, criterion.n);
+    const bool all
+        = criterion.n_from <= 0 && criterion.n_to == std::numeric_limits<int>::max();
+    return fmt::format(
+        "{} {}{}", criterion.statistic == cases::Statistic::order ? "order of" : "worst",
+        criterion.quantity,
+        all ? "" : fmt::format(" over n={}..{}", criterion.n_from, criterion.n_to));
+  }
+
+  std::string why_not_judged(const MatrixResult &result, const StoredCase &record,
+                             const cases::Criterion &criterion)
+  {
+    const Runs runs = runs_of(result, record, criterion);
+    if(runs.empty())
+      return "the matrix has no such run";
+    if(criterion.statistic == cases::Statistic::order
+       && different_resolutions(runs) < fewest_levels)
+      return "an order needs four resolutions and the matrix has fewer";
+    return {};
+  }
+
+  double criterion_value(const MatrixResult &result, const StoredCase &record,
+                         const cases::Criterion &criterion)
+  {
+    return value_of(record, runs_of(result, record, criterion), criterion);
+  }
+
+  std::map<std::string, double> run_columns(const RunRecord &run)
+  {
+    static const std::vector<Quantity> told = []
+    {
+      std::vector<Quantity> list = all_quantities();
+      std::erase_if(list, [](const Quantity &quantity) { return !quantity.of_run; });
+      return list;
+    }();
+    std::map<std::string, double> values;
+    for(const Quantity &quantity : told)
+      values[quantity.name]
+          = quantity.of_run({run.description, run.cost, run.peak_memory_mb});
+    return values;
+  }
+
+  double table_value(const RunRecord &run, const std::string &name)
+  {
+    if(run.status != RunStatus::finished)
+      return nan;
+    if(const auto found = run.quantities.find(name); found != run.quantities.end())
+      return found->second;
+    const auto all = run_columns(run);
+    const auto found = all.find(name);
+    return found == all.end() ? nan : found->second;
+  }
+
+  void evaluate(MatrixResult &result)
+  {
+    result.criteria.clear();
+    result.passed = std::any_of(result.runs.begin(), result.runs.end(),
+                                [](const RunRecord &run)
+                                { return run.status == RunStatus::finished; });
+    if(!result.passed)
+      result.omissions.push_back("no run finished: nothing was judged");
+    for(const RunRecord &run : result.runs)
+      if(run.status != RunStatus::finished)
+      {
+        result.omissions.push_back(omission(run));
+        result.passed
+            = result.passed
+              && (run.status == RunStatus::refused || known_to_fail(result, run));
+      }
+    for(const StoredCase &record : result.cases)
+      for(const cases::Criterion &criterion : record.criteria)
+      {
+        const std::string reason = why_not_judged(result, record, criterion);
+        if(!reason.empty())
+        {
+          result.omissions.push_back(fmt::format("{}, {}: {}: not judged: {}",
+                                                 record.name(), criterion.method,
+                                                 quantity_text(criterion), reason));
+          continue;
+        }
+        const double value = criterion_value(result, record, criterion);
+        const bool passed = value >= criterion.lower && value <= criterion.upper;
+        result.criteria.push_back({record.name(), criterion.method,
+                                   quantity_text(criterion), value, criterion.lower,
+                                   criterion.upper, passed, criterion.known_shortfall});
+        result.passed = result.passed && passed;
+      }
+    result.findings = judge_findings(result, result.claims);
+    result.passed
+        = result.passed && std::ranges::all_of(result.findings, &FindingResult::holds);
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,159 @@
+#include <cases/case_file/criterion_parser.h>
+#include <cases/error.h>
+#include <cases/numbers.h>
+#include <verification/judge/criteria.h>
+#include <verification/judge/finding.h>
+#include <verification/record/label.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using cases::nan;
+
+    EvidenceResult judge(const MatrixResult &result, const Evidence &evidence)
+    {
+      EvidenceResult judged{evidence, quantity_text(evidence.criterion), {}};
+      for(const StoredCase &record : result.cases)
+        if(label_matches(evidence.cases, record.name())
+           && why_not_judged(result, record, evidence.criterion).empty())
+        {
+          const double value = criterion_value(result, record, evidence.criterion);
+          judged.values.push_back(
+              {record.name(), value,
+               value >= evidence.criterion.lower && value <= evidence.criterion.upper});
+        }
+      return judged;
+    }
+
+    std::string measured_text(const EvidenceResult &evidence)
+    {
+      if(evidence.values.empty())
+        return "(not measured)";
+      const std::string least = fmt::format("{:.3g}", evidence.least()),
+                        greatest = fmt::format("{:.3g}", evidence.greatest());
+      return least == greatest ? least : least + " to " + greatest;
+    }
+  } // namespace
+
+  bool EvidenceResult::passed() const
+  {
+    return !values.empty() && std::ranges::all_of(values, &EvidenceValue::passed);
+  }
+
+  double EvidenceResult::least() const
+  {
+    double result = nan;
+    for(const EvidenceValue &value : values)
+      result = std::fmin(result, value.value);
+    return result;
+  }
+
+  double EvidenceResult::greatest() const
+  {
+    double result = nan;
+    for(const EvidenceValue &value : values)
+      result = std::fmax(result, value.value);
+    return result;
+  }
+
+  bool FindingResult::holds() const
+  {
+    return std::ranges::all_of(evidence, &EvidenceResult::passed);
+  }
+
+  std::vector<ClaimPiece> pieces_of_claim(const std::string &claim,
+                                          std::size_t evidence_count)
+  {
+    std::vector<ClaimPiece> pieces;
+    for(std::size_t begin = 0; begin < claim.size();)
+    {
+      const std::size_t open = std::min(claim.find('{', begin), claim.size());
+      if(open > begin)
+        pieces.push_back({claim.substr(begin, open - begin), -1});
+      if(open == claim.size())
+        break;
+      const std::size_t close = std::min(claim.find('}', open), claim.size() - 1);
+      const std::string inside = claim.substr(open + 1, close - open - 1);
+      std::size_t number = 0;
+      const auto [end, failure]
+          = std::from_chars(inside.data(), inside.data() + inside.size(), number);
+      if(failure != std::errc() || end != inside.data() + inside.size()
+         || claim[close] != '}' || number < 1 || number > evidence_count)
+        throw cases::InputError(fmt::format(
+            "holds '{{{}}}', which is not the number in braces of what it rests on, 1 to "
+            "{}",
+            inside, evidence_count));
+      pieces.push_back({"", static_cast<int>(number) - 1});
+      begin = close + 1;
+    }
+    return pieces;
+  }
+
+  std::string claim_text(const FindingResult &finding)
+  {
+    std::string text;
+    for(const ClaimPiece &piece : pieces_of_claim(finding.claim, finding.evidence.size()))
+      text += piece.evidence < 0
+                  ? piece.words
+                  : measured_text(
+                      finding.evidence[static_cast<std::size_t>(piece.evidence)]);
+    return text;
+  }
+
+  std::vector<FindingResult> judge_findings(const MatrixResult &result,
+                                            const std::vector<Finding> &findings)
+  {
+    std::vector<FindingResult> judged;
+    for(const Finding &finding : findings)
+    {
+      FindingResult &one = judged.emplace_back();
+      one.claim = finding.claim;
+      for(const Evidence &evidence : finding.evidence)
+        one.evidence.push_back(judge(result, evidence));
+    }
+    return judged;
+  }
+
+  void to_json(nlohmann::json &json, const Finding &finding)
+  {
+    json = {{"claim", finding.claim}, {"evidence", nlohmann::json::array()}};
+    for(const Evidence &evidence : finding.evidence)
+      json["evidence"].push_back({{"cases", evidence.cases},
+                                  {"criterion", {{"text", evidence.criterion.text}}}});
+  }
+
+  void from_json(const nlohmann::json &json, Finding &finding)
+  {
+    finding = {};
+    finding.claim = json.at("claim");
+    for(const auto &evidence : json.at("evidence"))
+      finding.evidence.push_back(
+          {evidence.at("cases"),
+           cases::parse_criterion(evidence.at("criterion").at("text"))});
+  }
+
+  void to_json(nlohmann::json &json, const Picture &picture)
+  {
+    json = {{"caption", picture.caption},
+            {"cases", picture.cases},
+            {"runs", picture.runs},
+            {"quantity", picture.quantity},
+            {"against", picture.against}};
+  }
+
+  void from_json(const nlohmann::json &json, Picture &picture)
+  {
+    picture.caption = json.at("caption");
+    picture.cases = json.at("cases");
+    json.at("runs").get_to(picture.runs);
+    picture.quantity = json.at("quantity");
+    picture.against = json.at("against");
+  }
+} // namespace meltfront::verification

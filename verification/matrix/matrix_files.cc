@@ -1,0 +1,142 @@
+#include <cases/error.h>
+#include <verification/judge/criteria.h>
+#include <verification/judge/reference.h>
+#include <verification/matrix/matrix_files.h>
+#include <verification/record/json_values.h>
+#include <verification/record/provenance.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using nlohmann::json;
+
+    json bound_of(const CriterionResult &criterion)
+    {
+      if(std::isinf(criterion.lower))
+        return json_of(criterion.upper);
+      if(std::isinf(criterion.upper))
+        return json_of(criterion.lower);
+      return {json_of(criterion.lower), json_of(criterion.upper)};
+    }
+
+    const char *relation_of(const CriterionResult &criterion)
+    {
+      if(std::isinf(criterion.lower))
+        return "<=";
+      return std::isinf(criterion.upper) ? ">=" : "in";
+    }
+
+    /** The record of a planned run, or one that says that it is missing. */
+    RunRecord read_run(const std::string &directory, const json &planned)
+    {
+      const std::string path = directory + "/" + planned.at("file").get<std::string>();
+      if(std::filesystem::exists(path))
+        return read_json(path).get<RunRecord>();
+      RunRecord record;
+      record.case_name = planned.at("case");
+      record.method = planned.at("method");
+      record.label = planned.at("label");
+      record.n = planned.at("n");
+      record.seed = planned.at("seed");
+      record.threads = planned.at("threads");
+      record.message = "it has not been run yet";
+      return record;
+    }
+  } // namespace
+
+  void write_plan(const std::string &directory, const Matrix &matrix,
+                  const std::vector<StoredCase> &cases,
+                  const std::vector<PlannedRun> &runs, const std::string &program_version)
+  {
+    json names = json::array(), list = json::array();
+    for(const StoredCase &record : cases)
+    {
+      write_json(fmt::format("{}/cases/{}.json", directory, record.name()), record);
+      names.push_back(record.name());
+    }
+    for(const PlannedRun &run : runs)
+      list.push_back({{"case", run.case_name},
+                      {"method", run.method},
+                      {"label", run.label},
+                      {"n", run.resolution.n},
+                      {"seed", run.resolution.seed},
+                      {"threads", run.resolution.threads},
+                      {"file", run.file()}});
+    write_json(directory + "/matrix.json", {{"name", matrix.name},
+                                            {"title", matrix.title},
+                                            {"description", matrix.description},
+                                            {"hard_cases", matrix.hard_cases},
+                                            {"date", current_date()},
+                                            {"program_version", program_version},
+                                            {"cases", names},
+                                            {"findings", matrix.findings},
+                                            {"pictures", matrix.pictures},
+                                            {"runs", list}});
+  }
+
+  void write_summary(const std::string &directory, const MatrixResult &result)
+  {
+    json criteria = json::array();
+    for(const CriterionResult &criterion : result.criteria)
+      criteria.push_back({{"case", criterion.case_name},
+                          {"method", criterion.method},
+                          {"quantity", criterion.quantity},
+                          {"value", json_of(criterion.value)},
+                          {"bound", bound_of(criterion)},
+                          {"relation", relation_of(criterion)},
+                          {"passed", criterion.passed},
+                          {"known_shortfall", criterion.known_shortfall}});
+    json findings = json::array();
+    for(const FindingResult &finding : result.findings)
+      findings.push_back({{"claim", claim_text(finding)}, {"holds", finding.holds()}});
+    write_json(directory + "/summary.json", {{"matrix", result.name},
+                                             {"date", result.date},
+                                             {"program_version", result.program_version},
+                                             {"passed", result.passed},
+                                             {"criteria", criteria},
+                                             {"findings", findings},
+                                             {"omissions", result.omissions}});
+  }
+
+  MatrixResult load_matrix_result(const std::string &directory)
+  {
+    const std::string path = directory + "/matrix.json";
+    try
+    {
+      const json matrix = read_json(path);
+      MatrixResult result;
+      result.name = matrix.at("name");
+      result.title = matrix.at("title");
+      result.description = matrix.at("description");
+      result.hard_cases = matrix.at("hard_cases");
+      result.date = matrix.at("date");
+      result.program_version = matrix.at("program_version");
+      if(matrix.contains("findings")) // older plans lack them
+      {
+        matrix.at("findings").get_to(result.claims);
+        matrix.at("pictures").get_to(result.pictures);
+      }
+      for(const auto &name : matrix.at("cases"))
+        result.cases.push_back(
+            read_json(fmt::format("{}/cases/{}.json", directory, name.get<std::string>()))
+                .get<StoredCase>());
+      for(const auto &run : matrix.at("runs"))
+        result.runs.push_back(read_run(directory, run));
+      compare_with_references(result);
+      evaluate(result);
+      return result;
+    }
+    catch(const json::exception &error)
+    {
+      throw cases::OutputError(
+          fmt::format("{} or a record beside it is not as this program writes it: {}",
+                      directory, error.what()));
+    }
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,145 @@
+#include <verification/measure/checks/scene_quadrature.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    /** Along each direction of a domain of one, two or three dimensions. */
+    constexpr int cells_along[] = {256, 16, 8};
+    constexpr int points_around = 64;
+
+    struct LinePoint
+    {
+      double place, weight;
+    };
+
+    /** Gauss's two points in each of equal cells. */
+    std::vector<LinePoint> points_between(double lower, double upper, int cells)
+    {
+      const double offset = 0.5 / std::numbers::sqrt3;
+      const double width = (upper - lower) / cells;
+      std::vector<LinePoint> points;
+      for(int cell = 0; cell < cells; ++cell)
+        for(const double s : {0.5 - offset, 0.5 + offset})
+          points.push_back({lower + (cell + s) * width, width / 2});
+      return points;
+    }
+
+    /** All points with those of a line in one more direction. */
+    std::vector<QuadraturePoint> extruded(const std::vector<QuadraturePoint> &points,
+                                          int d, const std::vector<LinePoint> &line)
+    {
+      std::vector<QuadraturePoint> result;
+      for(const LinePoint &along : line)
+        for(QuadraturePoint point : points)
+        {
+          point.place[d] = along.place;
+          point.weight *= along.weight;
+          result.push_back(point);
+        }
+      return result;
+    }
+
+    int cells_of(const cases::Domain &domain)
+    {
+      return cells_along[domain.dimension - 1];
+    }
+
+    bool is_box(const cases::Domain &domain)
+    {
+      return domain.shape == cases::DomainShape::slab
+             || domain.shape == cases::DomainShape::box;
+    }
+
+    std::vector<QuadraturePoint> around(double radius, double weight)
+    {
+      std::vector<QuadraturePoint> result;
+      for(int i = 0; i < points_around; ++i)
+      {
+        const double angle = 2 * std::numbers::pi * (i + 0.5) / points_around;
+        result.push_back({{radius * std::cos(angle), radius * std::sin(angle), 0},
+                          weight / points_around});
+      }
+      return result;
+    }
+
+    cases::Symmetry symmetry_of(const cases::Domain &domain)
+    {
+      return domain.dimension == 2 ? cases::Symmetry::cylindrical
+                                   : cases::Symmetry::spherical;
+    }
+  } // namespace
+
+  double volume_of(const cases::Domain &domain)
+  {
+    if(domain.outline)
+      return domain.outline->area();
+    if(domain.round())
+      return cases::volume_between(symmetry_of(domain), domain.inner_radius,
+                                   domain.radius);
+    double volume = 1;
+    for(int d = 0; d < domain.dimension; ++d)
+      volume *= domain.upper[d] - domain.lower[d];
+    return volume;
+  }
+
+  double area_of(const cases::Domain &domain, cases::Side side)
+  {
+    if(domain.outline)
+      return domain.outline->perimeter();
+    if(domain.round())
+    {
+      const double radius
+          = side == cases::Side::inner ? domain.inner_radius : domain.radius;
+      return domain.dimension == 2 ? 2 * std::numbers::pi * radius
+                                   : 4 * std::numbers::pi * radius * radius;
+    }
+    double area = 1;
+    for(int d = 0; d < domain.dimension; ++d)
+      if(d != static_cast<int>(side) / 2)
+        area *= domain.upper[d] - domain.lower[d];
+    return area;
+  }
+
+  std::vector<QuadraturePoint> points_over(const cases::Domain &domain)
+  {
+    std::vector<QuadraturePoint> points;
+    if(is_box(domain))
+    {
+      points.push_back({{}, 1});
+      for(int d = 0; d < domain.dimension; ++d)
+        points = extruded(
+            points, d,
+            points_between(domain.lower[d], domain.upper[d], cells_of(domain)));
+    }
+    else if(domain.round() && domain.dimension == 2)
+      for(const LinePoint &ray :
+          points_between(domain.inner_radius, domain.radius, cells_of(domain)))
+        for(const QuadraturePoint &point :
+            around(ray.place, 2 * std::numbers::pi * ray.place * ray.weight))
+          points.push_back(point);
+    return points;
+  }
+
+  std::vector<QuadraturePoint> points_on(const cases::Domain &domain, cases::Side side)
+  {
+    if(domain.round() && domain.dimension == 2)
+      return around(side == cases::Side::inner ? domain.inner_radius : domain.radius,
+                    area_of(domain, side));
+    if(!is_box(domain))
+      return {};
+    const int normal = static_cast<int>(side) / 2;
+    std::vector<QuadraturePoint> points{{{}, 1}};
+    points[0].place[normal]
+        = static_cast<int>(side) % 2 == 0 ? domain.lower[normal] : domain.upper[normal];
+    for(int d = 0; d < domain.dimension; ++d)
+      if(d != normal)
+        points = extruded(
+            points, d,
+            points_between(domain.lower[d], domain.upper[d], cells_of(domain)));
+    return points;
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,148 @@
+#include <cases/error.h>
+#include <cases/numbers.h>
+#include <verification/measure/formulas/front_shape.h>
+#include <verification/run/end_profile.h>
+#include <verification/run/heat_observer.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using cases::nan;
+  } // namespace
+
+  HeatObserver::HeatObserver(const cases::Case &c, const cases::Scene &simulated,
+                             const std::string &method,
+                             const cases::Capabilities &capabilities,
+                             cases::Observer *second)
+    : RunObserver(c, simulated, method, second)
+    , exact(c.exact.get())
+    , capabilities(capabilities)
+    , marks(c.measurement.marks)
+  {
+    if(!(scene.end_time > scene.start_time))
+      throw cases::InputError(fmt::format(
+          "{}: the end time {} is not after the start time {}, so that there is "
+          "nothing to measure",
+          scene.name, scene.end_time, scene.start_time));
+    if(samples < ErrorStatistics::fewest_times)
+      throw cases::InputError(fmt::format("{}: {} samples are too few for a root mean "
+                                          "square over time; take {} or more, or "
+                                          "0 for every step",
+                                          scene.name, samples,
+                                          ErrorStatistics::fewest_times));
+  }
+
+  void HeatObserver::start()
+  {
+    checks.emplace(scene, capabilities, method, description.spacing);
+    reader.emplace(scene, exact, description.spacing, description.smoothing_length);
+    start_measures(MeasuredScenes::with_heat, nullptr);
+  }
+
+  bool HeatObserver::asks_for(long step, double time)
+  {
+    marks.pass(step, time);
+    return the_case.measurement.samples == 0 || sample_is_due(step, time)
+           || marks.near_mark();
+  }
+
+  double HeatObserver::exact_front(double time) const
+  {
+    return exact && time >= exact->start_time() ? exact->front(time) : nan;
+  }
+
+  void HeatObserver::see(Sighting sighting)
+  {
+    const cases::Snapshot &snapshot = sighting.snapshot;
+    checks->judge(snapshot);
+    const auto [lowest, highest] = std::ranges::minmax(snapshot.temperature);
+    sighting.lowest = lowest;
+    sighting.highest = highest;
+    sighting.bounds = checks->bounds();
+    // Where no phase changes there is no front to read.
+    const bool changes_phase = scene.changes_phase();
+    sighting.solid_volume = changes_phase ? solid_volume(snapshot) : nan;
+    sighting.front
+        = changes_phase ? reader->read(snapshot) : FrontReading{nan, nan, nan, nan};
+    sighting.coordinates = &reader->coordinates(snapshot);
+    sighting.exact_front = exact_front(snapshot.time);
+    // Steps that are wanted for a mark only would weigh its neighbourhood.
+    sighting.front_counts = (sighting.in_series || the_case.measurement.samples == 0)
+                            && !std::isnan(sighting.exact_front)
+                            && !(snapshot.step == 0 && sighting.exact_front == 0);
+    observe_with_all(sighting);
+    if(sighting.in_series)
+      add_to_series(sighting);
+    keep_pictures(sighting);
+  }
+
+  void HeatObserver::add_to_series(const Sighting &sighting)
+  {
+    run_series.time.push_back(sighting.snapshot.time);
+    run_series.front.push_back(sighting.front.latent_heat);
+    run_series.front_isotherm.push_back(sighting.front.isotherm);
+    run_series.solid_volume.push_back(sighting.solid_volume);
+    run_series.budget_defect.push_back(sighting.snapshot.heat.defect());
+    run_series.temperature_min.push_back(sighting.lowest);
+    run_series.temperature_max.push_back(sighting.highest);
+    if(exact)
+      run_series.front_exact.push_back(sighting.exact_front);
+  }
+
+  void HeatObserver::keep_pictures(const Sighting &sighting)
+  {
+    const cases::Snapshot &snapshot = sighting.snapshot;
+    const auto profile = [&] {
+      return make_end_profile(snapshot, *sighting.coordinates, exact,
+                              description.spacing);
+    };
+    // Marks before the first snapshot with points are not drawn late.
+    if(!sighting.marks.empty())
+      keep_front(snapshot);
+    for(const int mark : sighting.marks)
+      if(scene.alloy || mark == the_case.measurement.picture_mark)
+        profiles.push_back(profile());
+    if(!sighting.at_end)
+      return;
+    end_profile = profile();
+    if(front_frames.empty() || front_frames.back().time < snapshot.time)
+      keep_front(snapshot);
+  }
+
+  void HeatObserver::keep_course(RunRecord &record) const
+  {
+    RunObserver::keep_course(record);
+    if(!checks)
+      return;
+    record.checks = checks->checks();
+    record.unchecked = checks->unchecked();
+  }
+
+  void HeatObserver::keep_results(RunRecord &record) const
+  {
+    RunObserver::keep_results(record);
+    record.profile = end_profile;
+    record.mark_profiles = profiles;
+  }
+
+  Results HeatObserver::quantities() const
+  {
+    Results values = RunObserver::quantities();
+    for(const MeasureKind &kind : measures())
+      for(const Quantity &quantity : kind.quantities)
+        if(kind.scenes == MeasuredScenes::with_heat && !quantity.from_reference)
+          values.try_emplace(quantity.name, nan);
+    return values;
+  }
+
+  const RunProfile &HeatObserver::profile() const
+  {
+    return end_profile;
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,211 @@
+#include <cases/error.h>
+#include <cases/out_of_memory.h>
+#include <verification/record/hash.h>
+#include <verification/record/provenance.h>
+#include <verification/run/heat_observer.h>
+#include <verification/run/motion_observer.h>
+#include <verification/run/run_one.h>
+
+#include <fmt/format.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    /** Wants nothing: for runs that are repeated for their time. */
+    class IdleObserver : public cases::Observer
+    {
+    public:
+      bool wants(long, double) override
+      {
+        return false;
+      }
+
+      void observe(const cases::Snapshot &) override
+      {
+      }
+    };
+
+    double peak_memory_mb()
+    {
+      rusage usage;
+      getrusage(RUSAGE_SELF, &usage);
+      return static_cast<double>(usage.ru_maxrss) / 1024;
+    }
+
+    double seconds_since(std::chrono::steady_clock::time_point start)
+    {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+          .count();
+    }
+
+    void keep_least_times(cases::Cost &cost, const cases::Cost &other)
+    {
+      cost.setup_wall = std::min(cost.setup_wall, other.setup_wall);
+      cost.setup_cpu = std::min(cost.setup_cpu, other.setup_cpu);
+      cost.stepping_wall = std::min(cost.stepping_wall, other.stepping_wall);
+      cost.stepping_cpu = std::min(cost.stepping_cpu, other.stepping_cpu);
+      for(std::size_t i = 0; i < std::min(cost.effects.size(), other.effects.size()); ++i)
+        cost.effects[i].seconds
+            = std::min(cost.effects[i].seconds, other.effects[i].seconds);
+    }
+
+    /** Solve again and again, and keep the least times of all runs in the record. */
+    void repeat(const cases::Method &method, const cases::Scene &scene,
+                const cases::EffectSet &effects, const cases::Resolution &resolution,
+                const RepeatPolicy &policy, RunRecord &record)
+    {
+      if(record.cost.setup_wall + record.cost.stepping_wall >= policy.short_run)
+        return;
+      const auto start = std::chrono::steady_clock::now();
+      while(record.repeats < policy.most && seconds_since(start) < policy.total_seconds)
+      {
+        IdleObserver observer;
+        keep_least_times(record.cost, method.solve(scene, effects, resolution, observer));
+        ++record.repeats;
+      }
+    }
+
+    /** What the machine lacks memory for is to be tried again, on another or with another
+     * limit. */
+    void require_affordable(const cases::Method &method, const cases::Scene &scene,
+                            const cases::EffectSet &effects,
+                            const cases::Resolution &resolution, RunRecord &record)
+    {
+      const cases::Demand demand = method.demand(scene, effects, resolution);
+      if(demand.bytes > resolution.memory_limit)
+        record.provenance["ended"] = "killed";
+      cases::require_affordable(method, demand, resolution.memory_limit);
+    }
+
+    /** What the case's kind of problem is observed by. */
+    std::unique_ptr<RunObserver> observer_of(const cases::Case &c,
+                                             const cases::Scene &scene,
+                                             const cases::Method &method,
+                                             const cases::Capabilities &capabilities,
+                                             cases::Observer *second, bool animated)
+    {
+      if(scene.conducts_heat())
+        return std::make_unique<HeatObserver>(c, scene, method.name(), capabilities,
+                                              second);
+      return std::make_unique<MotionObserver>(c, scene, method.name(), second, animated);
+    }
+
+    void solve(const cases::Case &c, const cases::Method &method,
+               const cases::Resolution &resolution, cases::Observer *second,
+               const RepeatPolicy &policy, RunRecord &record)
+    {
+      const cases::EffectSet effects = cases::effects_called_for(c.scene);
+      record.effects = effects.decisions();
+      const cases::Scene scene = cases::simulated_scene(c.scene, effects);
+      const cases::Capabilities capabilities
+          = cases::require_capable(method, scene, effects, resolution.threads);
+      require_affordable(method, scene, effects, resolution, record);
+      const auto observer
+          = observer_of(c, scene, method, capabilities, second, resolution.seed == 1);
+      const auto keep_course = [&]
+      {
+        observer->keep_course(record);
+        record.peak_memory_mb = peak_memory_mb();
+      };
+      try
+      {
+        record.cost = method.solve(scene, effects, resolution, *observer);
+        observer->require_end();
+      }
+      catch(...)
+      {
+        keep_course();
+        throw;
+      }
+      keep_course();
+      observer->keep_results(record);
+      record.status = RunStatus::finished;
+      // The first seed stands for the time of all; the others are there for their
+      // results.
+      if(resolution.seed == 1)
+        repeat(method, scene, effects, resolution, policy, record);
+    }
+  } // namespace
+
+  std::string run_label(const std::string &method,
+                        const std::map<std::string, std::string> &set_options,
+                        int threads)
+  {
+    std::string inside;
+    for(const auto &[key, value] : set_options)
+      inside += fmt::format("{}{}={}", inside.empty() ? "" : ",", key, value);
+    if(threads != 1)
+      inside += fmt::format("{}threads={}", inside.empty() ? "" : ",", threads);
+    return inside.empty() ? method : fmt::format("{}[{}]", method, inside);
+  }
+
+  RunRecord empty_record(const cases::Case &c, const cases::Method &method,
+                         const cases::Resolution &resolution, const std::string &label,
+                         const std::map<std::string, std::string> &provenance)
+  {
+    RunRecord record;
+    record.case_name = c.scene.name;
+    record.method = method.name();
+    record.label = label;
+    record.n = resolution.n;
+    record.seed = resolution.seed;
+    record.threads = resolution.threads;
+    record.options = resolution.options.values();
+    record.provenance = build_provenance();
+    for(const auto &[key, value] : provenance)
+      record.provenance[key] = value;
+    record.provenance["case_text"] = c.text;
+    record.provenance["case_hash"] = sha256(c.text);
+    record.provenance["date"] = current_date();
+    return record;
+  }
+
+  RunRecord run_one(const cases::Case &c, const cases::Method &method,
+                    const cases::Resolution &resolution, const std::string &label,
+                    const std::map<std::string, std::string> &provenance,
+                    cases::Observer *second, const RepeatPolicy &repeats)
+  {
+    RunRecord record = empty_record(c, method, resolution, label, provenance);
+    try
+    {
+      solve(c, method, resolution, second, repeats, record);
+    }
+    catch(const cases::Refusal &refusal)
+    {
+      record.status = RunStatus::refused;
+      record.message = refusal.what();
+    }
+    // An n or an option that does not go with the scene: the method declines it too.
+    catch(const cases::InputError &error)
+    {
+      record.status = RunStatus::refused;
+      record.message = fmt::format("{}: {}", method.name(), error.what());
+    }
+    catch(const std::bad_alloc &error)
+    {
+      record.status = RunStatus::failed;
+      record.message = fmt::format("{} needs more memory than there is", method.name());
+      if(const auto *known = dynamic_cast<const cases::OutOfMemory *>(&error))
+        record.message += fmt::format(": {}", known->what());
+      // The machine's fault, not the run's: it is to be tried again.
+      record.provenance["ended"] = "killed";
+    }
+    catch(const cases::OutputError &)
+    {
+      throw; // nothing is wrong with the run
+    }
+    catch(const std::exception &error)
+    {
+      record.status = RunStatus::failed;
+      record.message = error.what();
+    }
+    return record;
+  }
+} // namespace meltfront::verification
