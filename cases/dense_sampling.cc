@@ -75,13 +75,6 @@ namespace meltfront::cases
                  || !may_depend_on(field.expression, "xyzt"));
     }
 
-    bool in_round(const Domain &domain, const Position &p)
-    {
-      const double squared = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
-      return squared <= domain.radius * domain.radius * (1 + 1e-12)
-             && squared >= domain.inner_radius * domain.inner_radius * (1 - 1e-12);
-    }
-
     void visit_radii(const Domain &domain, const std::vector<double> &named,
                      const PointVisitor &visit)
     {
@@ -169,9 +162,7 @@ namespace meltfront::cases
         for(const double x : lines[0])
         {
           p = {x, y, z};
-          if(directions == 0
-             || (domain.outline ? domain.outline->inside(p)
-                                : !domain.round() || in_round(domain, p)))
+          if(directions == 0 || contains(domain, p))
             visit(p);
         }
     if(tells_inside && directions > 0)

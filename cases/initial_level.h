@@ -5,6 +5,14 @@
 
 namespace meltfront::cases
 {
+  /** A level set of an exact solution's front: negative in the solid. */
+  inline Field exact_level(const std::shared_ptr<const ExactSolution> &exact)
+  {
+    const double sign = exact->solid_at_origin() ? 1 : -1;
+    return {"exact", [exact, sign](const Position &p, double time)
+            { return sign * exact->signed_distance(p, time); }};
+  }
+
   /**
    * A level set that is negative in what is solid at the start: that of the scene's own
    * front, or its temperature (K) over the melting one; what is at the melting

@@ -8,18 +8,6 @@ namespace meltfront::cases
   {
     constexpr int samples_of_outline = 8 * samples_across;
 
-    /** Whether a point between the corners of a domain's bounding box lies in it. */
-    bool holds(const Domain &domain, const Position &p)
-    {
-      if(domain.outline)
-        return domain.outline->inside(p);
-      if(!domain.round())
-        return true;
-      const double squared = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
-      return squared <= domain.radius * domain.radius * (1 + 1e-12)
-             && squared >= domain.inner_radius * domain.inner_radius * (1 - 1e-12);
-    }
-
     bool on_side(const Domain &domain, Side side, const Position &p)
     {
       const double tolerance = 1e-9 * domain.side();
@@ -34,6 +22,17 @@ namespace meltfront::cases
       return std::abs(p[d] - (upper ? domain.upper[d] : domain.lower[d])) < tolerance;
     }
   } // namespace
+
+  bool contains(const Domain &domain, const Position &p)
+  {
+    if(domain.outline)
+      return domain.outline->inside(p);
+    if(!domain.round())
+      return true;
+    const double squared = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+    return squared <= domain.radius * domain.radius * (1 + 1e-12)
+           && squared >= domain.inner_radius * domain.inner_radius * (1 - 1e-12);
+  }
 
   void visit_points(const Domain &domain, const PointVisitor &visit)
   {
@@ -53,7 +52,7 @@ namespace meltfront::cases
             const double upper = ball ? domain.radius : domain.upper[d];
             p[d] = lower + (upper - lower) * index[d] / (samples_across - 1);
           }
-          if(holds(domain, p))
+          if(contains(domain, p))
             visit(p);
         }
     if(domain.outline)

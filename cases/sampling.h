@@ -13,6 +13,10 @@ namespace meltfront::cases
 
   using PointVisitor = std::function<void(const Position &)>;
 
+  /** Whether a point between the corners of a domain's bounding box lies in it, its walls
+   * included. */
+  bool contains(const Domain &domain, const Position &p);
+
   /** Visit the sample points that lie in a domain, those on its walls included, and
    * points along an outline. */
   void visit_points(const Domain &domain, const PointVisitor &visit);

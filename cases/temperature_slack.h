@@ -20,6 +20,16 @@ namespace meltfront::cases
         largest = std::max(largest, std::abs(bound));
     return 1e-9 * largest;
   }
+
+  /** By how much temperatures may pass bounds: a share of their span, of `open_span`
+   * where one of them is infinite, and round-off (K). */
+  inline double temperature_slack(const TemperatureBounds &bounds, double share,
+                                  double open_span = 0)
+  {
+    const double span = bounds.upper - bounds.lower;
+    return share * (std::isfinite(span) ? span : open_span)
+           + temperature_round_off(bounds);
+  }
 } // namespace meltfront::cases
 
 #endif

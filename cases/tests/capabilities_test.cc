@@ -2,6 +2,8 @@
 #include <cases/method.h>
 #include <cases/scene.h>
 
+#include <cases/tests/support/course.h>
+
 #include <gtest/gtest.h>
 
 using namespace meltfront::cases;
@@ -107,22 +109,10 @@ namespace
     Demand needed;
   };
 
-  class Nobody : public Observer
-  {
-  public:
-    bool wants(long, double) override
-    {
-      return false;
-    }
-    void observe(const Snapshot &) override
-    {
-    }
-  };
-
   std::string refusal(const Method &method, const Scene &scene,
                       const Resolution &resolution = {})
   {
-    Nobody nobody;
+    meltfront::test_support::NoObserver nobody;
     try
     {
       method.solve(scene, effects_called_for(scene), resolution, nobody);
@@ -312,7 +302,7 @@ TEST(Capabilities, TheFirstFormThatTakesASceneIsMeant)
 
 TEST(Method, ARunWithoutOptionsGetsTheDeclaredDefaults)
 {
-  Nobody nobody;
+  meltfront::test_support::NoObserver nobody;
   const Scene scene = with_front();
   EXPECT_EQ(Modest({modest()}).solve(scene, effects_called_for(scene), {}, nobody).steps,
             7);

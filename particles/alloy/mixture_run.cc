@@ -1,3 +1,4 @@
+#include <cases/compensated_sum.h>
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <cases/snapshot.h>
@@ -8,7 +9,6 @@
 #include <particles/alloy/mixture_flow.h>
 #include <particles/alloy/mixture_run.h>
 #include <particles/alloy/mixture_state.h>
-#include <particles/sph/careful_sum.h>
 #include <particles/sph/explicit_scheme.h>
 #include <particles/sph/implicit_scheme.h>
 #include <particles/sph/run_report.h>
@@ -74,22 +74,7 @@ namespace meltfront::particles
 
       cases::RunDescription describe() const override
       {
-        cases::RunDescription description
-            = describe_particles(dis, parameters.sph, plan.step, unknowns());
-        const auto add
-            = [&](const char *what, const std::string &value, const char *unit) {
-                description.parameters.push_back({what, value, unit});
-              };
-        add("particles", fmt::format("{}", n), "1");
-        for(const cases::Parameter &parameter : flows.describe())
-          description.parameters.push_back(parameter);
-        add("time scheme", describe_scheme(parameters.sph.time_scheme, plan.stages), "");
-        if(parameters.sph.step_error > 0)
-          add("wanted error of a step", fmt::format("{:.6g}", parameters.sph.step_error),
-              "1");
-        add("largest explicit step that keeps the maximum principle",
-            fmt::format("{:.6g}", plan.monotone), "s");
-        return description;
+        return describe_run(dis, parameters.sph, plan, unknowns(), flows.describe());
       }
 
       cases::Cost cost() const override
@@ -235,9 +220,7 @@ namespace meltfront::particles
 
       bool breaks_bounds() const
       {
-        const double span = bounds.upper - bounds.lower;
-        const double slack = 0.5 * bound_tolerance * (std::isfinite(span) ? span : 0)
-                             + 0.5 * cases::temperature_round_off(bounds);
+        const double slack = 0.5 * cases::temperature_slack(bounds, bound_tolerance);
         return !extremes.finite || extremes.lowest < bounds.lower - slack
                || extremes.highest > bounds.upper + slack || least_concentration() < 0;
       }
@@ -265,7 +248,7 @@ namespace meltfront::particles
 
       double mass() const
       {
-        CarefulSum sum;
+        cases::CompensatedSum sum;
         for(std::size_t a = 0; a < n; ++a)
           sum.add(dis.weights[a] * substance.density);
         return sum.value();
@@ -274,7 +257,7 @@ namespace meltfront::particles
       double mass_of(std::size_t solute) const
       {
         const std::span<const double> c = concentration(solute);
-        CarefulSum sum;
+        cases::CompensatedSum sum;
         for(std::size_t a = 0; a < n; ++a)
           sum.add(dis.weights[a] * substance.density * c[a]);
         return sum.value();
@@ -284,7 +267,7 @@ namespace meltfront::particles
       {
         const double latent_heat = scene.material.latent_heat;
         const std::span<const double> liquid = flows.liquid_fraction();
-        CarefulSum stored, latent;
+        cases::CompensatedSum stored, latent;
         for(std::size_t a = 0; a < n; ++a)
         {
           const double weight = dis.weights[a] * substance.density;
@@ -354,7 +337,7 @@ namespace meltfront::particles
       cases::HeatBudget initial_heat;
       double initial_mass = 0;
       std::array<double, cases::most_solutes> initial_solute{};
-      CarefulSum boundary_heat;
+      cases::CompensatedSum boundary_heat;
       long repeated_steps = 0;
     };
   } // namespace

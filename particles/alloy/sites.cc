@@ -1,6 +1,6 @@
+#include <cases/compensated_sum.h>
 #include <cases/error.h>
 #include <particles/alloy/sites.h>
-#include <particles/sph/careful_sum.h>
 
 #include <fmt/format.h>
 
@@ -338,7 +338,7 @@ namespace meltfront::particles
   cases::HeatBudget Sites::heat_content(double measure) const
   {
     const double latent_heat = substance.material.latent_heat;
-    CarefulSum stored, latent;
+    cases::CompensatedSum stored, latent;
     for(std::size_t a = 0; a < n; ++a)
     {
       if(is_held[a])
@@ -356,7 +356,7 @@ namespace meltfront::particles
 
   double Sites::total_mass() const
   {
-    CarefulSum sum;
+    cases::CompensatedSum sum;
     for(std::size_t a = 0; a < n; ++a)
       if(!is_held[a])
       {
@@ -368,7 +368,7 @@ namespace meltfront::particles
 
   double Sites::total_of(std::size_t solute) const
   {
-    CarefulSum sum;
+    cases::CompensatedSum sum;
     for(std::size_t a = 0; a < n; ++a)
       sum.add(concentration[solute][a] * site_mass);
     return sum.value();

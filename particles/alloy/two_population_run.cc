@@ -1,3 +1,4 @@
+#include <cases/compensated_sum.h>
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <cases/stopwatch.h>
@@ -6,7 +7,6 @@
 #include <particles/alloy/two_population_flow.h>
 #include <particles/alloy/two_population_run.h>
 #include <particles/alloy/two_population_stepper.h>
-#include <particles/sph/careful_sum.h>
 #include <particles/sph/run_report.h>
 
 #include <fmt/format.h>
@@ -204,9 +204,7 @@ namespace meltfront::particles
       void check(long step, double time) const
       {
         const double melting = scene.material.melting_temperature;
-        const double span = bounds.upper - bounds.lower;
-        const double slack = 1e-9 * (std::isfinite(span) ? span : 0)
-                             + cases::temperature_round_off(bounds);
+        const double slack = cases::temperature_slack(bounds, 1e-9);
         const auto check_one = [&](const Population &population, const char *what)
         {
           for(std::size_t a = 0; a < n; ++a)
@@ -289,7 +287,7 @@ namespace meltfront::particles
       std::vector<double> weights, temperature, solid_fraction; ///< for snapshots
       double initial_heat = 0, initial_mass = 0;
       std::array<double, cases::most_solutes> initial_solute{};
-      CarefulSum boundary_heat;
+      cases::CompensatedSum boundary_heat;
     };
   } // namespace
 

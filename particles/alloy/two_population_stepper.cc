@@ -151,9 +151,7 @@ namespace meltfront::particles
 
   bool TwoPopulationStepper::breaks_bounds() const
   {
-    const double span = bounds.upper - bounds.lower;
-    const double slack = 0.5e-9 * (std::isfinite(span) ? span : 0)
-                         + 0.5 * cases::temperature_round_off(bounds);
+    const double slack = 0.5 * cases::temperature_slack(bounds, 1e-9);
     const double lowest = bounds.lower - slack, highest = bounds.upper + slack;
     for(const Population *population : {&sites.liquid, &sites.ice})
       for(std::size_t a = 0; a < sites.is_held.size(); ++a)

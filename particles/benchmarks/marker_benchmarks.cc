@@ -1,6 +1,6 @@
+#include <cases/shape.h>
 #include <particles/benchmarks/benchmarks.h>
 #include <particles/benchmarks/table.h>
-#include <particles/level_set/exact_fronts.h>
 #include <particles/level_set/marker_scheme.h>
 #include <particles/level_set/reinitialisation.h>
 
@@ -20,13 +20,13 @@ namespace meltfront::particles::benchmarks
     public:
       Turning(int cells, const std::optional<MarkerParameters> &markers)
         : grid(2, {}, 1. / cells, {cells, cells, 1})
-        , front(grid, [&](const cases::Position &p) { return disk.distance(p); })
+        , front(grid, [&](const cases::Position &p) { return disk.signed_distance(p); })
         , velocity(velocity_function(turning))
       {
         if(!markers)
           return;
         scheme.emplace(grid, *markers, "benchmark");
-        scheme->seed([&](const cases::Position &p) { return disk.distance(p); });
+        scheme->seed([&](const cases::Position &p) { return disk.signed_distance(p); });
       }
 
       void step()
@@ -54,7 +54,7 @@ namespace meltfront::particles::benchmarks
       }
 
     private:
-      const SlottedDisk disk{};
+      const cases::SlottedDisk disk{{0.5, 0.75, 0}, 0.15, 0.05, 0.25};
       const Grid grid;
       LevelSet front;
       const cases::RigidMotion turning{{}, 1, {0.5, 0.5, 0}};

@@ -1,11 +1,11 @@
 #ifndef meltfront_particles_core_particle_operator_h
 #define meltfront_particles_core_particle_operator_h
 
+#include <particles/core/lane_sums.h>
 #include <particles/core/neighbour_list.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -131,39 +131,12 @@ namespace meltfront::particles
                          std::vector<std::uint32_t> &adjacent) const;
 
   private:
-    /**
-     * Sums of the eight rows of a slice. Vectors of the compiler stay in registers, where
-     * an array would be written and read again for each entry.
-     */
-    class LaneSums
-    {
-    public:
-      void add(const double *terms)
-      {
-        Half low, high;
-        std::memcpy(&low, terms, sizeof(low));
-        std::memcpy(&high, terms + lanes / 2, sizeof(high));
-        first += low;
-        second += high;
-      }
-
-      void store(double *result) const
-      {
-        std::memcpy(result, &first, sizeof(first));
-        std::memcpy(result + lanes / 2, &second, sizeof(second));
-      }
-
-    private:
-      using Half [[gnu::vector_size(lanes / 2 * sizeof(double))]] = double;
-      Half first{}, second{};
-    };
-
     template <typename Pair>
     void apply_to_slice(std::size_t slice, const Pair &given, double *result) const
     {
       const Pair pair = given; // a copy's members stay in registers
       const std::size_t row = slice * lanes;
-      LaneSums sums;
+      LaneSums<lanes> sums;
       for(std::size_t e = slice_begin[slice]; e < slice_begin[slice + 1]; e += lanes)
       {
         const std::uint32_t *neighbour = neighbours_of.data() + e;
@@ -185,7 +158,7 @@ namespace meltfront::particles
       const First first = first_given;
       const Second second = second_given;
       const std::size_t row = slice * lanes;
-      LaneSums first_sums, second_sums;
+      LaneSums<lanes> first_sums, second_sums;
       for(std::size_t e = slice_begin[slice]; e < slice_begin[slice + 1]; e += lanes)
       {
         const std::uint32_t *neighbour = neighbours_of.data() + e;

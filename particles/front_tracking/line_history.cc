@@ -12,6 +12,15 @@ namespace meltfront::particles::front_tracking
     constexpr double least_distance = 0.3;
   } // namespace
 
+  double lagrange_weight(std::span<const double> points, std::size_t own, double place)
+  {
+    double weight = 1;
+    for(std::size_t other = 0; other < points.size(); ++other)
+      if(other != own)
+        weight *= (place - points[other]) / (points[own] - points[other]);
+    return weight;
+  }
+
   std::vector<double> differentiation_weights(std::span<const double> times)
   {
     // Slopes at times[0] of Lagrange's polynomials.
@@ -112,13 +121,8 @@ namespace meltfront::particles::front_tracking
     const Support points = support(state, interval, place < interval.lower);
     double sum = 0;
     for(std::size_t i = 0; i < points.count; ++i)
-    {
-      double weight = 1;
-      for(std::size_t j = 0; j < points.count; ++j)
-        if(j != i)
-          weight *= (place - points.place[j]) / (points.place[i] - points.place[j]);
-      sum += weight * (points.value[i] - melting);
-    }
+      sum += lagrange_weight({points.place.data(), points.count}, i, place)
+             * (points.value[i] - melting);
     return melting + sum;
   }
 } // namespace meltfront::particles::front_tracking

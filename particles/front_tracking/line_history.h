@@ -16,6 +16,10 @@ namespace meltfront::particles::front_tracking
    */
   std::vector<double> differentiation_weights(std::span<const double> times);
 
+  /** Value at a place of Lagrange's polynomial that is one at one of some points and zero
+   * at the others. */
+  double lagrange_weight(std::span<const double> points, std::size_t own, double place);
+
   /**
    * The states that a step looks back on, each phase's temperature extended across its
    * fronts: a node that has changed its phase finds there what its new phase would have

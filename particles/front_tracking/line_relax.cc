@@ -1,3 +1,4 @@
+#include <particles/front_tracking/line_history.h>
 #include <particles/front_tracking/line_relax.h>
 
 #include <algorithm>
@@ -161,14 +162,9 @@ namespace meltfront::particles::front_tracking
             = static_cast<std::size_t>(std::ranges::upper_bound(x, place) - x.begin());
         from = std::min(from - std::min(from, (count + 1) / 2), x.size() - count);
         double sum = 0;
-        for(std::size_t k = from; k < from + count; ++k)
-        {
-          double weight = 1;
-          for(std::size_t m = from; m < from + count; ++m)
-            if(m != k)
-              weight *= (place - x[m]) / (x[k] - x[m]);
-          sum += weight * (value[k] - melting);
-        }
+        for(std::size_t k = 0; k < count; ++k)
+          sum += lagrange_weight(std::span(x).subspan(from, count), k, place)
+                 * (value[from + k] - melting);
         // Where a layer is not resolved a polynomial overshoots.
         state.temperature[i] = std::clamp(melting + sum, *lowest, *highest);
       }

@@ -183,13 +183,8 @@ namespace meltfront::particles::front_tracking
       }
       double sum = 0;
       for(std::size_t k = 0; k < levels; ++k)
-      {
-        double weight = 1;
-        for(std::size_t m = 0; m < levels; ++m)
-          if(m != k)
-            weight *= (times[0] - times[m + 1]) / (times[k + 1] - times[m + 1]);
-        sum += weight * (history.level(k).fronts[j] - result[j]);
-      }
+        sum += lagrange_weight(std::span(times).subspan(1, levels), k, times[0])
+               * (history.level(k).fronts[j] - result[j]);
       result[j] += sum;
     }
     return result;

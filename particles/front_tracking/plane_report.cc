@@ -58,7 +58,7 @@ namespace meltfront::particles::front_tracking
       state.phase.assign(nodes.size(), NodePhase::liquid);
       for(const PlanePoint &place : nodes.position)
         state.unknown.push_back(
-            scene.initial.temperature({place.x(), place.y(), 0}, scene.start_time));
+            scene.initial.temperature(position_of(place), scene.start_time));
     }
     measured = measure(scene, nodes, heat, state);
     initial_heat = measured.sensible + measured.latent;

@@ -4,6 +4,7 @@
 #include <particles/front_tracking/plane_topology.h>
 
 #include <cases/error.h>
+#include <cases/exact/front_start.h>
 
 #include <fmt/format.h>
 
@@ -45,7 +46,14 @@ namespace meltfront::particles::front_tracking
 
     /** Largest and smallest radius of a seed around a sink, in spacings. */
     constexpr double largest_seed = 3, smallest_seed = 0.75;
+    constexpr double negligible = 1e-5, closed_bracket = 1e-15; ///< see cases::SeedRule
     constexpr double contour_margin = 4;
+
+    std::function<double(const PlanePoint &)>
+    at_points(const cases::FrontStart::Function &function)
+    {
+      return [function](const PlanePoint &point) { return function(position_of(point)); };
+    }
 
     PlaneHeatSettings settings_of(const cases::Scene &scene,
                                   const TrackingParameters &parameters, int threads)
@@ -83,7 +91,15 @@ namespace meltfront::particles::front_tracking
   void PlaneRun::start()
   {
     const double h = nodes.spacing;
-    const PlaneStart found = find_plane_start(scene, smallest_seed * h, largest_seed * h);
+    const cases::FrontStart found = find_front_start(scene, {method_name,
+                                                             "nodes",
+                                                             smallest_seed * h,
+                                                             largest_seed * h,
+                                                             negligible,
+                                                             closed_bracket,
+                                                             {cases::Side::inner}});
+    const PlaneLevelSet level_set = at_points(found.level_set);
+    const auto temperature = at_points(found.temperature);
     start_in_words = found.description;
     state.time = found.time;
     const ContourGrid grid
@@ -91,9 +107,9 @@ namespace meltfront::particles::front_tracking
     std::vector<double> values;
     for(long j = 0; j < grid.rows; ++j)
       for(long i = 0; i < grid.columns; ++i)
-        values.push_back(found.level_set(grid.node(i, j)));
-    const Contours contours = find_contours(grid, std::move(values), found.level_set);
-    state.front = front_on_zeros(contours, found.level_set, front_spacing * h, 4 * h);
+        values.push_back(level_set(grid.node(i, j)));
+    const Contours contours = find_contours(grid, std::move(values), level_set);
+    state.front = front_on_zeros(contours, level_set, front_spacing * h, 4 * h);
     heat.settings.solid_beyond = contours.solid_beyond;
     heat.set_front(state);
     if(state.front.size() == 0)
@@ -103,11 +119,11 @@ namespace meltfront::particles::front_tracking
           h));
     state.unknown.resize(nodes.size());
     for(std::size_t i = 0; i < nodes.size(); ++i)
-      state.unknown[i] = state.phase[i] == NodePhase::solid
-                             ? heat.sinks.at_node(found.temperature, nodes.position[i],
-                                                  nodes.samples_of(i))
-                                   - heat.singular_part(i, state.time)
-                             : found.temperature(nodes.position[i]);
+      state.unknown[i]
+          = state.phase[i] == NodePhase::solid
+                ? heat.sinks.at_node(temperature, nodes.position[i], nodes.samples_of(i))
+                      - heat.singular_part(i, state.time)
+                : temperature(nodes.position[i]);
     heat.expand(state);
     marked.seed(state.front, heat.settings.solid_beyond);
     condition = heat.worst_condition(state);

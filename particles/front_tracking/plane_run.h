@@ -6,7 +6,6 @@
 #include <particles/front_tracking/plane_marked_front.h>
 #include <particles/front_tracking/plane_measure.h>
 #include <particles/front_tracking/plane_relax.h>
-#include <particles/front_tracking/plane_start.h>
 #include <particles/front_tracking/plane_topology.h>
 #include <particles/front_tracking/tracking_options.h>
 

@@ -88,9 +88,7 @@ namespace meltfront::particles::front_tracking
           });
     if(scene.heat_release)
       known += meters.release.measure(
-          [&] {
-            return given.release({place.x(), place.y(), 0}, step.span);
-          });
+          [&] { return given.release(position_of(place), step.span); });
     return known;
   }
 
@@ -102,7 +100,7 @@ namespace meltfront::particles::front_tracking
   {
     const NodePhase phase = next.phase[wall.node];
     const PlanePoint &place = nodes.position[wall.node];
-    const cases::Position position{place.x(), place.y(), 0};
+    const cases::Position position = position_of(place);
     const bool singular = phase == NodePhase::solid && !sinks.empty();
     const double shift = singular ? sinks.value(place, step.time) : 0;
     if(const WallPiece *held = wall.held())

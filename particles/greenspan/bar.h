@@ -142,11 +142,6 @@ namespace meltfront::particles::greenspan
   /** Looks at a bar from the moment on in which its heating sets in. */
   std::vector<BarLook> run_bar(const BarSettings &settings, const BarSchedule &schedule,
                                const std::function<void(double)> &progress = {});
-
-  /** The same with seeds first_seed, first_seed + 1, ... */
-  std::vector<std::vector<BarLook>> run_bars(const BarSettings &settings,
-                                             const BarSchedule &schedule, int members,
-                                             std::uint64_t first_seed, int threads);
 } // namespace meltfront::particles::greenspan
 
 #endif

@@ -19,22 +19,6 @@ namespace meltfront::particles::greenspan
     PhaseTest test = PhaseTest::average_speed;
     long interval = 100; ///< steps from one look at the particles to the next
     std::vector<std::uint32_t> corners; ///< particles whose last triangle is looked for
-
-    /** Section 4, figure 4.1. @param power 2 as printed, -2 as the figures need */
-    static Experiment triangle_slow(double power);
-
-    /** Section 4, figure 4.2. */
-    static Experiment triangle_fast(double power);
-
-    /** Section 5, figure 5.2. */
-    static Experiment rectangle_on_hot_base();
-
-    /** Section 6: gamma = 2.5 all over the heated part. */
-    static Experiment rectangle_on_base(double gamma);
-
-    /** Controls: nothing is heated. */
-    static Experiment triangle_unheated();
-    static Experiment rectangle_unheated();
   };
 
   /** What one run of an experiment was like. Steps are -1 where a thing never happened.
@@ -63,30 +47,10 @@ namespace meltfront::particles::greenspan
       double temperature = 0;
     };
     std::vector<Corner> corners;
-
-    /** Solid particles at a step that was looked at. */
-    int solid_at(long step, long interval) const
-    {
-      return solid.at(static_cast<std::size_t>(step / interval));
-    }
   };
 
   /** Gaussian noise on all coordinates; who would lie below the base lies on it. */
   void disturb(ParticleState &state, double deviation, std::uint64_t seed);
-
-  /** One run from the start as it is. */
-  RunRecord run(const Experiment &experiment);
-
-  /**
-   * Runs of an experiment from starts that were disturbed with the seeds first_seed,
-   * first_seed + 1, ...: trajectories are chaotic, so that only their distribution can be
-   * compared.
-   * @param deviation of the noise on the positions
-   * @param threads that share the runs; the records do not depend on it
-   */
-  std::vector<RunRecord> run_ensemble(const Experiment &experiment, int members,
-                                      double deviation = 1e-6,
-                                      std::uint64_t first_seed = 1, int threads = 1);
 
   /** Mean, standard deviation and number of some values. */
   struct Spread
@@ -99,21 +63,6 @@ namespace meltfront::particles::greenspan
   };
 
   Spread spread(const std::vector<double> &values);
-
-  /** Spread of what a function takes from each record; values that are not finite are
-   * left out. */
-  template <typename Value>
-  Spread spread_of(const std::vector<RunRecord> &records, const Value &value)
-  {
-    std::vector<double> values;
-    for(const RunRecord &record : records)
-      values.push_back(value(record));
-    return spread(values);
-  }
-
-  /** How often each particle (counted from 1; entry 0 stays 0) is fluid at the end. */
-  std::vector<int> final_fluid_counts(const std::vector<RunRecord> &records,
-                                      std::size_t particles);
 } // namespace meltfront::particles::greenspan
 
 #endif

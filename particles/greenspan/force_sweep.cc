@@ -1,36 +1,11 @@
+#include <particles/core/lane_sums.h>
 #include <particles/greenspan/force_sweep.h>
 #include <particles/greenspan/pair_powers.h>
-
-#include <cstring>
 
 namespace meltfront::particles::greenspan
 {
   namespace
   {
-    /** Sums of the rows of a slice, in registers. */
-    class LaneSums
-    {
-    public:
-      void add(const double *terms)
-      {
-        Half low, high;
-        std::memcpy(&low, terms, sizeof(low));
-        std::memcpy(&high, terms + lanes / 2, sizeof(high));
-        first += low;
-        second += high;
-      }
-
-      void store(double *result) const
-      {
-        std::memcpy(result, &first, sizeof(first));
-        std::memcpy(result + lanes / 2, &second, sizeof(second));
-      }
-
-    private:
-      using Half [[gnu::vector_size(lanes / 2 * sizeof(double))]] = double;
-      Half first{}, second{};
-    };
-
     /** Space that does not repeat itself. */
     struct OpenSpace
     {
@@ -107,7 +82,7 @@ namespace meltfront::particles::greenspan
           x[d] = position[d].data();
         const std::uint32_t *neighbour = rows.entries() + rows.offset(slice);
         const std::uint32_t *const end = rows.entries() + rows.offset(slice + 1);
-        LaneSums sums[dimension];
+        LaneSums<lanes> sums[dimension];
         for(; neighbour != end; neighbour += lanes)
         {
           double term[dimension][lanes];

@@ -133,26 +133,6 @@ namespace meltfront::particles::greenspan
     return state;
   }
 
-  int triangle_base(std::size_t particles)
-  {
-    const double base = (std::sqrt(8. * static_cast<double>(particles) + 1) - 1) / 2;
-    const auto size = [](double l) { return l * (l + 1) / 2; };
-    const double lower = std::max(1., std::floor(base)), n = double(particles);
-    return static_cast<int>(n - size(lower) <= size(lower + 1) - n ? lower : lower + 1);
-  }
-
-  std::size_t triangle_bonds(int base)
-  {
-    return std::size_t(3) * base * (base - 1) / 2;
-  }
-
-  std::size_t rectangle_bonds(int base, int rows)
-  {
-    const std::size_t along
-        = std::size_t(rows + 1) / 2 * (base - 1) + std::size_t(rows) / 2 * (base - 2);
-    return along + std::size_t(rows - 1) * 2 * (base - 1);
-  }
-
   double scaled_gravity(int rows)
   {
     return 32 * 7. / rows;

@@ -33,15 +33,6 @@ namespace meltfront::particles::greenspan
                                           double spacing);
   };
 
-  /** Rows on the base of the triangle whose number of particles is nearest. */
-  int triangle_base(std::size_t particles);
-
-  /** Number of bonds of the triangle with so many particles on its base. */
-  std::size_t triangle_bonds(int base);
-
-  /** Number of bonds of a rectangle. */
-  std::size_t rectangle_bonds(int base, int rows);
-
   /**
    * Gravity that loads a bond at the bottom of so many rows as 32 does in the solids of
    * the report, which have seven. With 32 large solids are crushed.

@@ -73,33 +73,11 @@ namespace meltfront::particles::greenspan
     }
   } // namespace
 
-  Base Base::heated()
-  {
-    Base base;
-    base.hot_half_width = 5;
-    return base;
-  }
-
-  Base Base::cooling()
-  {
-    Base base;
-    base.restitution = 0;
-    return base;
-  }
-
   double Thermostat::temperature(long step) const
   {
     const double share
         = std::clamp(static_cast<double>(step) / static_cast<double>(steps), 0., 1.);
     return first_temperature + share * (last_temperature - first_temperature);
-  }
-
-  Base Base::heated_evenly(double gamma)
-  {
-    Base base = heated();
-    base.hot_left = gamma;
-    base.hot_slope = 0;
-    return base;
   }
 
   double HeatSource::strength(long step) const
@@ -112,24 +90,6 @@ namespace meltfront::particles::greenspan
         return stage.strength;
     }
     return stages.back().strength;
-  }
-
-  HeatSource HeatSource::slow(double power)
-  {
-    HeatSource source;
-    source.position = {0.2, 5.7, 0};
-    source.stages = {{50000, 0.008}, {30000, 0.0095}, {20000, 0.015}};
-    source.power = power;
-    return source;
-  }
-
-  HeatSource HeatSource::fast(double power)
-  {
-    HeatSource source;
-    source.position = {0.2, 5.8, 0};
-    source.stages = {{30000, 0.02}};
-    source.power = power;
-    return source;
   }
 
   void MotionParameters::validate(int dimension) const

@@ -19,15 +19,6 @@ namespace meltfront::particles::greenspan
     double hot_half_width = 0; ///< 0: nothing is heated
     double hot_left = 1.5;     ///< gamma at the left end of the heated part
     double hot_slope = 0.025;  ///< loss of gamma per length to the right
-
-    /** Equation (5.1). */
-    static Base heated();
-
-    /** One that takes all that falls on it: what lies on it cools. */
-    static Base cooling();
-
-    /** The same gamma on -5 < x < 5, as the 2.5 of section 6. */
-    static Base heated_evenly(double gamma);
   };
 
   /** So many steps with such a strength. */
@@ -51,12 +42,6 @@ namespace meltfront::particles::greenspan
 
     /** Gamma of a step, counted from 1. */
     double strength(long step) const;
-
-    /** Of figure 4.1: slow heating at (0.2, 5.7). */
-    static HeatSource slow(double power);
-
-    /** Of figure 4.2: fast heating at (0.2, 5.8). */
-    static HeatSource fast(double power);
   };
 
   /**

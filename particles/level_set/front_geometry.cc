@@ -2,18 +2,10 @@
 
 namespace meltfront::particles::level_set
 {
-  namespace
-  {
-    double norm(const Position &vector)
-    {
-      return std::hypot(vector[0], vector[1], vector[2]);
-    }
-  } // namespace
-
   Position outward_normal(const LevelSet &level_set, const Position &point)
   {
     Position normal = level_set.gradient(point);
-    const double length = norm(normal);
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
     if(!(length > 0))
       return {};
     for(double &component : normal)
@@ -73,21 +65,5 @@ namespace meltfront::particles::level_set
       sum += weight * node_curvature(level_set, index);
     }
     return sum;
-  }
-
-  Position closest_on_front(const LevelSet &level_set, Position point)
-  {
-    const double most = level_set.grid().spacing();
-    for(int pass = 0; pass < 2; ++pass)
-    {
-      const Position slope = level_set.gradient(point);
-      const double steepness = norm(slope);
-      if(!(steepness > 0))
-        break;
-      const double distance = std::clamp(level_set.value(point) / steepness, -most, most);
-      for(int d = 0; d < level_set.grid().dimension(); ++d)
-        point[d] -= distance * slope[d] / steepness;
-    }
-    return point;
   }
 } // namespace meltfront::particles::level_set

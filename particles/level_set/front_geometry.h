@@ -19,10 +19,6 @@ namespace meltfront::particles::level_set
   /** The same at a point, interpolated between the nodes. Second order if phi is a
    * distance; differentiate after reinitialisation only. */
   double curvature(const LevelSet &level_set, const Position &point);
-
-  /** The point of the zero contour that a point near it leads to along the gradient: two
-   * Newton steps, each by a spacing at most. */
-  Position closest_on_front(const LevelSet &level_set, Position point);
 } // namespace meltfront::particles::level_set
 
 #endif

@@ -55,29 +55,6 @@ namespace meltfront::particles::level_set
            * lattice.spacing();
   }
 
-  void LevelSet::values_at(const cases::PointArrays &points,
-                           std::span<double> result) const
-  {
-    const bool solid = lattice.dimension() == 3;
-#pragma omp parallel for num_threads(settings.threads) schedule(static)
-    for(std::size_t p = 0; p < result.size(); ++p)
-      result[p] = value({points[0][p], points[1][p], solid ? points[2][p] : 0.});
-  }
-
-  void LevelSet::gradients_at(const cases::PointArrays &points,
-                              const std::array<std::span<double>, 3> &result) const
-  {
-    const bool solid = lattice.dimension() == 3;
-#pragma omp parallel for num_threads(settings.threads) schedule(static)
-    for(std::size_t p = 0; p < result[0].size(); ++p)
-    {
-      const Position slope
-          = gradient({points[0][p], points[1][p], solid ? points[2][p] : 0.});
-      for(int d = 0; d < lattice.dimension(); ++d)
-        result[d][p] = slope[d];
-    }
-  }
-
   void LevelSet::fill_ghosts(const double level_beyond)
   {
     for(const GhostLine &line : ghost_lines)

@@ -102,13 +102,6 @@ namespace meltfront::particles::level_set
       return interpolate_gradient(lattice, phi.data(), lattice.locate(point));
     }
 
-    /** phi at many points (m). */
-    void values_at(const cases::PointArrays &points, std::span<double> result) const;
-
-    /** Gradients at many points, an array per component. */
-    void gradients_at(const cases::PointArrays &points,
-                      const std::array<std::span<double>, 3> &result) const;
-
     /**
      * Values at the ghost nodes near the band: along each coordinate the straight line
      * through the last two nodes.

@@ -46,22 +46,6 @@ namespace meltfront::particles::rkpm
     }
   } // namespace
 
-  RowCoefficients conduction_row(double conductivity,
-                                 const std::array<double, 3> &conductivity_gradient)
-  {
-    return {0, conductivity_gradient, conductivity};
-  }
-
-  RowCoefficients dirichlet_row()
-  {
-    return {1, {}, 0};
-  }
-
-  RowCoefficients neumann_row(double conductivity, const std::array<double, 3> &normal)
-  {
-    return robin_row(conductivity, 0, normal);
-  }
-
   RowCoefficients robin_row(double conductivity, double transfer,
                             const std::array<double, 3> &normal)
   {

@@ -19,16 +19,6 @@ namespace meltfront::particles::rkpm
     double laplacian = 0;
   };
 
-  /** div(k grad u) = k lap u + grad k . grad u; k in W/(m K), grad k in W/(m^2 K). */
-  RowCoefficients conduction_row(double conductivity,
-                                 const std::array<double, 3> &conductivity_gradient = {});
-
-  /** The reconstructed value, sum_I N_I u_I = g. */
-  RowCoefficients dirichlet_row();
-
-  /** k du/dn, the heat that flows in (W/m^2), for the outward unit normal. */
-  RowCoefficients neumann_row(double conductivity, const std::array<double, 3> &normal);
-
   /** k du/dn + h u, which is h times the temperature of the surroundings; the
    * coefficient of heat transfer h in W/(m^2 K). */
   RowCoefficients robin_row(double conductivity, double transfer,

@@ -1,4 +1,4 @@
-#include <particles/sph/careful_sum.h>
+#include <cases/compensated_sum.h>
 #include <particles/sph/heat_release.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace meltfront::particles
             power[a] = density(dis.particles.point(a), begin, end) * dis.particle_volume;
           for(const WallCell &cell : dis.wall_cells)
             power[cell.particle] *= cell.share;
-          CarefulSum sum;
+          cases::CompensatedSum sum;
           for(const double heat : power)
             sum.add(heat);
           while(released.size() > 1 && released.back().time > begin)

@@ -38,6 +38,26 @@ namespace meltfront::particles
     return description;
   }
 
+  cases::RunDescription describe_run(const Discretisation &dis,
+                                     const SphParameters &parameters,
+                                     const StepPlan &plan, long unknowns,
+                                     const std::vector<cases::Parameter> &of_flow)
+  {
+    cases::RunDescription description
+        = describe_particles(dis, parameters, plan.step, unknowns);
+    std::vector<cases::Parameter> &list = description.parameters;
+    list.push_back({"particles", fmt::format("{}", dis.particles.size()), "1"});
+    list.insert(list.end(), of_flow.begin(), of_flow.end());
+    list.push_back(
+        {"time scheme", describe_scheme(parameters.time_scheme, plan.stages), ""});
+    if(parameters.step_error > 0)
+      list.push_back(
+          {"wanted error of a step", fmt::format("{:.6g}", parameters.step_error), "1"});
+    list.push_back({"largest explicit step that keeps the maximum principle",
+                    fmt::format("{:.6g}", plan.monotone), "s"});
+    return description;
+  }
+
   std::string describe_scheme(TimeScheme scheme, int stages)
   {
     switch(scheme)

@@ -4,9 +4,11 @@
 #include <cases/method.h>
 #include <cases/stopwatch.h>
 #include <particles/sph/discretisation.h>
+#include <particles/sph/time_stepping.h>
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace meltfront::particles
 {
@@ -15,6 +17,13 @@ namespace meltfront::particles
   cases::RunDescription describe_particles(const Discretisation &discretisation,
                                            const SphParameters &parameters,
                                            double time_step, long unknowns);
+
+  /** The same with its steps.
+   * @param of_flow what is told of the operator */
+  cases::RunDescription describe_run(const Discretisation &discretisation,
+                                     const SphParameters &parameters,
+                                     const StepPlan &plan, long unknowns,
+                                     const std::vector<cases::Parameter> &of_flow);
 
   /** A scheme in words. @param stages of its super steps */
   std::string describe_scheme(TimeScheme scheme, int stages);

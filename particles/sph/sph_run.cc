@@ -1,5 +1,5 @@
+#include <cases/compensated_sum.h>
 #include <cases/scene.h>
-#include <particles/sph/careful_sum.h>
 #include <particles/sph/heat_flow.h>
 #include <particles/sph/initial_state.h>
 #include <particles/sph/run_report.h>
@@ -40,22 +40,7 @@ namespace meltfront::particles
 
       cases::RunDescription describe() const override
       {
-        cases::RunDescription description
-            = describe_particles(dis, parameters, plan.step, unknowns());
-        const auto add
-            = [&](const char *what, const std::string &value, const char *unit) {
-                description.parameters.push_back({what, value, unit});
-              };
-        add("particles", fmt::format("{}", n), "1");
-        for(const cases::Parameter &parameter : heat_flow.describe())
-          description.parameters.push_back(parameter);
-        add("time scheme", describe_scheme(parameters.time_scheme, plan.stages), "");
-        if(parameters.step_error > 0)
-          add("wanted error of a step", fmt::format("{:.6g}", parameters.step_error),
-              "1");
-        add("largest explicit step that keeps the maximum principle",
-            fmt::format("{:.6g}", plan.monotone), "s");
-        return description;
+        return describe_run(dis, parameters, plan, unknowns(), heat_flow.describe());
       }
 
       cases::Cost cost() const override
@@ -91,7 +76,7 @@ namespace meltfront::particles
       {
         const std::span<const double> enthalpy = stepper->enthalpies();
         const cases::Material &m = scene.material;
-        CarefulSum stored, latent;
+        cases::CompensatedSum stored, latent;
         for(std::size_t a = 0; a < n; ++a)
         {
           const double mass = dis.weights[a] * m.solid.density;

@@ -66,12 +66,9 @@ namespace meltfront::particles
   bool Stepper::breaks_bounds() const
   {
     // Where a source leaves one bound only, the temperatures at hand set the scale.
-    const double span = bounds.upper - bounds.lower;
-    const double slack
-        = 0.5
-          * (bound_tolerance
-                 * (std::isfinite(span) ? span : extremes.highest - extremes.lowest)
-             + cases::temperature_round_off(bounds));
+    const double slack = 0.5
+                         * cases::temperature_slack(bounds, bound_tolerance,
+                                                    extremes.highest - extremes.lowest);
     return !extremes.finite || extremes.lowest < bounds.lower - slack
            || extremes.highest > bounds.upper + slack;
   }

@@ -1,8 +1,8 @@
 #ifndef meltfront_particles_sph_stepper_h
 #define meltfront_particles_sph_stepper_h
 
+#include <cases/compensated_sum.h>
 #include <cases/scene.h>
-#include <particles/sph/careful_sum.h>
 #include <particles/sph/heat_flow.h>
 #include <particles/sph/time_stepping.h>
 
@@ -90,7 +90,7 @@ namespace meltfront::particles
     cases::TemperatureBounds bounds;
     double particle_mass;
     Extremes extremes{}; ///< of the temperature
-    CarefulSum booked;
+    cases::CompensatedSum booked;
   };
 
   /** The stepper of a scheme. */

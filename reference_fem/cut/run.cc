@@ -1,7 +1,7 @@
 #include <reference_fem/cut/run.h>
 
 #include <cases/error.h>
-#include <reference_fem/cut/start.h>
+#include <cases/exact/front_start.h>
 
 #include <fmt/format.h>
 
@@ -47,8 +47,10 @@ namespace meltfront::reference_fem::cut
      * for so far more, for the next step. */
     constexpr double reach_of_step = farthest_move + 0.1;
 
-    /** Both phases are to be this deep at the start, in cells. */
-    constexpr double least_depth = 1.4;
+    PointFunction at_points(const cases::FrontStart::Function &function)
+    {
+      return [function](const Point &point) { return function(position(point)); };
+    }
   } // namespace
 
   CutRun::CutRun(const cases::Scene &scene, const cases::EffectSet &effects,
@@ -90,16 +92,23 @@ namespace meltfront::reference_fem::cut
 
   void CutRun::start()
   {
-    const Start found = find_start(scene, state.mesh->spacing, options.seed_cells);
+    const double seed = options.seed_cells * state.mesh->spacing;
+    cases::SeedRule rule{method_name, "cells", seed, seed};
+    for(const cases::Side side : scene.sides())
+      if(scene.boundary(side).exact)
+        rule.exempt_walls.push_back(side);
+    const cases::FrontStart found = find_front_start(scene, rule);
+    const PointFunction level_set = at_points(found.level_set),
+                        temperature = at_points(found.temperature);
     start_in_words = found.description;
     state.time = found.time;
     if(options.refinement > 0)
-      state.mesh = make_mesh(refined_about(points_of_front(*state.mesh, found.level_set),
+      state.mesh = make_mesh(refined_about(points_of_front(*state.mesh, level_set),
                                            *state.mesh, options.widths),
                              finest_rim.get());
-    heat.set_front(state, signed_distance_to_zeros(*state.mesh, found.level_set));
+    heat.set_front(state, signed_distance_to_zeros(*state.mesh, level_set));
     require_resolved();
-    heat.project(state, found.temperature);
+    heat.project(state, temperature);
     step_number = found.time > scene.start_time ? 1 : 0;
     check(state);
     damp_jump(
@@ -107,7 +116,7 @@ namespace meltfront::reference_fem::cut
         {
           return scene.boundary(wall.side).kind == cases::BoundaryKind::flux
                      ? 0
-                     : found.temperature(wall.position);
+                     : temperature(wall.position);
         },
         state.time);
   }
@@ -167,31 +176,6 @@ namespace meltfront::reference_fem::cut
                                                            : scene.material.liquid)
                                         .diffusivity());
     return state.mesh->spacing * state.mesh->spacing / (3 * slowest);
-  }
-
-  /** How deep solid and liquid are at their deepest (m). */
-  std::array<double, 2> CutRun::depths(const State &of) const
-  {
-    double lowest = 0, highest = 0;
-    for(std::size_t cell = 0; cell < of.mesh->cells.size(); ++cell)
-      if(of.geometry->location[cell] != Location::outside)
-        for(const unsigned int dof : of.mesh->cells[cell].level_set_dofs)
-        {
-          lowest = std::min(lowest, of.level_set[dof]);
-          highest = std::max(highest, of.level_set[dof]);
-        }
-    return {-lowest, highest};
-  }
-
-  void CutRun::require_resolved() const
-  {
-    const double spacing = state.mesh->spacing, least = least_depth * spacing;
-    const auto [solid, liquid] = depths(state);
-    if(!(solid >= least && liquid >= least))
-      throw cases::Refusal(fmt::format(
-          "fem-cut does not resolve the front at the start: solid is {:.3g} m deep and "
-          "liquid {:.3g} m, with cells of {:.3g} m; {} cells are needed",
-          solid, liquid, spacing, least_depth));
   }
 
   double CutRun::next_stop() const

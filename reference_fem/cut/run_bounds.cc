@@ -24,7 +24,35 @@ namespace meltfront::reference_fem::cut
     /** Of the bounds' span: walls that meet in a corner differ by more than anything
      * counts. */
     constexpr double least_corner_jump = 1e-3;
+
+    /** Both phases are to be this deep at the start, in cells. */
+    constexpr double least_depth = 1.4;
   } // namespace
+
+  /** How deep solid and liquid are at their deepest (m). */
+  std::array<double, 2> CutRun::depths(const State &of) const
+  {
+    double lowest = 0, highest = 0;
+    for(std::size_t cell = 0; cell < of.mesh->cells.size(); ++cell)
+      if(of.geometry->location[cell] != Location::outside)
+        for(const unsigned int dof : of.mesh->cells[cell].level_set_dofs)
+        {
+          lowest = std::min(lowest, of.level_set[dof]);
+          highest = std::max(highest, of.level_set[dof]);
+        }
+    return {-lowest, highest};
+  }
+
+  void CutRun::require_resolved() const
+  {
+    const double spacing = state.mesh->spacing, least = least_depth * spacing;
+    const auto [solid, liquid] = depths(state);
+    if(!(solid >= least && liquid >= least))
+      throw cases::Refusal(fmt::format(
+          "fem-cut does not resolve the front at the start: solid is {:.3g} m deep and "
+          "liquid {:.3g} m, with cells of {:.3g} m; {} cells are needed",
+          solid, liquid, spacing, least_depth));
+  }
 
   CutRun::VertexValue CutRun::at_vertex(const State &of, unsigned int number,
                                         unsigned int vertex) const

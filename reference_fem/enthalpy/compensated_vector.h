@@ -1,43 +1,13 @@
 #ifndef meltfront_reference_fem_enthalpy_compensated_vector_h
 #define meltfront_reference_fem_enthalpy_compensated_vector_h
 
-#include <cmath>
+#include <cases/compensated_sum.h>
+
 #include <cstddef>
 #include <vector>
 
 namespace meltfront::reference_fem
 {
-  /** A sum of doubles that keeps the rounding error of every addition (Knuth 1969,
-   * TwoSum). */
-  class CompensatedSum
-  {
-  public:
-    void add(double term)
-    {
-      const double next = sum + term;
-      const double part = next - sum;
-      error += (sum - (next - part)) + (term - part);
-      sum = next;
-    }
-
-    /** Add the product of two numbers with its own rounding error. */
-    void add_product(double a, double b)
-    {
-      const double product = a * b;
-      error += std::fma(a, b, -product);
-      add(product);
-    }
-
-    /** The sum in extended precision, where there is one. */
-    long double value() const
-    {
-      return static_cast<long double>(sum) + error;
-    }
-
-  private:
-    double sum = 0, error = 0;
-  };
-
   /**
    * Numbers stored as the unevaluated sum of two doubles, so that the difference of two
    * neighbours keeps full relative accuracy.
@@ -90,7 +60,7 @@ namespace meltfront::reference_fem
 
     /** Add factor times (value j less value i) to a sum, nothing rounded off. */
     void add_difference(std::size_t j, std::size_t i, double factor,
-                        CompensatedSum &sum) const
+                        cases::CompensatedSum &sum) const
     {
       const double difference = leading[j] - leading[i];
       const double part = difference - leading[j];

@@ -55,10 +55,10 @@ namespace meltfront::reference_fem
      * flows through a node of a good conductor many times over what it stores. */
     long double exact_inflow(std::size_t i, const CompensatedVector &u) const
     {
-      CompensatedSum sum;
+      cases::CompensatedSum sum;
       for(std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
         u.add_difference(column[k], i, conductance[k], sum);
-      return sum.value();
+      return sum.extended();
     }
 
     /** (K v)_i. */

@@ -96,9 +96,7 @@ namespace meltfront::reference_fem
         return {};
       if(scene.initial.front || !exact)
         return scene.initial.front;
-      const double sign = exact->solid_at_origin() ? 1 : -1;
-      return cases::Field{"exact", [exact, sign](const Position &p, double time)
-                          { return sign * exact->signed_distance(p, time); }};
+      return cases::exact_level(exact);
     }
 
     /** The same where the scene has none, but its temperature passes the melting one

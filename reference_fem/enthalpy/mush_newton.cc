@@ -1,4 +1,3 @@
-#include <cases/stopwatch.h>
 #include <reference_fem/enthalpy/mush_newton.h>
 
 #include <algorithm>
@@ -17,48 +16,11 @@ namespace meltfront::reference_fem
   MushNewton::MushNewton(const StepProblem &problem, const MushGraph &graph,
                          const std::vector<Composition> &composition,
                          LinearSolver &linear_solver)
-    : problem(problem)
+    : StepNewton(problem, linear_solver)
     , graph(graph)
     , composition(composition)
-    , linear_solver(linear_solver)
-    , active(problem.free)
-    , heat_capacity(problem.free.size())
-    , residual(problem.free.size())
-    , direction(problem.free.size())
   {
     cost.bytes = static_cast<long>(active.size() * sizeof(char));
-  }
-
-  void MushNewton::recover_heat(double c, const std::vector<double> &rhs,
-                                const CompensatedVector &u, std::vector<double> &heat)
-  {
-    for(std::size_t i = 0; i < u.size(); ++i)
-      if(problem.free[i])
-        heat[i] = static_cast<double>(rhs[i] + c * problem.conduction.exact_inflow(i, u));
-    entries_touched += problem.conduction.entries();
-  }
-
-  MushNewton::Consistency MushNewton::compare(const CompensatedVector &u,
-                                              const std::vector<double> &heat) const
-  {
-    double distance = 0, largest = 0;
-    bool settled = true;
-    for(std::size_t i = 0; i < u.size(); ++i)
-    {
-      largest = std::max(largest, std::abs(u[i]));
-      if(!problem.free[i])
-        continue;
-      const double recovered
-          = graph.excess_at_enthalpy(heat[i] / problem.volume[i], composition[i]);
-      const double off = std::abs(u[i] - recovered);
-      if(off > distance || std::isnan(off))
-        distance = off;
-      settled = settled
-                && graph.region(u[i], composition[i])
-                       == graph.region(recovered, composition[i]);
-    }
-    largest = std::max({largest, scale, round_off_share * graph.latent_temperature()});
-    return {largest > 0 ? distance / largest : distance, largest, settled};
   }
 
   /** Solve one node's inclusion; true if it moved to another region of its graph. */
@@ -71,21 +33,6 @@ namespace meltfront::reference_fem
           graph.resolve(rhs[i] + c * problem.conduction.inflow(i, u) + stiffness * before,
                         problem.volume[i], stiffness, composition[i]));
     return graph.region(u[i], composition[i]) != graph.region(before, composition[i]);
-  }
-
-  /** A symmetric sweep; true if a node moved to another region. */
-  bool MushNewton::sweep(double c, const std::vector<double> &rhs, CompensatedVector &u)
-  {
-    bool moved = false;
-    for(std::size_t i = 0; i < u.size(); ++i)
-      if(problem.free[i])
-        moved = relax(i, c, rhs, u) || moved;
-    for(std::size_t i = u.size(); i-- > 0;)
-      if(problem.free[i])
-        moved = relax(i, c, rhs, u) || moved;
-    entries_touched += 2 * problem.conduction.entries();
-    ++cost.sweeps;
-    return moved;
   }
 
   /** Fill heat_capacity, active and residual; returns the heat that changes a typical
@@ -213,42 +160,17 @@ namespace meltfront::reference_fem
     }
   }
 
+  void MushNewton::descend(double c, CompensatedVector &u,
+                           const std::vector<double> &heat)
+  {
+    project(u);
+    advance(line_search(c, u, heat), u);
+  }
+
   StepOutcome MushNewton::solve(double c, const std::vector<double> &rhs,
                                 int iteration_limit, CompensatedVector &u,
                                 std::vector<double> &heat)
   {
-    constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
-    constexpr int most_sweeps = 4;
-    StepOutcome outcome;
-    for(;; ++outcome.iterations)
-    {
-      recover_heat(c, rhs, u, heat);
-      const Consistency state = compare(u, heat);
-      outcome.graph_inconsistency = state.distance;
-      outcome.converged = state.distance <= NonlinearSolver::target_inconsistency;
-      if(outcome.converged)
-        scale = state.scale;
-      if(outcome.converged || outcome.iterations == iteration_limit
-         || !std::isfinite(state.distance))
-        break;
-      if(!state.settled)
-      {
-        const cases::ScopedTimer timer(cost.seconds);
-        for(int sweeps = 0; sweeps < most_sweeps && sweep(c, rhs, u);)
-          ++sweeps;
-        recover_heat(c, rhs, u, heat);
-      }
-      const double heat_per_kelvin = linearise(u, heat);
-      linear_solver.solve({heat_capacity, c, active, residual,
-                           safety * NonlinearSolver::target_inconsistency * state.scale
-                               * heat_per_kelvin},
-                          state.settled ? tight : loose, direction);
-      project(u);
-      advance(line_search(c, u, heat), u);
-    }
-    if(!outcome.converged)
-      outcome.converged
-          = outcome.graph_inconsistency <= NonlinearSolver::accepted_inconsistency;
-    return outcome;
+    return iterate(c, rhs, iteration_limit, u, heat);
   }
 } // namespace meltfront::reference_fem

@@ -2,9 +2,8 @@
 #define meltfront_reference_fem_enthalpy_mush_newton_h
 
 #include <reference_fem/enthalpy/mush_graph.h>
-#include <reference_fem/enthalpy/truncated_newton.h>
+#include <reference_fem/enthalpy/step_newton.h>
 
-#include <memory>
 #include <vector>
 
 namespace meltfront::reference_fem
@@ -23,7 +22,7 @@ namespace meltfront::reference_fem
    * nodes without solute, are truncated; kinks at the liquidus are left to the sweeps and
    * to the line search, which makes the functional fall in every iteration.
    */
-  class MushNewton
+  class MushNewton : private StepNewton<MushNewton>
   {
   public:
     MushNewton(const StepProblem &problem, const MushGraph &graph,
@@ -45,21 +44,33 @@ namespace meltfront::reference_fem
     }
 
   private:
-    struct Consistency
-    {
-      double distance; ///< max |T(u) - T(H)| over the scale
-      double scale;    ///< see StepOutcome::graph_inconsistency
-      bool settled;    ///< every node is in the region of its heat
-    };
+    friend class StepNewton<MushNewton>;
+    static constexpr bool jumps = true;
 
-    void recover_heat(double c, const std::vector<double> &rhs,
-                      const CompensatedVector &u, std::vector<double> &heat);
-    Consistency compare(const CompensatedVector &u,
-                        const std::vector<double> &heat) const;
+    double excess(double u) const
+    {
+      return u;
+    }
+
+    double excess_at_enthalpy(std::size_t i, double enthalpy) const
+    {
+      return graph.excess_at_enthalpy(enthalpy, composition[i]);
+    }
+
+    double latent_temperature() const
+    {
+      return graph.latent_temperature();
+    }
+
+    bool same_side(std::size_t i, double u, double recovered) const
+    {
+      return graph.region(u, composition[i]) == graph.region(recovered, composition[i]);
+    }
+
     bool relax(std::size_t i, double c, const std::vector<double> &rhs,
                CompensatedVector &u);
-    bool sweep(double c, const std::vector<double> &rhs, CompensatedVector &u);
     double linearise(const CompensatedVector &u, const std::vector<double> &heat);
+    void descend(double c, CompensatedVector &u, const std::vector<double> &heat);
     void project(const CompensatedVector &u);
     double line_search(double c, const CompensatedVector &u,
                        const std::vector<double> &heat);
@@ -68,15 +79,8 @@ namespace meltfront::reference_fem
     double moved(std::size_t i, double length, const CompensatedVector &u) const;
     void advance(double length, CompensatedVector &u) const;
 
-    StepProblem problem;
     const MushGraph &graph;
     const std::vector<Composition> &composition; ///< by node
-    LinearSolver &linear_solver;
-    std::vector<char> active;
-    std::vector<double> heat_capacity, residual, direction;
-    double scale = 0; ///< largest |T - T_m| of the steps solved so far
-    long entries_touched = 0;
-    NonlinearSolver::GraphCost cost;
   };
 } // namespace meltfront::reference_fem
 

@@ -1,6 +1,5 @@
-#include <cases/stopwatch.h>
 #include <reference_fem/enthalpy/graph.h>
-#include <reference_fem/enthalpy/truncated_newton.h>
+#include <reference_fem/enthalpy/step_newton.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,25 +9,25 @@ namespace meltfront::reference_fem
   namespace
   {
     template <class Graph>
-    class TruncatedNewton : public NonlinearSolver
+    class TruncatedNewton : public NonlinearSolver,
+                            private StepNewton<TruncatedNewton<Graph>>
     {
     public:
       TruncatedNewton(const StepProblem &problem, const cases::Material &material,
                       std::unique_ptr<LinearSolver> linear_solver)
-        : problem(problem)
+        : Base(problem, *linear_solver)
         , graph(material)
-        , linear_solver(std::move(linear_solver))
-        , active(problem.free)
-        , heat_capacity(problem.free.size())
-        , residual(problem.free.size())
-        , direction(problem.free.size())
+        , owned_solver(std::move(linear_solver))
       {
         if constexpr(Graph::jumps)
           cost.bytes = static_cast<long>(active.size() * sizeof(char));
       }
 
       StepOutcome solve(double c, const std::vector<double> &rhs, int iteration_limit,
-                        CompensatedVector &u, std::vector<double> &heat) override;
+                        CompensatedVector &u, std::vector<double> &heat) override
+      {
+        return this->iterate(c, rhs, iteration_limit, u, heat);
+      }
 
       double temperature_excess(double u) const override
       {
@@ -47,7 +46,7 @@ namespace meltfront::reference_fem
 
       long work() const override
       {
-        return entries_touched + linear_solver->work();
+        return entries_touched + owned_solver->work();
       }
 
       GraphCost graph_cost() const override
@@ -56,71 +55,44 @@ namespace meltfront::reference_fem
       }
 
     private:
-      struct Consistency
-      {
-        double distance; ///< max |T(u) - T(H)| over the scale
-        double scale;    ///< see StepOutcome::graph_inconsistency
-        bool settled;    ///< every node is on the right side of the jump
-      };
+      using Base = StepNewton<TruncatedNewton<Graph>>;
+      friend Base;
+      using Base::active, Base::cost, Base::direction, Base::entries_touched,
+          Base::heat_capacity, Base::problem, Base::residual;
 
-      void recover_heat(double c, const std::vector<double> &rhs,
-                        const CompensatedVector &u, std::vector<double> &heat);
-      Consistency compare(const CompensatedVector &u,
-                          const std::vector<double> &heat) const;
-      bool sweep(double c, const std::vector<double> &rhs, CompensatedVector &u);
+      static constexpr bool jumps = Graph::jumps;
+
+      double excess(double u) const
+      {
+        return graph.temperature_excess(u);
+      }
+
+      double excess_at_enthalpy(std::size_t, double enthalpy) const
+      {
+        return graph.temperature_excess_at_enthalpy(enthalpy);
+      }
+
+      double latent_temperature() const
+      {
+        return graph.latent_temperature();
+      }
+
+      bool same_side(std::size_t, double u, double recovered) const
+      {
+        return (u > 0) == (recovered > 0) && (u < 0) == (recovered < 0);
+      }
+
       bool relax(std::size_t i, double c, const std::vector<double> &rhs,
                  CompensatedVector &u);
       double linearise(const CompensatedVector &u, const std::vector<double> &heat);
+      void descend(double c, CompensatedVector &u, const std::vector<double> &heat);
       bool project(const CompensatedVector &u);
       double line_search(double c, const CompensatedVector &u);
       void advance(double length, CompensatedVector &u) const;
 
-      StepProblem problem;
       Graph graph;
-      std::unique_ptr<LinearSolver> linear_solver;
-      std::vector<char> active;
-      std::vector<double> heat_capacity, residual, direction;
-      double scale = 0; ///< largest |T - T_m| of the steps solved so far
-      long entries_touched = 0;
-      GraphCost cost;
+      std::unique_ptr<LinearSolver> owned_solver;
     };
-
-    template <class Graph>
-    void TruncatedNewton<Graph>::recover_heat(double c, const std::vector<double> &rhs,
-                                              const CompensatedVector &u,
-                                              std::vector<double> &heat)
-    {
-      for(std::size_t i = 0; i < u.size(); ++i)
-        if(problem.free[i])
-          heat[i]
-              = static_cast<double>(rhs[i] + c * problem.conduction.exact_inflow(i, u));
-      entries_touched += problem.conduction.entries();
-    }
-
-    template <class Graph>
-    typename TruncatedNewton<Graph>::Consistency
-    TruncatedNewton<Graph>::compare(const CompensatedVector &u,
-                                    const std::vector<double> &heat) const
-    {
-      double distance = 0, largest = 0;
-      bool settled = true;
-      for(std::size_t i = 0; i < u.size(); ++i)
-      {
-        const double excess = graph.temperature_excess(u[i]);
-        largest = std::max(largest, std::abs(excess));
-        if(!problem.free[i])
-          continue;
-        const double recovered
-            = graph.temperature_excess_at_enthalpy(heat[i] / problem.volume[i]);
-        const double off = std::abs(excess - recovered);
-        if(off > distance || std::isnan(off))
-          distance = off;
-        settled
-            = settled && (u[i] > 0) == (recovered > 0) && (u[i] < 0) == (recovered < 0);
-      }
-      largest = std::max({largest, scale, round_off_share * graph.latent_temperature()});
-      return {largest > 0 ? distance / largest : distance, largest, settled};
-    }
 
     /** Solve one node's inclusion; true if it moved on, off or over the jump. */
     template <class Graph>
@@ -145,23 +117,6 @@ namespace meltfront::reference_fem
       const double before = u[i];
       u.set(i, graph.resolve(supply + stiffness * before, volume, stiffness));
       return before != 0 || u[i] != 0;
-    }
-
-    /** A symmetric sweep; true if a node moved on, off or over the jump. */
-    template <class Graph>
-    bool TruncatedNewton<Graph>::sweep(double c, const std::vector<double> &rhs,
-                                       CompensatedVector &u)
-    {
-      bool moved = false;
-      for(std::size_t i = 0; i < u.size(); ++i)
-        if(problem.free[i])
-          moved = relax(i, c, rhs, u) || moved;
-      for(std::size_t i = u.size(); i-- > 0;)
-        if(problem.free[i])
-          moved = relax(i, c, rhs, u) || moved;
-      entries_touched += 2 * problem.conduction.entries();
-      ++cost.sweeps;
-      return moved;
     }
 
     /** Fill heat_capacity, active and residual; returns the heat that changes a typical
@@ -274,46 +229,14 @@ namespace meltfront::reference_fem
     }
 
     template <class Graph>
-    StepOutcome TruncatedNewton<Graph>::solve(double c, const std::vector<double> &rhs,
-                                              int iteration_limit, CompensatedVector &u,
-                                              std::vector<double> &heat)
+    void TruncatedNewton<Graph>::descend(double c, CompensatedVector &u,
+                                         const std::vector<double> &)
     {
-      constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
-      constexpr int most_sweeps = 4;
-      StepOutcome outcome;
-      for(;; ++outcome.iterations)
-      {
-        recover_heat(c, rhs, u, heat);
-        const Consistency state = compare(u, heat);
-        outcome.graph_inconsistency = state.distance;
-        outcome.converged = state.distance <= target_inconsistency;
-        if(outcome.converged)
-          scale = state.scale;
-        if(outcome.converged || outcome.iterations == iteration_limit
-           || !std::isfinite(state.distance))
-          break;
-        if constexpr(Graph::jumps)
-          if(!state.settled)
-          {
-            const cases::ScopedTimer timer(cost.seconds);
-            for(int sweeps = 0; sweeps < most_sweeps && sweep(c, rhs, u);)
-              ++sweeps;
-            recover_heat(c, rhs, u, heat);
-          }
-        const double heat_per_kelvin = linearise(u, heat);
-        linear_solver->solve(
-            {heat_capacity, c, active, residual,
-             safety * target_inconsistency * state.scale * heat_per_kelvin},
-            state.settled ? tight : loose, direction);
-        double length = 1;
-        if constexpr(!Graph::linear)
-          if(project(u))
-            length = line_search(c, u);
-        advance(length, u);
-      }
-      if(!outcome.converged)
-        outcome.converged = outcome.graph_inconsistency <= accepted_inconsistency;
-      return outcome;
+      double length = 1;
+      if constexpr(!Graph::linear)
+        if(project(u))
+          length = line_search(c, u);
+      advance(length, u);
     }
 
     template <class Graph>

@@ -37,24 +37,14 @@ namespace meltfront::particles::testing
   Scene nitrate_slab(double end_time, double diffusivity)
   {
     const auto exact = std::make_shared<MushySimilarity>(nitrate_layer());
-    Scene scene;
-    scene.symmetry = Symmetry::planar;
-    scene.domain.upper = {0.5, 0, 0};
-    scene.material = nitrate_solvent();
+    Scene scene
+        = slab(nitrate_solvent(), 0.5, 14.7, end_time, fixed_wall(-16.5),
+               varying_wall([exact](double t)
+                            { return t > 0 ? exact->temperature(0.5, t) : 14.7; }));
+    scene.boundaries[1]->exact = true;
     scene.alloy = nitrate();
     scene.alloy->solutes[0].diffusivity = diffusivity;
-    scene.initial.temperature = Field::uniform(14.7);
     scene.initial.concentration = {Field::uniform(nitrate_concentration)};
-    scene.boundaries[0]
-        = Boundary{BoundaryKind::fixed_temperature, Field::uniform(-16.5), false};
-    scene.boundaries[1] = Boundary{BoundaryKind::fixed_temperature,
-                                   {"similarity",
-                                    [exact](const Position &p, double t) {
-                                      return t > 0 ? exact->temperature(p[0], t) : 14.7;
-                                    },
-                                    false},
-                                   true};
-    scene.end_time = end_time;
     return scene;
   }
 
@@ -150,20 +140,13 @@ namespace meltfront::particles::testing
     };
   } // namespace
 
-  AlloyOutcome run(const Method &method, const Scene &whole, int n,
+  AlloyOutcome run(const Method &method, const Scene &scene, int n,
                    const OptionTexts &options, long every, int threads)
   {
-    Resolution resolution;
-    resolution.n = n;
-    resolution.threads = threads;
-    resolution.options = Options(method.option_declarations());
-    for(const auto &[key, text] : options)
-      resolution.options.set(key, text);
-    const EffectSet effects = effects_called_for(whole);
-    const Scene scene = simulated_scene(whole, effects);
     AlloyOutcome outcome;
-    AlloyWatcher watcher(whole, every, outcome);
-    outcome.cost = method.solve(scene, effects, resolution, watcher);
+    AlloyWatcher watcher(scene, every, outcome);
+    outcome.cost
+        = solve(method, scene, resolution_of(method, n, options, threads), watcher);
     return outcome;
   }
 

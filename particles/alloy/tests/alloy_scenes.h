@@ -1,18 +1,18 @@
 #ifndef meltfront_particles_alloy_tests_alloy_scenes_h
 #define meltfront_particles_alloy_tests_alloy_scenes_h
 
-#include <cases/method.h>
-#include <cases/scene.h>
+#include <cases/tests/support/course.h>
+#include <cases/tests/support/scenes.h>
 #include <particles/alloy/alloy.h>
 #include <particles/alloy/tests/mushy_similarity.h>
 
-#include <string>
-#include <utility>
 #include <vector>
 
 /** Scenes and observers that the tests of alloys share. */
 namespace meltfront::particles::testing
 {
+  using namespace test_support;
+
   /** Aqueous sodium nitrate as in section 5 of Monaghan et al. (2005), temperatures in
    * degrees Celsius. */
   cases::Material nitrate_solvent();
@@ -28,8 +28,6 @@ namespace meltfront::particles::testing
   /** Half a metre of it on a wall at -16.5, from 14.7, to the end time; the far wall has
    * the temperature of the similarity solution. */
   cases::Scene nitrate_slab(double end_time, double diffusivity = 0);
-
-  using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
   /** What a run showed. */
   struct AlloyOutcome

@@ -109,7 +109,7 @@ namespace meltfront::particles::testing
                                         [](const cases::Position &, double t)
                                         { return t < 20000 ? -30. : 14.7; },
                                         false};
-          scene.boundaries[1] = insulated();
+          scene.boundaries[1] = cases::Boundary{};
           const auto found = run(*make_sph_two_population(), scene, 20, options,
                                  options.size() > 1 ? 1 : 10);
           EXPECT_GT(*std::max_element(found.solids.begin(), found.solids.end()), 0.03);

@@ -176,7 +176,7 @@ namespace meltfront::particles::testing
     {
       Scene scene = nitrate_slab(4000, 2e-8);
       scene.domain.upper = {0.1, 0, 0};
-      scene.boundaries[0] = scene.boundaries[1] = insulated();
+      scene.boundaries[0] = scene.boundaries[1] = cases::Boundary{};
       const auto wave
           = [](const Position &p) { return std::cos(10 * std::numbers::pi * p[0]); };
       scene.initial.temperature
@@ -263,7 +263,7 @@ namespace meltfront::particles::testing
       {
         Scene scene = nitrate_slab(91800, salt_diffusivity);
         scene.alloy->eutectic_temperature = -17.7;
-        scene.boundaries[0] = fixed(-30);
+        scene.boundaries[0] = fixed_wall(-30);
         const auto fine = run(*mixture, scene, 60);
         for(const char *scheme : schemes)
         {
@@ -288,7 +288,7 @@ namespace meltfront::particles::testing
           {"if(t < 13200, -16.5, 14.7)",
            [](const Position &, double t) { return t < 13200 ? -16.5 : 14.7; }, false},
           false};
-      scene.boundaries[1] = insulated();
+      scene.boundaries[1] = cases::Boundary{};
       for(const char *layout : {"cell", "edge"})
       {
         const auto of_super_steps = run(*mixture, scene, 20, {{"layout", layout}});
@@ -384,9 +384,9 @@ namespace meltfront::particles::testing
       scene.domain.shape = cases::DomainShape::box;
       scene.domain.dimension = 2;
       scene.domain.upper = {0.1, 0.1, 0};
-      scene.boundaries[1] = insulated();
-      scene.boundaries[2] = fixed(-16.5);
-      scene.boundaries[3] = insulated();
+      scene.boundaries[1] = cases::Boundary{};
+      scene.boundaries[2] = fixed_wall(-16.5);
+      scene.boundaries[3] = cases::Boundary{};
       for(const char *layout : {"cell", "edge"})
       {
         const OptionTexts shape{
@@ -412,7 +412,7 @@ namespace meltfront::particles::testing
       scene.domain.shape = cases::DomainShape::box;
       scene.domain.dimension = 2;
       scene.domain.upper = {0.1, 0.1, 0};
-      scene.boundaries[1] = scene.boundaries[2] = scene.boundaries[3] = insulated();
+      scene.boundaries[1] = scene.boundaries[2] = scene.boundaries[3] = cases::Boundary{};
       const auto one = run(*mixture, scene, 96, with("crank-nicolson", "8"), 100, 1);
       ASSERT_GT(one.temperature.size(), 8192u); // shared among threads from here on
       EXPECT_EQ(run(*mixture, scene, 96, with("crank-nicolson", "8"), 100, 2).temperature,

@@ -162,7 +162,7 @@ namespace meltfront::particles::testing
       const auto exact = std::make_shared<cases::MushyLayer>(
           scene.material, *scene.alloy, std::vector<double>{nitrate_concentration}, -30,
           14.7);
-      scene.boundaries[0] = fixed(-30);
+      scene.boundaries[0] = fixed_wall(-30);
       scene.boundaries[1] = exact_wall(exact);
       std::vector<double> errors, spacing;
       for(const int n : {30, 60, 120, 240})
@@ -246,7 +246,7 @@ namespace meltfront::particles::testing
           {"if(t < 13200, -16.5, 14.7)",
            [](const Position &, double t) { return t < 13200 ? -16.5 : 14.7; }, false},
           false};
-      scene.boundaries[1] = insulated();
+      scene.boundaries[1] = cases::Boundary{};
       for(const auto &method : {make_sph_mixture(), make_sph_two_population()})
       {
         const auto outcome = run(*method, scene, 20, {}, 1);
@@ -270,7 +270,7 @@ namespace meltfront::particles::testing
       {
         Scene scene = nitrate_slab(2000, diffusivity);
         scene.domain.upper = {0.05, 0, 0};
-        scene.boundaries[0] = scene.boundaries[1] = insulated();
+        scene.boundaries[0] = scene.boundaries[1] = cases::Boundary{};
         scene.initial.temperature
             = {"irregular",
                [](const Position &p, double)
@@ -311,9 +311,9 @@ namespace meltfront::particles::testing
       scene.domain.shape = cases::DomainShape::box;
       scene.domain.dimension = 2;
       scene.domain.upper = {0.1, 0.1, 0};
-      scene.boundaries[1] = insulated();
-      scene.boundaries[2] = fixed(-16.5);
-      scene.boundaries[3] = insulated();
+      scene.boundaries[1] = cases::Boundary{};
+      scene.boundaries[2] = fixed_wall(-16.5);
+      scene.boundaries[3] = cases::Boundary{};
       for(const auto &method : {make_sph_mixture(), make_sph_two_population()})
         for(const char *layout : {"cell", "edge"})
         {

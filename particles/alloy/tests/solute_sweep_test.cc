@@ -17,14 +17,14 @@ namespace meltfront::particles::testing
     cases::Scene cornered_brine(int dimension)
     {
       cases::Scene scene = nitrate_slab(1, 6.2e-10);
-      scene.boundaries[1] = insulated();
+      scene.boundaries[1] = cases::Boundary{};
       if(dimension == 2)
       {
         scene.domain.shape = cases::DomainShape::box;
         scene.domain.dimension = 2;
         scene.domain.upper = {0.5, 0.5, 0};
-        scene.boundaries[2] = insulated();
-        scene.boundaries[3] = fixed(-10);
+        scene.boundaries[2] = cases::Boundary{};
+        scene.boundaries[3] = fixed_wall(-10);
       }
       return scene;
     }

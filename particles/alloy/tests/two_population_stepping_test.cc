@@ -69,7 +69,7 @@ namespace meltfront::particles::testing
              [](const cases::Position &p, double)
              { return -10 + 3 * std::cos(std::numbers::pi * p[0] / 0.5); },
              false};
-      scene.boundaries[0] = scene.boundaries[1] = insulated();
+      scene.boundaries[0] = scene.boundaries[1] = cases::Boundary{};
       return scene;
     }
 
@@ -118,7 +118,7 @@ namespace meltfront::particles::testing
       scene.boundaries[0]->value = {
           "", [](const cases::Position &, double t) { return t < 20000 ? -30. : 14.7; },
           false};
-      scene.boundaries[1] = insulated();
+      scene.boundaries[1] = cases::Boundary{};
       return scene;
     }
 

@@ -95,7 +95,7 @@ namespace meltfront::particles::testing
       const auto exact = std::make_shared<cases::MushyLayer>(
           scene.material, *scene.alloy, std::vector<double>{nitrate_concentration}, -30,
           14.7);
-      scene.boundaries[0] = fixed(-30);
+      scene.boundaries[0] = fixed_wall(-30);
       scene.boundaries[1] = exact_wall(exact);
       return {scene, exact};
     }
@@ -142,7 +142,7 @@ namespace meltfront::particles::testing
       scene.boundaries[0]->value = {
           "", [](const cases::Position &, double t) { return t < 20000 ? -30. : 14.7; },
           false};
-      scene.boundaries[1] = insulated();
+      scene.boundaries[1] = cases::Boundary{};
       for(const double diffusivity : {0., 6.2e-10})
       {
         scene.alloy->solutes[0].diffusivity = diffusivity;

@@ -23,7 +23,7 @@ namespace meltfront::particles::front_tracking
     }
 
     /** Of the latent heat of the domain. */
-    double lost(const Recorder &recorder, double latent_heat)
+    double lost(const Course &recorder, double latent_heat)
     {
       const cases::HeatBudget &heat = recorder.heat;
       return std::abs(heat.stored + heat.latent - heat.initial - heat.boundary
@@ -41,10 +41,10 @@ namespace meltfront::particles::front_tracking
         cases::Scene scene = slab(material(latent_heat, 1, 19), 0, 0.01);
         scene.initial.temperature = cases::Field::uniform(0);
         scene.initial.solid_fraction_at_melting = 0;
-        set(scene, Side::x_min, {});
-        set(scene, Side::x_max,
-            {BoundaryKind::fixed_temperature,
-             {"", [](const cases::Position &, double t) { return -0.9 - t; }}});
+        set_boundary(scene, Side::x_min, {});
+        set_boundary(scene, Side::x_max,
+                     {BoundaryKind::fixed_temperature,
+                      {"", [](const cases::Position &, double t) { return -0.9 - t; }}});
         EXPECT_LT(lost(run(scene, n), latent_heat), 0.3 / n) << n;
       }
     }
@@ -57,10 +57,10 @@ namespace meltfront::particles::front_tracking
       {
         cases::Scene scene = slab(material(latent_heat, 1, 1), 0, 0.02);
         scene.initial.temperature = cases::Field::uniform(0.5);
-        set(scene, Side::x_min, {});
+        set_boundary(scene, Side::x_min, {});
         cases::Boundary wall{BoundaryKind::heat_transfer, cases::Field::uniform(-2)};
         wall.heat_transfer_coefficient = 300;
-        set(scene, Side::x_max, wall);
+        set_boundary(scene, Side::x_max, wall);
         EXPECT_LT(lost(run(scene, n), latent_heat), 0.3 / n) << n;
       }
     }
@@ -74,16 +74,17 @@ namespace meltfront::particles::front_tracking
       {
         cases::Scene scene = slab(material(1, 1, 2), 0, 0.1);
         scene.initial.temperature = cases::Field::uniform(-0.2);
-        set(scene, Side::x_min, {});
-        set(scene, Side::x_max,
+        set_boundary(scene, Side::x_min, {});
+        set_boundary(
+            scene, Side::x_max,
             {BoundaryKind::fixed_temperature,
              {"",
               [jump](const cases::Position &, double t) { return t < jump ? -0.2 : 1.; },
               false,
               {jump}}});
-        const Recorder recorder = run(scene, 40, {{"steps", "120"}});
+        const Course recorder = run(scene, 40, {{"steps", "120"}});
         EXPECT_LT(lost(recorder, 1), 0.02) << jump;
-        return 1 - recorder.solid;
+        return 1 - recorder.solid.back();
       };
       EXPECT_NEAR(melted(0.02), melted(0.02 + 1e-7), 1e-5);
     }
@@ -99,10 +100,10 @@ namespace meltfront::particles::front_tracking
       scene.initial.temperature
           = {"", [](const cases::Position &p, double)
              { return p[0] < 0.8 ? 2 * (p[0] - 0.8) : -4 * (p[0] - 0.8); }};
-      set(scene, Side::x_min, {});
-      set(scene, Side::x_max, held(5));
-      const Recorder recorder = run(scene, 40);
-      EXPECT_EQ(recorder.solid, 0);
+      set_boundary(scene, Side::x_min, {});
+      set_boundary(scene, Side::x_max, fixed_wall(5));
+      const Course recorder = run(scene, 40);
+      EXPECT_EQ(recorder.solid.back(), 0);
       EXPECT_LT(lost(recorder, latent_heat), 0.01);
     }
 
@@ -129,9 +130,9 @@ namespace meltfront::particles::front_tracking
       {
         cases::Scene scene = slab(of, 0, end);
         scene.initial.temperature = cases::Field::uniform(warm);
-        set(scene, Side::x_min, {});
-        set(scene, Side::x_max, held(cold));
-        EXPECT_NEAR(run(scene, n).solid, thickness, 0.01 * thickness) << n;
+        set_boundary(scene, Side::x_min, {});
+        set_boundary(scene, Side::x_max, fixed_wall(cold));
+        EXPECT_NEAR(run(scene, n).solid.back(), thickness, 0.01 * thickness) << n;
       }
     }
   } // namespace

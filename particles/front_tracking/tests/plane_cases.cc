@@ -16,77 +16,52 @@ namespace meltfront::particles::front_tracking
   {
     using cases::Position;
 
-    cases::Field field_of(const PlaneFunction &function)
+    /** A disk, or an annulus, whose rims follow the solution that it starts from. */
+    cases::Scene round_scene(const cases::Material &material, double inner_radius,
+                             const ExactPointer &exact)
     {
-      return {"given", [function](const Position &p, double) { return function(p); }};
-    }
-
-    void start_from(cases::Scene &scene,
-                    const std::shared_ptr<const cases::ExactSolution> &exact)
-    {
-      scene.initial.exact = exact;
-      scene.initial.temperature = {"exact", [exact](const Position &p, double t)
-                                   { return exact->temperature(p, t); }};
-      cases::Boundary rim;
-      rim.kind = cases::BoundaryKind::fixed_temperature;
-      rim.exact = true;
-      rim.value = scene.initial.temperature;
-      scene.boundaries[static_cast<std::size_t>(cases::Side::outer)] = rim;
-      if(scene.domain.shape == cases::DomainShape::shell)
-        scene.boundaries[static_cast<std::size_t>(cases::Side::inner)] = rim;
+      cases::Scene scene = ball(material, 2, 1, 0, 1);
+      set_boundary(scene, cases::Side::outer, exact_wall(exact));
+      if(inner_radius > 0)
+      {
+        scene.domain.shape = cases::DomainShape::shell;
+        scene.domain.inner_radius = inner_radius;
+        set_boundary(scene, cases::Side::inner, exact_wall(exact));
+      }
+      start_from(scene, exact);
+      return scene;
     }
   } // namespace
 
   cases::Scene line_sink_annulus()
   {
-    cases::Scene scene;
-    scene.name = "line-sink-annulus";
-    scene.symmetry = cases::Symmetry::cylindrical;
-    scene.domain.shape = cases::DomainShape::shell;
-    scene.domain.dimension = 2;
-    scene.domain.radius = 1;
-    scene.domain.inner_radius = 0.2;
-    scene.material.solid.conductivity = 2;
-    const auto exact = std::make_shared<cases::LineSink>(scene.material, 0.4206, 0.5);
+    cases::Material material;
+    material.solid.conductivity = 2;
+    const auto exact = std::make_shared<cases::LineSink>(material, 0.4206, 0.5);
+    cases::Scene scene = round_scene(material, 0.2, exact);
     const double unit = exact->front(1);
     scene.start_time = 0.16 / (unit * unit);
     scene.end_time = 0.36 / (unit * unit);
-    start_from(scene, exact);
     return scene;
   }
 
   cases::Scene frank_disk(double end_time)
   {
-    cases::Scene scene;
-    scene.name = "frank-disk";
-    scene.symmetry = cases::Symmetry::cylindrical;
-    scene.domain.shape = cases::DomainShape::ball;
-    scene.domain.dimension = 2;
-    scene.domain.radius = 1;
+    const cases::Material material;
     const auto exact = std::make_shared<cases::FrankGrowth>(
-        scene.material, cases::Symmetry::cylindrical, -0.335221361207848338);
+        material, cases::Symmetry::cylindrical, -0.335221361207848338);
+    cases::Scene scene = round_scene(material, 0, exact);
     scene.start_time = 0.04;
     scene.end_time = end_time;
-    start_from(scene, exact);
     return scene;
   }
 
   cases::Scene insulated_box(const Position &upper, const PlaneFunction &front,
                              const PlaneFunction &temperature, double end_time)
   {
-    cases::Scene scene;
-    scene.name = "box";
-    scene.symmetry = cases::Symmetry::none;
-    scene.domain.shape = cases::DomainShape::box;
-    scene.domain.dimension = 2;
-    scene.domain.upper = upper;
-    scene.domain.lower = {-upper[0], -upper[1], 0};
-    scene.end_time = end_time;
+    cases::Scene scene = box({}, 2, {-upper[0], -upper[1], 0}, upper, 0, end_time);
     scene.initial.front = field_of(front);
     scene.initial.temperature = field_of(temperature);
-    using cases::Side;
-    for(const Side side : {Side::x_min, Side::x_max, Side::y_min, Side::y_max})
-      scene.boundaries[static_cast<std::size_t>(side)] = cases::Boundary{};
     return scene;
   }
 
@@ -108,13 +83,7 @@ namespace meltfront::particles::front_tracking
     };
     cases::Scene scene = insulated_box({1, 0.5, 0}, front, temperature, end_time);
     for(const double x : {-place, place})
-    {
-      cases::PointSource sink;
-      sink.position = {x, 0, 0};
-      sink.power = [](double) { return -2.; };
-      sink.energy = [](double time) { return -2 * time; };
-      scene.sources.push_back(sink);
-    }
+      scene.sources.push_back(steady_sink({x, 0, 0}, 2));
     return scene;
   }
 
@@ -157,16 +126,10 @@ namespace meltfront::particles::front_tracking
                         int threads)
   {
     const auto method = make_rkpm_tracked();
-    cases::Resolution resolution;
-    resolution.n = n;
-    resolution.threads = threads;
-    resolution.options = cases::Options(method->option_declarations());
+    cases::Resolution resolution = resolution_of(*method, n, options, threads);
     resolution.options.set("dimension", "2");
-    for(const auto &[key, value] : options)
-      resolution.options.set(key, value);
     PlaneRecord record;
-    record.cost
-        = method->solve(scene, cases::effects_called_for(scene), resolution, record);
+    record.cost = solve(*method, scene, resolution, record);
     return record;
   }
 

@@ -1,8 +1,8 @@
 #ifndef meltfront_particles_front_tracking_tests_plane_cases_h
 #define meltfront_particles_front_tracking_tests_plane_cases_h
 
-#include <cases/method.h>
-#include <cases/scene.h>
+#include <cases/tests/support/course.h>
+#include <cases/tests/support/scenes.h>
 #include <particles/front_tracking/plane_heat.h>
 
 #include <array>
@@ -13,6 +13,8 @@
 
 namespace meltfront::particles::front_tracking
 {
+  using namespace test_support;
+
   /** Ice around a line sink between two rims with exact temperatures, R from 0.4 to 0.6;
    * k_s = 2, all else one, far away 0.5. */
   cases::Scene line_sink_annulus();
@@ -53,8 +55,6 @@ namespace meltfront::particles::front_tracking
     std::array<std::vector<double>, 2> front; ///< points of the last frame
     cases::Cost cost;
   };
-
-  using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
   /** Run the method in two dimensions. */
   PlaneRecord run_plane(const cases::Scene &scene, int n, const OptionTexts &options = {},

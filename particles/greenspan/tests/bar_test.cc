@@ -1,5 +1,5 @@
 #include <cases/error.h>
-#include <particles/greenspan/bar_measures.h>
+#include <particles/greenspan/tests/bar_measures.h>
 
 #include <gtest/gtest.h>
 

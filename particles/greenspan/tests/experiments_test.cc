@@ -1,7 +1,7 @@
 // Distributions over disturbed starts. The targets are those of independent codes, with
 // the tolerances of four standard errors at 200 runs; fewer runs have wider ones.
 
-#include <particles/greenspan/experiments.h>
+#include <particles/greenspan/tests/report_runs.h>
 
 #include <gtest/gtest.h>
 
@@ -23,14 +23,14 @@ namespace meltfront::particles::greenspan
     double mean_solid(const std::vector<RunRecord> &records, long step, long interval)
     {
       return spread_of(records, [step, interval](const RunRecord &record)
-                       { return double(record.solid_at(step, interval)); })
+                       { return double(record.solid.at(step / interval)); })
           .mean;
     }
 
     TEST(GreenspanExperiments, PrintedHeatMeltsNothing)
     {
-      for(const auto &[experiment, runs] : {std::pair{Experiment::triangle_slow(2), 12},
-                                            std::pair{Experiment::triangle_fast(2), 24}})
+      for(const auto &[experiment, runs] :
+          {std::pair{triangle_slow(2), 12}, std::pair{triangle_fast(2), 24}})
         for(const RunRecord &record :
             run_ensemble(experiment, runs, deviation, 1, threads))
         {
@@ -43,7 +43,7 @@ namespace meltfront::particles::greenspan
 
     TEST(GreenspanExperiments, SlowHeatMeltsTheTriangleInItsThirdStage)
     {
-      const Experiment experiment = Experiment::triangle_slow(-2);
+      const Experiment experiment = triangle_slow(-2);
       const int runs = 50;
       const auto records = run_ensemble(experiment, runs, deviation, 1, threads);
       for(const RunRecord &record : records)
@@ -74,7 +74,7 @@ namespace meltfront::particles::greenspan
 
     TEST(GreenspanExperiments, FastHeatSplashesAndTheDropsComeBack)
     {
-      const Experiment experiment = Experiment::triangle_fast(-2);
+      const Experiment experiment = triangle_fast(-2);
       const auto records = run_ensemble(experiment, 200, deviation, 1, threads);
       for(const RunRecord &record : records)
         EXPECT_EQ(record.first_break, 1300);
@@ -88,17 +88,17 @@ namespace meltfront::particles::greenspan
 
     TEST(GreenspanExperiments, UndisturbedFastHeatFollowsTheFigures)
     {
-      const Experiment experiment = Experiment::triangle_fast(-2);
+      const Experiment experiment = triangle_fast(-2);
       const RunRecord record = run(experiment);
-      EXPECT_EQ(record.solid_at(2000, experiment.interval), 22); // 19 to 23 and 25 fluid
-      EXPECT_EQ(record.solid_at(5000, experiment.interval), 24); // 19 23 25 28 fluid
+      EXPECT_EQ(record.solid.at(2000 / experiment.interval), 22); // 19 to 23 and 25 fluid
+      EXPECT_EQ(record.solid.at(5000 / experiment.interval), 24); // 19 23 25 28 fluid
       for(const long step : {13000, 15000, 20000, 25000, 30000})
-        EXPECT_EQ(record.solid_at(step, experiment.interval), 28) << step;
+        EXPECT_EQ(record.solid.at(step / experiment.interval), 28) << step;
     }
 
     TEST(GreenspanExperiments, HotBaseDissolvesTheRectangle)
     {
-      const Experiment experiment = Experiment::rectangle_on_hot_base();
+      const Experiment experiment = rectangle_on_hot_base();
       const int runs = 50;
       const auto records = run_ensemble(experiment, runs, deviation, 1, threads);
       EXPECT_NEAR(mean_solid(records, 30000, experiment.interval), 32,
@@ -126,7 +126,7 @@ namespace meltfront::particles::greenspan
     TEST(GreenspanExperiments, EvenlyHotBaseIsVolatile)
     {
       const auto records
-          = run_ensemble(Experiment::rectangle_on_base(2.5), 20, deviation, 1, threads);
+          = run_ensemble(rectangle_on_base(2.5), 20, deviation, 1, threads);
       for(const RunRecord &record : records)
         EXPECT_GT(record.all_fluid, 0);
       const Spread end
@@ -136,8 +136,7 @@ namespace meltfront::particles::greenspan
 
     TEST(GreenspanExperiments, UnheatedControlsStayWhole)
     {
-      for(Experiment experiment :
-          {Experiment::triangle_unheated(), Experiment::rectangle_unheated()})
+      for(Experiment experiment : {triangle_unheated(), rectangle_unheated()})
       {
         const int bonds = experiment.start.size() == 28 ? 63 : 111;
         for(const RunRecord &record : run_ensemble(experiment, 2, deviation, 1, threads))
@@ -151,7 +150,7 @@ namespace meltfront::particles::greenspan
 
     TEST(GreenspanExperiments, RecordsDoNotDependOnThreads)
     {
-      Experiment experiment = Experiment::triangle_fast(-2);
+      Experiment experiment = triangle_fast(-2);
       experiment.steps = 5000;
       const auto one = run_ensemble(experiment, 5, deviation, 3, 1),
                  two = run_ensemble(experiment, 5, deviation, 3, 2);

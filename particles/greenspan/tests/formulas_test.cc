@@ -2,6 +2,7 @@
 
 #include <particles/greenspan/motion.h>
 #include <particles/greenspan/tables.h>
+#include <particles/greenspan/tests/report_runs.h>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ namespace meltfront::particles::greenspan
     {
       MotionParameters parameters;
       parameters.base = Base{};
-      parameters.source = HeatSource::slow(power);
+      parameters.source = slow_source(power);
       return parameters;
     }
 
@@ -24,7 +25,7 @@ namespace meltfront::particles::greenspan
     {
       MotionParameters parameters;
       parameters.force = PairForce::rectangle();
-      parameters.base = Base::heated();
+      parameters.base = heated_base();
       parameters.temperatures = true;
       return parameters;
     }

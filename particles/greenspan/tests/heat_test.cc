@@ -4,6 +4,7 @@
 #include <particles/greenspan/motion.h>
 #include <particles/greenspan/shadows.h>
 #include <particles/greenspan/tables.h>
+#include <particles/greenspan/tests/report_runs.h>
 
 #include <gtest/gtest.h>
 
@@ -201,7 +202,7 @@ namespace meltfront::particles::greenspan
     TEST(GreenspanFreezing, BaseThatTakesAllCools)
     {
       MotionParameters parameters;
-      parameters.base = Base::cooling();
+      parameters.base = Base{.restitution = 0};
       ParticleState state = read_table(1);
       Motion motion(parameters, state);
       const double before = motion.temperature();
@@ -263,7 +264,7 @@ namespace meltfront::particles::greenspan
       ParticleState start = HexagonalLattice::close_packed_box({5, 5, 5}, 1.1);
       set_temperature(start, 120, 1);
       MotionParameters parameters;
-      parameters.base = Base::heated();
+      parameters.base = heated_base();
       parameters.search = NeighbourRows::Search::among_all;
       Motion all(parameters, start);
       parameters.search = NeighbourRows::Search::by_cells;

@@ -5,6 +5,7 @@
 #include <cases/scene.h>
 #include <particles/greenspan/greenspan.h>
 #include <particles/greenspan/scene_experiment.h>
+#include <particles/greenspan/tests/report_runs.h>
 
 #include <gtest/gtest.h>
 
@@ -93,7 +94,7 @@ namespace meltfront::particles::greenspan
       const cases::Cost cost = solve(scene, resolution_of(28), recorder);
       EXPECT_EQ(cost.steps, 5000);
       EXPECT_EQ(cost.effects.size(), 3u);
-      Experiment experiment = Experiment::triangle_fast(-2);
+      Experiment experiment = triangle_fast(-2);
       experiment.steps = 5000;
       disturb(experiment.start, 1e-6, 1);
       const RunRecord record = run(experiment);

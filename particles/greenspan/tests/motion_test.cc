@@ -3,6 +3,7 @@
 #include <particles/greenspan/generation.h>
 #include <particles/greenspan/motion.h>
 #include <particles/greenspan/tables.h>
+#include <particles/greenspan/tests/report_runs.h>
 
 #include <gtest/gtest.h>
 
@@ -102,7 +103,7 @@ namespace meltfront::particles::greenspan
     {
       MotionParameters parameters;
       parameters.force = PairForce::rectangle();
-      parameters.base = Base::heated();
+      parameters.base = heated_base();
       parameters.temperatures = true;
       return parameters;
     }
@@ -118,7 +119,7 @@ namespace meltfront::particles::greenspan
 
     TEST(GreenspanMotion, HeatStagesChangeAfterTheirLastStep)
     {
-      const HeatSource source = HeatSource::slow(2);
+      const HeatSource source = slow_source(2);
       EXPECT_EQ(source.strength(1), 0.008);
       EXPECT_EQ(source.strength(50000), 0.008);
       EXPECT_EQ(source.strength(50001), 0.0095);
@@ -210,7 +211,7 @@ namespace meltfront::particles::greenspan
       // Sorted along a curve, two blocks; little skin, so that lists are made often.
       const ParticleState start = hot_crystal(90, 60);
       MotionParameters parameters = hot_rectangle();
-      parameters.source = HeatSource::fast(-2);
+      parameters.source = fast_source(-2);
       parameters.skin = 0.04;
       Motion one(parameters, start);
       one.advance(40);
@@ -280,7 +281,7 @@ namespace meltfront::particles::greenspan
       bad.time_step = 0.015;
       refused(keep, bad);
       bad = parameters;
-      bad.source = HeatSource::slow(2);
+      bad.source = slow_source(2);
       bad.source->position = {good.position[0][27], good.position[1][27], 0};
       refused(keep, bad);
       bad = parameters;
@@ -317,7 +318,7 @@ namespace meltfront::particles::greenspan
 
       // A particle that falls through the source.
       parameters = MotionParameters{};
-      parameters.source = HeatSource::slow(2);
+      parameters.source = slow_source(2);
       parameters.source->position = {0, 1, 0};
       ParticleState falling;
       falling.add({0, 1.05, 0});

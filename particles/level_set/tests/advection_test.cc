@@ -113,7 +113,7 @@ namespace meltfront::particles::level_set
       {
         const Grid grid = unit_grid(dimension == 2 ? 80 : 50, dimension);
         const ScalarFunction shape
-            = dimension == 2 ? distance_from(SlottedDisk()) : distance_from(ball);
+            = dimension == 2 ? distance_from(slotted_disk) : distance_from(ball);
         // three stages reach three nodes each
         const LevelSet whole = after_a_step(grid, shape, 0);
         const LevelSet band = after_a_step(grid, shape, 12);
@@ -132,7 +132,7 @@ namespace meltfront::particles::level_set
 
     TEST(Advection, NothingMovesWithoutVelocity)
     {
-      LevelSet front(unit_grid(40), distance_from(SlottedDisk()));
+      LevelSet front(unit_grid(40), distance_from(slotted_disk));
       const std::vector<double> before(front.values().begin(), front.values().end());
       const cases::RigidMotion rest = translation(0, 0);
       Advection advection;
@@ -196,7 +196,7 @@ namespace meltfront::particles::level_set
 
     TEST(Advection, AFrontAtTheBorderSlidesAlongIt)
     {
-      const Ball half{2, {0, 0.4, 0}, 0.2};
+      const cases::Ball half(2, {0, 0.4, 0}, 0.2);
       LevelSet front(unit_grid(80), distance_from(half));
       const cases::RigidMotion motion = translation(0, 1);
       Advection advection;
@@ -263,11 +263,11 @@ namespace meltfront::particles::level_set
       for(const int dimension : {2, 3})
       {
         const Grid grid = unit_grid(dimension == 2 ? 80 : 50, dimension);
-        const Ball round = dimension == 2 ? disk : ball;
+        const cases::Ball &round = round_shape(dimension);
         LevelSet front(grid,
                        [&](const Position &p)
                        {
-                         const double distance = round.distance(p);
+                         const double distance = round.signed_distance(p);
                          return distance * (1 + 0.3 * std::sin(5 * p[0] + 3 * p[1]));
                        });
         for(int pass = 0; pass < 4; ++pass)
@@ -276,7 +276,7 @@ namespace meltfront::particles::level_set
         for_each_node(grid, front.band(),
                       [&](std::size_t node, const Position &p)
                       {
-                        const double distance = round.distance(p);
+                        const double distance = round.signed_distance(p);
                         if(std::abs(distance) < 3 * grid.spacing())
                           worst = std::max(worst,
                                            std::abs(front.values()[node] - distance));
@@ -287,15 +287,15 @@ namespace meltfront::particles::level_set
     TEST(Reinitialisation, NoFrontComesInOverTheBorder)
     {
       // so steep far from the front that straight lines over the border lead to zero
-      LevelSet front(unit_grid(50),
-                     [](const Position &p) {
-                       return disk.distance(p) * (1.2 + std::sin(5 * p[0] + 3 * p[1]));
-                     });
+      LevelSet front(
+          unit_grid(50), [](const Position &p)
+          { return disk.signed_distance(p) * (1.2 + std::sin(5 * p[0] + 3 * p[1])); });
       for(int pass = 0; pass < 10; ++pass)
         Reinitialisation()(front);
       for_each_node(front.grid(), front.band(),
-                    [&](std::size_t node, const Position &p)
-                    { EXPECT_NEAR(front.values()[node], disk.distance(p), 0.02); });
+                    [&](std::size_t node, const Position &p) {
+                      EXPECT_NEAR(front.values()[node], disk.signed_distance(p), 0.02);
+                    });
     }
   } // namespace
 } // namespace meltfront::particles::level_set

@@ -113,7 +113,7 @@ namespace meltfront::particles::level_set
         for(const NodeRun &run : front.band().runs())
           for(int n = 0; n < run.length; ++n)
             EXPECT_DOUBLE_EQ(front.values()[run.node + n],
-                             disk.distance(front.grid().position(
+                             disk.signed_distance(front.grid().position(
                                  {run.index[0] + n, run.index[1], 0})));
       }
       EXPECT_NEAR(std::log2(sizes[3] / sizes[2]), 1, 0.1);
@@ -181,7 +181,7 @@ namespace meltfront::particles::level_set
           {
             Position p = front.grid().position({run.index[0] + n, run.index[1], 0});
             p[0] -= 0.9 * spacing * step;
-            front.values()[run.node + n] = disk.distance(p);
+            front.values()[run.node + n] = disk.signed_distance(p);
           }
         front.rebuild_band();
       }

@@ -278,7 +278,7 @@ namespace meltfront::particles::level_set
       for(const int dimension : {2, 3})
       {
         const Grid grid = unit_grid(dimension == 2 ? 40 : 16, dimension);
-        const DistanceFunction distance = dimension == 2 ? circle : ball;
+        const DistanceFunction distance = dimension == 2 ? circle : sphere;
         const Markers markers = seed_markers(grid, distance, SeedingParameters{});
         std::vector<double> one = at_nodes(grid, distance), two = one;
         fit(grid, markers, FitParameters::in(dimension), one, 1);

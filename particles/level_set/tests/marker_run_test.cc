@@ -1,8 +1,8 @@
 #include "marker_samples.h"
 
 #include <cases/error.h>
-#include <particles/level_set/front_measures.h>
 #include <particles/level_set/marker_run.h>
+#include <particles/level_set/tests/measured_front.h>
 
 #include <gtest/gtest.h>
 
@@ -17,23 +17,11 @@ namespace meltfront::particles::level_set
     const cases::RigidMotion at_rest({}, 0, {});
     const cases::RigidMotion rotation({}, 1, {0.5, 0.5, 0});
 
-    const Ball disk{2, {0.5, 0.75, 0}, 0.15};
-
     struct Measured
     {
-      double area, error; ///< relative; spacings
-      FrontNoise noise;
+      verification::InterfaceErrors errors;
       MarkerResult result;
     };
-
-    Measured measured(MarkerResult result, const ReferenceShape &shape,
-                      const ExactFrontFunction &front)
-    {
-      const ShapeDifference difference = shape_difference(result.front, shape, 10);
-      return {content_error(difference, shape),
-              front_error(difference, shape, result.front.grid()),
-              front_noise(result.front, front), std::move(result)};
-    }
 
     /** The grid's circle lies a spacing off in both directions (section 4.3.2). */
     Measured offset_circle(const MarkerParameters &markers, double offset = 1)
@@ -41,8 +29,8 @@ namespace meltfront::particles::level_set
       MarkerRunParameters parameters;
       parameters.markers = markers;
       parameters.grid_offset = {offset, offset, 0};
-      return measured(run_markers(unit_grid(80), circle, at_rest, parameters),
-                      disk.shape(), disk.front());
+      MarkerResult result = run_markers(unit_grid(80), circle, at_rest, parameters);
+      return {measured(result.front, disk), std::move(result)};
     }
 
     TEST(OffsetCircle, FitsRestoreItToTheFloorOfSampling)
@@ -53,10 +41,10 @@ namespace meltfront::particles::level_set
           MarkerParameters markers = MarkerParameters::interpolating(2, clustered);
           markers.seed = seed;
           const Measured found = offset_circle(markers);
-          EXPECT_LT(found.error, 0.006);
-          EXPECT_LT(std::abs(found.area), 1e-3);
-          EXPECT_LT(found.noise.curvature, 0.01);
-          EXPECT_LT(found.noise.normal, 0.1);
+          EXPECT_LT(found.errors.front, 0.006);
+          EXPECT_LT(std::abs(found.errors.volume), 1e-3);
+          EXPECT_LT(found.errors.curvature, 0.01);
+          EXPECT_LT(found.errors.normal, 0.1);
         }
     }
 
@@ -67,13 +55,13 @@ namespace meltfront::particles::level_set
       {
         MarkerParameters markers = MarkerParameters::original();
         markers.seed = seed;
-        original += offset_circle(markers).error / 3;
+        original += offset_circle(markers).errors.front / 3;
         markers = MarkerParameters::corrected();
         markers.seed = seed;
-        corrected += offset_circle(markers).error / 3;
+        corrected += offset_circle(markers).errors.front / 3;
         markers = MarkerParameters::corrected(EscapeMerge::replace);
         markers.seed = seed;
-        replaced += offset_circle(markers).error / 3;
+        replaced += offset_circle(markers).errors.front / 3;
       }
       EXPECT_NEAR(original, 0.155, 0.025);
       EXPECT_NEAR(corrected, 0.42, 0.12);
@@ -85,50 +73,31 @@ namespace meltfront::particles::level_set
     {
       const Measured found = offset_circle(MarkerParameters::original(), 0.1);
       EXPECT_EQ(found.result.work.escaped, 0);
-      EXPECT_NEAR(found.error, 0.09, 0.01);
-      EXPECT_LT(offset_circle(MarkerParameters::interpolating(2, false), 0.1).error,
-                0.006);
-    }
-
-    /** A quarter turn maps nodes to nodes: the values before it. */
-    LevelSet turned_back(const LevelSet &front)
-    {
-      return {front.grid(), [&](const Position &p) {
-                return front.value({1 - p[1], p[0], 0});
-              }};
+      EXPECT_NEAR(found.errors.front, 0.09, 0.01);
+      EXPECT_LT(
+          offset_circle(MarkerParameters::interpolating(2, false), 0.1).errors.front,
+          0.006);
     }
 
     /** A quarter turn of Zalesak's disk on a grid coarser than usual. */
     Measured quarter_turn(const MarkerParameters &markers, double courant_number = 0.5)
     {
-      const SlottedDisk disk;
       MarkerRunParameters parameters;
       parameters.markers = markers;
       parameters.transport.end_time = pi / 2;
       parameters.transport.courant_number = courant_number;
-      const Grid grid = unit_grid(60);
-      MarkerResult result = run_markers(
-          grid, [&](const Position &p) { return disk.distance(p); }, rotation,
-          parameters);
-      const ShapeDifference difference
-          = shape_difference(turned_back(result.front), disk.shape(), 10);
-      return {content_error(difference, disk.shape()),
-              front_error(difference, disk.shape(), grid),
-              {},
-              std::move(result)};
+      MarkerResult result
+          = run_markers(unit_grid(60), distance_from(slotted_disk), rotation, parameters);
+      return {measured(result.front, slotted_disk, rotation, pi / 2), std::move(result)};
     }
 
     double grid_alone()
     {
-      const SlottedDisk disk;
       TransportParameters parameters;
       parameters.end_time = pi / 2;
-      const Grid grid = unit_grid(60);
       const TransportResult result = run_level_set(
-          grid, [&](const Position &p) { return disk.distance(p); }, rotation,
-          parameters);
-      return front_error(shape_difference(turned_back(result.front), disk.shape(), 10),
-                         disk.shape(), grid);
+          unit_grid(60), distance_from(slotted_disk), rotation, parameters);
+      return measured(result.front, slotted_disk, rotation, pi / 2).front;
     }
 
     TEST(ZalesakDisk, FitsAreSmootherThanEscapesAndBothBetterThanTheGridAlone)
@@ -136,11 +105,11 @@ namespace meltfront::particles::level_set
       const Measured fits = quarter_turn(MarkerParameters::interpolating(2, false)),
                      clusters = quarter_turn(MarkerParameters::interpolating(2)),
                      escapes = quarter_turn(MarkerParameters::original());
-      EXPECT_LT(fits.error, 0.02);
-      EXPECT_LT(std::abs(fits.area), 0.004);
-      EXPECT_LT(clusters.error, 0.02);
-      EXPECT_LT(fits.error, 0.3 * escapes.error);
-      EXPECT_LT(escapes.error, grid_alone());
+      EXPECT_LT(fits.errors.front, 0.02);
+      EXPECT_LT(std::abs(fits.errors.volume), 0.004);
+      EXPECT_LT(clusters.errors.front, 0.02);
+      EXPECT_LT(fits.errors.front, 0.3 * escapes.errors.front);
+      EXPECT_LT(escapes.errors.front, grid_alone());
       // d and the counts: rigid motion neither strains nor reseeds
       EXPECT_EQ(fits.result.work.born, 0);
       EXPECT_GT(fits.result.work.nodes / fits.result.work.corrections, 200);
@@ -149,7 +118,8 @@ namespace meltfront::particles::level_set
     TEST(ZalesakDisk, FitsDoNotMindLargeSteps)
     {
       const MarkerParameters fits = MarkerParameters::interpolating(2, false);
-      EXPECT_NEAR(quarter_turn(fits, 0.9).error, quarter_turn(fits).error, 0.004);
+      EXPECT_NEAR(quarter_turn(fits, 0.9).errors.front, quarter_turn(fits).errors.front,
+                  0.004);
     }
 
     /** Drawn out to the thinnest filament of the vortex of period 8, on 80 x 80 cells. */
@@ -161,8 +131,7 @@ namespace meltfront::particles::level_set
       parameters.transport.end_time = 4;
       const MarkerResult result
           = run_markers(unit_grid(80), circle, velocity, parameters);
-      return shape_difference(result.front, carried(disk.shape(), velocity, 0, 4), 5)
-          .mismatch();
+      return measured(result.front, disk, velocity, 4).mismatch;
     }
 
     TEST(CircleInVortex, ClustersHoldTheFilamentBetterThanEscapes)
@@ -178,8 +147,7 @@ namespace meltfront::particles::level_set
      * between nodes. */
     double floor_of_area(const Grid &grid)
     {
-      return content_error(shape_difference(LevelSet(grid, circle), disk.shape(), 10),
-                           disk.shape());
+      return measured(LevelSet(grid, circle), disk).volume;
     }
 
     /** Drawn out and back, the period shorter and the grid coarser than usual. */
@@ -188,16 +156,16 @@ namespace meltfront::particles::level_set
       MarkerRunParameters parameters;
       parameters.markers = markers;
       parameters.transport.end_time = period;
-      return measured(
-          run_markers(unit_grid(48), circle, cases::SingleVortex(period), parameters),
-          disk.shape(), disk.front());
+      MarkerResult result
+          = run_markers(unit_grid(48), circle, cases::SingleVortex(period), parameters);
+      return {measured(result.front, disk), std::move(result)};
     }
 
     TEST(CircleInVortex, DrawnOutAndBackTheAreaIsKept)
     {
       const Measured found = vortex(MarkerParameters::interpolating(2), 4);
-      EXPECT_LT(std::abs(found.area), 0.01);
-      EXPECT_LT(found.error, 0.05);
+      EXPECT_LT(std::abs(found.errors.volume), 0.01);
+      EXPECT_LT(found.errors.front, 0.05);
       EXPECT_GT(found.result.work.born, 0);
     }
 
@@ -224,8 +192,8 @@ namespace meltfront::particles::level_set
         MarkerParameters markers = MarkerParameters::interpolating(2);
         markers.seed = seed;
         const Measured found = vortex(markers, 1.5);
-        EXPECT_NEAR(found.area, floor, 0.002) << seed;
-        EXPECT_LT(found.error, 0.02) << seed;
+        EXPECT_NEAR(found.errors.volume, floor, 0.002) << seed;
+        EXPECT_LT(found.errors.front, 0.02) << seed;
       }
     }
 
@@ -240,15 +208,14 @@ namespace meltfront::particles::level_set
         MarkerRunParameters parameters;
         parameters.markers = markers;
         parameters.transport.end_time = 0.3;
-        const Ball start{2, {0.75, 0.5, 0}, 0.15}, end{2, {1.05, 0.5, 0}, 0.15};
+        const cases::Ball start(2, {0.75, 0.5, 0}, 0.15), end(2, {1.05, 0.5, 0}, 0.15);
         const Grid grid = unit_grid(40);
-        const MarkerResult result = run_markers(
-            grid, [&](const Position &p) { return start.distance(p); }, along,
-            parameters);
+        const MarkerResult result
+            = run_markers(grid, distance_from(start), along, parameters);
         for(int j = 0; j <= 40; ++j)
           for(int i = 30; i <= 40; ++i)
           {
-            const double exact = end.distance(grid.position({i, j, 0}));
+            const double exact = end.signed_distance(grid.position({i, j, 0}));
             if(std::abs(exact) < grid.spacing())
             {
               EXPECT_NEAR(result.front.values()[grid.node(i, j)], exact,
@@ -278,18 +245,16 @@ namespace meltfront::particles::level_set
     TEST(MarkerRun, InSpaceABallInTheDeformationKeepsItsVolume)
     {
       const cases::CubeDeformation velocity(0.6);
-      const Ball exact{3, {0.35, 0.35, 0.35}, 0.15};
       MarkerRunParameters parameters;
       parameters.transport.end_time = 0.6;
       parameters.markers = MarkerParameters::interpolating(3);
-      const MarkerResult result
-          = run_markers(unit_grid(24, 3), ball, velocity, parameters);
-      const ReferenceShape shape = exact.shape();
-      const ShapeDifference difference = shape_difference(result.front, shape, 4);
-      const double floor = content_error(
-          shape_difference(LevelSet(unit_grid(24, 3), ball), shape, 4), shape);
-      EXPECT_NEAR(content_error(difference, shape), floor, 0.005);
-      EXPECT_LT(front_error(difference, shape, result.front.grid()), 0.06);
+      const Grid grid = unit_grid(24, 3);
+      const MarkerResult result = run_markers(grid, sphere, velocity, parameters);
+      // the period over, all is back
+      const verification::InterfaceErrors errors = measured(result.front, ball),
+                                          floor = measured(LevelSet(grid, sphere), ball);
+      EXPECT_NEAR(errors.volume, floor.volume, 0.005);
+      EXPECT_LT(errors.front, 0.06);
     }
 
     TEST(MarkerRun, RefusesWhatMakesNoSense)

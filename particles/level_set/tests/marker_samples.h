@@ -2,23 +2,18 @@
 #define meltfront_particles_level_set_tests_marker_samples_h
 
 #include <particles/level_set/marker_scheme.h>
+#include <particles/level_set/tests/shapes.h>
 
 namespace meltfront::particles::level_set
 {
-  /** A square or cube of unit side. */
-  inline Grid unit_grid(int cells, int dimension = 2)
-  {
-    return {dimension, {0, 0, 0}, 1. / cells, {cells, cells, cells}};
-  }
-
   inline double circle(const Position &p)
   {
-    return 0.15 - std::hypot(p[0] - 0.5, p[1] - 0.75);
+    return disk.signed_distance(p);
   }
 
-  inline double ball(const Position &p)
+  inline double sphere(const Position &p)
   {
-    return 0.15 - std::hypot(p[0] - 0.35, p[1] - 0.35, p[2] - 0.35);
+    return ball.signed_distance(p);
   }
 
   /** A function's values at all nodes, ghosts included. */

@@ -18,7 +18,7 @@ namespace meltfront::particles::level_set
       {
         const Grid grid = unit_grid(dimension == 2 ? 40 : 16, dimension);
         Markers markers
-            = seed_markers(grid, dimension == 2 ? circle : ball, SeedingParameters{});
+            = seed_markers(grid, dimension == 2 ? circle : sphere, SeedingParameters{});
         MarkerCells cells(grid);
         cells.sort(markers);
         ASSERT_GT(cells.size(), 50u);
@@ -84,7 +84,7 @@ namespace meltfront::particles::level_set
       for(const int dimension : {2, 3})
       {
         const Grid grid = unit_grid(dimension == 2 ? 80 : 24, dimension);
-        const DistanceFunction distance = dimension == 2 ? circle : ball;
+        const DistanceFunction distance = dimension == 2 ? circle : sphere;
         const Position centre
             = dimension == 2 ? Position{0.5, 0.75, 0} : Position{0.35, 0.35, 0.35};
         const Markers markers = seed_markers(grid, distance, SeedingParameters{});
@@ -214,18 +214,18 @@ namespace meltfront::particles::level_set
       const Grid grid = unit_grid(24, 3);
       SeedingParameters sparse;
       sparse.per_cell = 6;
-      Markers markers = seed_markers(grid, ball, sparse);
+      Markers markers = seed_markers(grid, sphere, sparse);
       MarkerCells cells(grid);
       ReseedingParameters parameters;
       parameters.seeding.per_cell = 24;
       parameters.most = 100;
       MarkerReseeding reseeding(grid, parameters);
       const std::size_t before = markers.size();
-      reseeding.apply(markers, cells, at_nodes(grid, ball));
+      reseeding.apply(markers, cells, at_nodes(grid, sphere));
       EXPECT_GT(markers.size(), before + before / 4);
       // d of a midpoint is of fourth order in the angle: (1.2 / 2 dx / R)^4 / 24 R
       for(std::size_t p = 0; p < markers.size(); ++p)
-        EXPECT_NEAR(markers.distance[p], ball(markers.point(p)), 5e-3 * grid.spacing());
+        EXPECT_NEAR(markers.distance[p], sphere(markers.point(p)), 5e-3 * grid.spacing());
     }
 
     TEST(MarkerReseeding, FarMarkersGoAndCrowdedCellsLoseTheYoungest)

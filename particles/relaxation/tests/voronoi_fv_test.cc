@@ -1,7 +1,7 @@
-#include <cases/effects.h>
 #include <cases/error.h>
 #include <cases/exact/lattice_reference.h>
-#include <cases/scene.h>
+#include <cases/tests/support/course.h>
+#include <cases/tests/support/scenes.h>
 #include <particles/relaxation/cell_conduction.h>
 #include <particles/relaxation/relax_nodes.h>
 #include <particles/relaxation/voronoi_fv.h>
@@ -20,28 +20,7 @@ namespace meltfront::particles
     using cases::Position;
     constexpr double pi = std::numbers::pi;
 
-    cases::Field field(std::function<double(const Position &, double)> value)
-    {
-      return {"", std::move(value), false};
-    }
-
-    /** The unit box of unit properties, all walls at the temperatures of a field. */
-    cases::Scene box_scene(int dimension, const cases::Field &wall)
-    {
-      cases::Scene scene;
-      scene.problem = cases::ProblemKind::poisson;
-      scene.domain.shape
-          = dimension == 1 ? cases::DomainShape::slab : cases::DomainShape::box;
-      scene.domain.dimension = dimension;
-      for(int d = 0; d < dimension; ++d)
-        scene.domain.upper[d] = 1;
-      scene.symmetry = dimension == 1 ? cases::Symmetry::planar : cases::Symmetry::none;
-      scene.material.latent_heat = 0;
-      scene.initial.temperature = cases::Field::uniform(0);
-      for(int s = 0; s < 2 * dimension; ++s)
-        scene.boundaries[s] = cases::Boundary{BoundaryKind::fixed_temperature, wall};
-      return scene;
-    }
+    using namespace test_support;
 
     double squares(const Position &p)
     {
@@ -51,66 +30,34 @@ namespace meltfront::particles
     /** Chapter 5's problem. */
     cases::Scene sine_squares()
     {
-      cases::Scene scene = box_scene(2, cases::Field::uniform(0));
-      scene.heat_release = field([](const Position &p, double) { return squares(p); });
+      cases::Scene scene = steady_box(2, cases::Field::uniform(0));
+      scene.heat_release = field_of(squares);
       return scene;
     }
 
-    struct Outcome : cases::Observer
+    struct Outcome : Course
     {
-      bool wants(long, double) override
-      {
-        return true;
-      }
-
-      void observe(const cases::Snapshot &snapshot) override
-      {
-        positions.clear();
-        for(std::size_t i = 0; i < snapshot.temperature.size(); ++i)
-        {
-          Position p{};
-          for(int d = 0; d < snapshot.dimension; ++d)
-            p[d] = snapshot.positions[d][i];
-          positions.push_back(p);
-        }
-        temperature.assign(snapshot.temperature.begin(), snapshot.temperature.end());
-        worst_defect = std::max(worst_defect, snapshot.heat.defect());
-        obeys_maximum_principle = snapshot.obeys_maximum_principle;
-      }
-
       /** Unweighted error over the sites, relative. */
       double error(const std::function<double(const Position &)> &exact) const
       {
         double difference = 0, sum = 0;
-        for(std::size_t i = 0; i < positions.size(); ++i)
+        for(std::size_t i = 0; i < temperature.size(); ++i)
         {
-          const double expected = exact(positions[i]);
+          const double expected = exact(place(i));
           difference += (temperature[i] - expected) * (temperature[i] - expected);
           sum += expected * expected;
         }
         return std::sqrt(difference / sum);
       }
-
-      std::vector<Position> positions;
-      std::vector<double> temperature;
-      double worst_defect = 0;
-      bool obeys_maximum_principle = false;
     };
-
-    using OptionTexts = std::vector<std::pair<std::string, std::string>>;
 
     Outcome solve(const cases::Scene &scene, int n, const OptionTexts &options,
                   std::uint64_t seed = 1)
     {
       const auto method = make_voronoi_fv();
-      cases::Resolution resolution;
-      resolution.n = n;
-      resolution.seed = seed;
-      resolution.options = cases::Options(method->option_declarations());
-      for(const auto &[key, value] : options)
-        resolution.options.set(key, value);
       Outcome outcome;
-      method->solve(scene, cases::effects_called_for(scene), resolution, outcome);
+      test_support::solve(*method, scene, resolution_of(*method, n, options, 1, seed),
+                          outcome);
       return outcome;
     }
 
@@ -186,8 +133,8 @@ namespace meltfront::particles
       {
         const auto plane
             = [](const Position &p) { return 1 + 2 * p[0] - p[1] + 3 * p[2]; };
-        const cases::Scene scene = box_scene(
-            dimension, field([&](const Position &p, double) { return plane(p); }));
+        const cases::Scene scene = steady_box(
+            dimension, field_of([&](const Position &p) { return plane(p); }));
         EXPECT_LT(solve(scene, 6, {{"arrangement", "lattice"}}).error(plane), 1e-12)
             << dimension;
       }
@@ -195,11 +142,11 @@ namespace meltfront::particles
 
     TEST(VoronoiFv, SecondOrderOnALattice)
     {
-      cases::Scene scene = box_scene(2, cases::Field::uniform(0));
+      cases::Scene scene = steady_box(2, cases::Field::uniform(0));
       const auto exact = [](const Position &p)
       { return std::sin(pi * p[0]) * std::sin(2 * pi * p[1]); };
       scene.heat_release
-          = field([&](const Position &p, double) { return 5 * pi * pi * exact(p); });
+          = field_of([&](const Position &p) { return 5 * pi * pi * exact(p); });
       std::vector<double> errors;
       for(const int n : {7, 15, 31, 63})
         errors.push_back(solve(scene, n, {{"arrangement", "lattice"}}).error(exact));
@@ -211,7 +158,7 @@ namespace meltfront::particles
      * insulated: the temperature is 1 + 2 y, the conductivity 3. */
     TEST(VoronoiFv, FluxAndTransferOnWallsAreExactForALinearTemperature)
     {
-      cases::Scene scene = box_scene(2, cases::Field::uniform(1));
+      cases::Scene scene = steady_box(2, cases::Field::uniform(1));
       scene.material.solid.conductivity = scene.material.liquid.conductivity = 3;
       const auto exact = [](const Position &p) { return 1 + 2 * p[1]; };
       scene.boundaries[0] = scene.boundaries[1] = cases::Boundary{};
@@ -221,15 +168,16 @@ namespace meltfront::particles
                                             cases::Field::uniform(6), false, 2};
       EXPECT_LT(solve(scene, 8, {{"arrangement", "lattice"}}).error(exact), 1e-12);
       scene.heat_release = cases::Field::uniform(4);
-      EXPECT_LT(solve(scene, 8, {{"arrangement", "random"}}).worst_defect, 1e-11);
+      EXPECT_LT(solve(scene, 8, {{"arrangement", "random"}}).worst_budget_defect(),
+                1e-11);
     }
 
     TEST(VoronoiFv, AnInclusionBetweenCellsIsExact)
     {
-      cases::Scene scene = box_scene(
-          1, field([](const Position &p, double) { return p[0] > 0.5 ? 1. : 0.; }));
-      scene.inclusion = cases::Inclusion{
-          field([](const Position &p, double) { return p[0] - 0.5; }), 9};
+      cases::Scene scene = steady_box(
+          1, field_of([](const Position &p) { return p[0] > 0.5 ? 1. : 0.; }));
+      scene.inclusion
+          = cases::Inclusion{field_of([](const Position &p) { return p[0] - 0.5; }), 9};
       // n + 1 odd: the jump is midway between two particles.
       const auto exact = [](const Position &p)
       { return p[0] < 0.5 ? 0.2 * p[0] : 1 - 1.8 * (1 - p[0]); };
@@ -240,7 +188,7 @@ namespace meltfront::particles
     {
       for(const int dimension : {2, 3})
       {
-        cases::Scene scene = box_scene(dimension, cases::Field::uniform(0));
+        cases::Scene scene = steady_box(dimension, cases::Field::uniform(0));
         scene.boundaries[1] = cases::Boundary{BoundaryKind::heat_transfer,
                                               cases::Field::uniform(1), false, 2};
         const NodeSet nodes = arrange_nodes(scene, dimension == 2 ? 16 : 8,
@@ -269,20 +217,20 @@ namespace meltfront::particles
 
     TEST(VoronoiFv, HeatIsBalancedAndBoundsAreKeptOverTime)
     {
-      cases::Scene scene = box_scene(
-          2, field([](const Position &p, double t) { return p[0] + std::sin(20 * t); }));
+      cases::Scene scene = steady_box(
+          2, {"", [](const Position &p, double t) { return p[0] + std::sin(20 * t); }});
       scene.problem = cases::ProblemKind::stefan;
       scene.end_time = 0.1;
       scene.boundaries[3] = cases::Boundary{BoundaryKind::flux, cases::Field::uniform(2)};
       scene.boundaries[1] = cases::Boundary{BoundaryKind::heat_transfer,
                                             cases::Field::uniform(1), false, 5};
-      scene.heat_release = field([](const Position &p, double) { return squares(p); });
+      scene.heat_release = field_of(squares);
       for(const std::string scheme : {"backward-euler", "crank-nicolson", "bdf2"})
       {
         const Outcome outcome = solve(
             scene, 10,
             {{"arrangement", "random"}, {"time_scheme", scheme}, {"steps", "30"}});
-        EXPECT_LT(outcome.worst_defect, 1e-11) << scheme;
+        EXPECT_LT(outcome.worst_budget_defect(), 1e-11) << scheme;
         EXPECT_EQ(outcome.obeys_maximum_principle, scheme == "backward-euler");
       }
     }
@@ -291,11 +239,11 @@ namespace meltfront::particles
      * bounds (the run would stop if it did not). */
     TEST(VoronoiFv, BackwardEulerKeepsTheMaximumPrinciple)
     {
-      cases::Scene scene = box_scene(2, cases::Field::uniform(0));
+      cases::Scene scene = steady_box(2, cases::Field::uniform(0));
       scene.problem = cases::ProblemKind::stefan;
       scene.end_time = 0.01;
       scene.initial.temperature
-          = field([](const Position &p, double) { return p[0] > 0.5 ? 1. : 0.; });
+          = field_of([](const Position &p) { return p[0] > 0.5 ? 1. : 0.; });
       for(std::uint64_t seed = 1; seed <= 5; ++seed)
         for(const double value : solve(scene, 15,
                                        {{"arrangement", "random"},

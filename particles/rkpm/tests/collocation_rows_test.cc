@@ -15,6 +15,16 @@ namespace meltfront::particles::rkpm
   {
     using std::numbers::pi;
 
+    /** div(k grad u) = k lap u + grad k . grad u. */
+    RowCoefficients conduction_row(double conductivity,
+                                   const std::array<double, 3> &slope = {})
+    {
+      return {0, slope, conductivity};
+    }
+
+    /** The reconstructed value. */
+    const RowCoefficients dirichlet_row{1, {}, 0};
+
     /** The function that a system of rows reconstructs at its particles. */
     std::vector<double> solve(const ReproducingWeights &weights,
                               const std::vector<RowCoefficients> &conditions,
@@ -64,11 +74,11 @@ namespace meltfront::particles::rkpm
             expected.push_back((1 + x) * laplacian + 2 * x);
             break;
           case 1:
-            conditions.push_back(dirichlet_row());
+            conditions.push_back(dirichlet_row);
             expected.push_back(u);
             break;
           case 2:
-            conditions.push_back(neumann_row(1 + x, normal));
+            conditions.push_back(robin_row(1 + x, 0, normal));
             expected.push_back((1 + x) * slope);
             break;
           default:
@@ -102,11 +112,11 @@ namespace meltfront::particles::rkpm
                             {SupportRule::fixed_dilation, how.order + 1.5, h, 0}, 1);
       std::vector<RowCoefficients> conditions(number, conduction_row(1));
       std::vector<double> right(number, 2.);
-      conditions.front() = conditions.back() = dirichlet_row();
+      conditions.front() = conditions.back() = dirichlet_row;
       right.front() = right.back() = 1;
       if(neumann)
       {
-        conditions.back() = neumann_row(1, {1, 0, 0});
+        conditions.back() = robin_row(1, 0, {1, 0, 0});
         right.back() = 2;
       }
       const auto u = solve(weights, conditions, right);
@@ -157,7 +167,7 @@ namespace meltfront::particles::rkpm
         const auto x = particles.point(a);
         exact.push_back(std::sin(pi * x[0] + 0.3) * std::cos(1.5 * pi * x[1] + 0.2));
         const bool wall = on_edge(particles, a);
-        conditions.push_back(wall ? dirichlet_row() : conduction_row(1));
+        conditions.push_back(wall ? dirichlet_row : conduction_row(1));
         right.push_back(wall ? exact[a] : -3.25 * pi * pi * exact[a]);
       }
       const auto u = solve(weights, conditions, right);

@@ -1,5 +1,6 @@
 #include <cases/error.h>
-#include <cases/scene.h>
+#include <cases/tests/support/course.h>
+#include <cases/tests/support/scenes.h>
 #include <particles/rkpm/moab_integral.h>
 
 #include <gtest/gtest.h>
@@ -13,79 +14,36 @@ namespace meltfront::particles
   {
     constexpr double pi = std::numbers::pi;
     using Formula = std::function<double(const cases::Position &, double)>;
-    using OptionTexts = std::vector<std::pair<std::string, std::string>>;
+    using namespace test_support;
 
-    /** Root mean square error of the last snapshot over the largest exact value. */
-    struct ErrorMeter : cases::Observer
+    struct Measured : Course
     {
-      explicit ErrorMeter(Formula exact)
-        : exact(std::move(exact))
-      {
-      }
-
-      void begin(const cases::RunDescription &run) override
-      {
-        description = run;
-      }
-
-      bool wants(long, double) override
-      {
-        return false;
-      }
-
-      void observe(const cases::Snapshot &snapshot) override
-      {
-        double square = 0, largest = 0;
-        for(std::size_t i = 0; i < snapshot.temperature.size(); ++i)
-        {
-          cases::Position p{};
-          for(int d = 0; d < snapshot.dimension; ++d)
-            p[d] = snapshot.positions[d][i];
-          const double expected = exact(p, snapshot.time);
-          square += (snapshot.temperature[i] - expected)
-                    * (snapshot.temperature[i] - expected);
-          largest = std::max(largest, std::abs(expected));
-        }
-        error = std::sqrt(square / double(snapshot.temperature.size())) / largest;
-        EXPECT_FALSE(snapshot.heat.booked);
-      }
-
-      Formula exact;
-      double error = 0;
-      cases::RunDescription description;
+      double error = 0; ///< root mean square at the end over the largest exact value
     };
 
     cases::Scene steady(int dimension, const Formula &exact, const Formula &release)
     {
-      cases::Scene scene;
-      scene.problem = cases::ProblemKind::poisson;
-      scene.domain.shape
-          = dimension == 1 ? cases::DomainShape::slab : cases::DomainShape::box;
-      scene.domain.dimension = dimension;
-      for(int d = 0; d < dimension; ++d)
-        scene.domain.upper[d] = 1;
-      scene.material.latent_heat = 0;
-      for(int s = 0; s < 2 * dimension; ++s)
-        scene.boundaries[s]
-            = cases::Boundary{cases::BoundaryKind::fixed_temperature, {"", exact}};
+      cases::Scene scene = steady_box(dimension, {"", exact});
       scene.initial.temperature = {"", exact};
       scene.heat_release = cases::Field{"", release};
       return scene;
     }
 
-    ErrorMeter run(const cases::Scene &scene, const Formula &exact, int n,
-                   const OptionTexts &options = {})
+    Measured run(const cases::Scene &scene, const Formula &exact, int n,
+                 const OptionTexts &options = {})
     {
-      const auto method = make_moab_integral();
-      cases::Resolution resolution;
-      resolution.n = n;
-      resolution.options = cases::Options(method->option_declarations());
-      for(const auto &[key, value] : options)
-        resolution.options.set(key, value);
-      ErrorMeter meter(exact);
-      const cases::EffectSet effects = cases::effects_called_for(scene);
-      method->solve(cases::simulated_scene(scene, effects), effects, resolution, meter);
-      return meter;
+      Measured result;
+      static_cast<Course &>(result) = course_of(*make_moab_integral(), scene, n, options);
+      EXPECT_FALSE(result.heat.booked);
+      double square = 0, largest = 0;
+      for(std::size_t i = 0; i < result.temperature.size(); ++i)
+      {
+        const double expected = exact(result.place(i), result.time.back());
+        square += (result.temperature[i] - expected) * (result.temperature[i] - expected);
+        largest = std::max(largest, std::abs(expected));
+      }
+      result.error = std::sqrt(square / double(result.temperature.size())) / largest;
+      return result;
     }
 
     double quadratic(const cases::Position &p, double)
@@ -145,12 +103,12 @@ namespace meltfront::particles
           = [](const cases::Position &p, double) { return p[0] * p[0]; };
       const cases::Scene scene
           = steady(1, parabola, [](const cases::Position &, double) { return -2.; });
-      const ErrorMeter met = run(scene, parabola, 31);
-      const ErrorMeter unmet = run(scene, parabola, 31,
-                                   {{"weights", "single"},
-                                    {"support", "fixed"},
-                                    {"kernel", "cubic_spline"},
-                                    {"dilation", "2.5"}});
+      const Measured met = run(scene, parabola, 31);
+      const Measured unmet = run(scene, parabola, 31,
+                                 {{"weights", "single"},
+                                  {"support", "fixed"},
+                                  {"kernel", "cubic_spline"},
+                                  {"dilation", "2.5"}});
       EXPECT_LT(met.error, 1e-11);
       EXPECT_GT(unmet.error, 1e-2);
       EXPECT_EQ(met.description.parameters[8].value, "0");

@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <cases/exact/formula_solution.h>
-#include <cases/scene.h>
+#include <cases/tests/support/course.h>
+#include <cases/tests/support/scenes.h>
 #include <particles/rkpm/rkpm.h>
 
 #include <gtest/gtest.h>
@@ -9,39 +10,12 @@
 #include <numbers>
 
 using namespace meltfront;
+using namespace meltfront::test_support;
 
 namespace
 {
   constexpr double pi = std::numbers::pi;
   using Formula = std::function<double(const cases::Position &, double)>;
-  using OptionTexts = std::vector<std::pair<std::string, std::string>>;
-
-  /** Keeps the last snapshot's temperatures. */
-  struct Recorder : cases::Observer
-  {
-    bool wants(long, double) override
-    {
-      return false;
-    }
-
-    void observe(const cases::Snapshot &snapshot) override
-    {
-      temperature.assign(snapshot.temperature.begin(), snapshot.temperature.end());
-      points.clear();
-      for(std::size_t i = 0; i < temperature.size(); ++i)
-      {
-        cases::Position p{};
-        for(int d = 0; d < snapshot.dimension; ++d)
-          p[d] = snapshot.positions[d][i];
-        points.push_back(p);
-      }
-      EXPECT_FALSE(snapshot.heat.booked);
-      EXPECT_FALSE(snapshot.obeys_maximum_principle);
-    }
-
-    std::vector<double> temperature;
-    std::vector<cases::Position> points;
-  };
 
   const cases::Method &method_named(const std::string &name)
   {
@@ -60,43 +34,29 @@ namespace
   /** A steady unit box whose walls hold the formula. */
   cases::Scene box(int dimension, const Formula &formula, const Formula &release)
   {
-    cases::Scene scene;
-    scene.problem = cases::ProblemKind::poisson;
-    scene.domain.shape
-        = dimension == 1 ? cases::DomainShape::slab : cases::DomainShape::box;
-    scene.domain.dimension = dimension;
-    for(int d = 0; d < dimension; ++d)
-      scene.domain.upper[d] = 1;
-    scene.material.latent_heat = 0;
-    for(int s = 0; s < 2 * dimension; ++s)
-      scene.boundaries[s] = held(formula);
+    cases::Scene scene = steady_box(dimension, {"", formula});
     scene.initial.temperature = {"", formula};
     scene.heat_release = cases::Field{"", release};
     return scene;
   }
 
-  Recorder run(const std::string &name, const cases::Scene &scene, int n,
-               const OptionTexts &options = {}, std::uint64_t seed = 1)
+  Course run(const std::string &name, const cases::Scene &scene, int n,
+             const OptionTexts &options = {}, std::uint64_t seed = 1)
   {
     const cases::Method &method = method_named(name);
-    cases::Resolution resolution;
-    resolution.n = n;
-    resolution.seed = seed;
-    resolution.options = cases::Options(method.option_declarations());
-    for(const auto &[key, value] : options)
-      resolution.options.set(key, value);
-    Recorder recorder;
-    const cases::EffectSet effects = cases::effects_called_for(scene);
-    method.solve(cases::simulated_scene(scene, effects), effects, resolution, recorder);
-    return recorder;
+    Course course;
+    solve(method, scene, resolution_of(method, n, options, 1, seed), course);
+    EXPECT_FALSE(course.heat.booked);
+    EXPECT_FALSE(course.obeys_maximum_principle);
+    return course;
   }
 
-  double largest_error(const Recorder &recorder, const Formula &formula, double time)
+  double largest_error(const Course &course, const Formula &formula, double time)
   {
     double largest = 0;
-    for(std::size_t i = 0; i < recorder.points.size(); ++i)
+    for(std::size_t i = 0; i < course.temperature.size(); ++i)
       largest = std::max(
-          largest, std::abs(recorder.temperature[i] - formula(recorder.points[i], time)));
+          largest, std::abs(course.temperature[i] - formula(course.place(i), time)));
     return largest;
   }
 
@@ -126,10 +86,10 @@ TEST(RkpmMethods, QuadraticsAreExactInAllForms)
         // node: its order is lowered, as the run says.
         if(dimension == 3 && method->name() == "rkpm-multiple-fixed")
           continue;
-        const Recorder recorder = run(
+        const Course course = run(
             method->name(), scene, dimension == 3 ? 7 : 11,
             {{"unknowns", unknowns}, {"arrangement", "jittered"}, {"jitter", "0.1"}});
-        EXPECT_LT(largest_error(recorder, quadratic, 1), 1e-9)
+        EXPECT_LT(largest_error(course, quadratic, 1), 1e-9)
             << method->name() << " " << dimension << " " << unknowns;
       }
   }

@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/tests/support/course.h>
 #include <particles/scattered/given_values.h>
 #include <particles/scattered/linear_growth.h>
 #include <particles/scattered/linear_problem.h>
@@ -10,37 +11,13 @@
 
 using namespace meltfront;
 using namespace meltfront::particles;
+using meltfront::test_support::Course;
 
 namespace
 {
   constexpr double pi = std::numbers::pi;
   constexpr int cells = 20;
   constexpr double spacing = 1. / cells;
-
-  /** Keeps the last snapshot. */
-  struct Recorder : cases::Observer
-  {
-    bool wants(long, double) override
-    {
-      return true;
-    }
-
-    void observe(const cases::Snapshot &snapshot) override
-    {
-      temperature.assign(snapshot.temperature.begin(), snapshot.temperature.end());
-      heat = snapshot.heat;
-      time = snapshot.time;
-      worst_defect = std::max(worst_defect, snapshot.heat.defect());
-    }
-
-    void begin(const cases::RunDescription &) override
-    {
-    }
-
-    std::vector<double> temperature;
-    cases::HeatBudget heat;
-    double time = -1, worst_defect = 0;
-  };
 
   /** Cells of a slab of unit conductivity and capacity between walls at temperatures
    * that may change, and heat released in them. */
@@ -117,19 +94,19 @@ namespace
       description.method = "test";
     }
 
-    Recorder run(const std::string &scheme, int steps)
+    Course run(const std::string &scheme, int steps)
     {
       cases::Resolution resolution;
       resolution.n = cells;
-      resolution.options = cases::Options(linear_options());
+      resolution.options = cases::Options(cases::options_of(LinearOptions()));
       resolution.options.set("time_scheme", scheme);
       resolution.options.set("steps", std::to_string(steps));
-      Recorder recorder;
+      Course course;
       const cases::Stopwatch watch;
       const cases::EffectSet effects = cases::effects_called_for(scene);
       cost = make_linear_run(scene, effects, std::make_unique<Posed>(*this), resolution)
-                 ->carry_out(scene, watch, recorder);
-      return recorder;
+                 ->carry_out(scene, watch, course);
+      return course;
     }
 
     double wall(double time) const
@@ -156,12 +133,12 @@ namespace
   {
     Slab slab;
     slab.scene.end_time = 0.2;
-    const Recorder recorder = slab.run(scheme, steps);
-    EXPECT_EQ(recorder.time, 0.2);
+    const Course course = slab.run(scheme, steps);
+    EXPECT_EQ(course.time.back(), 0.2);
     double largest = 0;
     for(int i = 0; i < cells; ++i)
-      largest = std::max(largest,
-                         std::abs(recorder.temperature[i] - decayed(slab.x[i], 0.2)));
+      largest
+          = std::max(largest, std::abs(course.temperature[i] - decayed(slab.x[i], 0.2)));
     return largest;
   }
 
@@ -188,9 +165,9 @@ TEST(LinearRun, HeatIsBooked)
     slab.scene.end_time = 0.3;
     slab.scene.heat_release = cases::Field::uniform(3);
     slab.scene.boundaries[1] = cases::Boundary(); // no bound on the temperature matters
-    const Recorder recorder = slab.run(scheme, 37);
-    EXPECT_LT(recorder.worst_defect, 1e-13) << scheme;
-    EXPECT_GT(recorder.heat.boundary + recorder.heat.sources, 0.5);
+    const Course course = slab.run(scheme, 37);
+    EXPECT_LT(course.worst_budget_defect(), 1e-13) << scheme;
+    EXPECT_GT(course.heat.boundary + course.heat.sources, 0.5);
   }
 }
 
@@ -223,9 +200,9 @@ TEST(LinearRun, WhatJumpsWithinAStepIsNotContinued)
     slab.problem.inflow = [&](const LinearStep &step, std::span<const double> u) {
       return HeatInflow{2 / spacing * (2 * mean(step) - u.front() - u.back()), 0};
     };
-    const Recorder recorder = slab.run(scheme, 37); // refuses what is below zero
-    EXPECT_GT(*std::ranges::min_element(recorder.temperature), 0) << scheme;
-    EXPECT_LT(recorder.worst_defect, 1e-13) << scheme;
+    const Course course = slab.run(scheme, 37); // refuses what is below zero
+    EXPECT_GT(*std::ranges::min_element(course.temperature), 0) << scheme;
+    EXPECT_LT(course.worst_budget_defect(), 1e-13) << scheme;
   }
 }
 
@@ -235,11 +212,11 @@ TEST(LinearRun, ASteadySceneIsSolvedAtOnce)
   slab.scene.problem = cases::ProblemKind::poisson;
   slab.scene.end_time = 1;
   slab.release = 8;
-  const Recorder recorder = slab.run("bdf2", 0);
+  const Course course = slab.run("bdf2", 0);
   EXPECT_EQ(slab.cost.steps, 1);
-  EXPECT_LT(recorder.heat.defect(), 1e-13);
+  EXPECT_LT(course.heat.defect(), 1e-13);
   for(int i = 0; i < cells; ++i)
-    EXPECT_NEAR(recorder.temperature[i],
+    EXPECT_NEAR(course.temperature[i],
                 1 + 4 * slab.x[i] * (1 - slab.x[i]) + spacing * spacing, 1e-12);
 }
 
@@ -257,7 +234,7 @@ TEST(LinearRun, UnknownsNeedNotBeTemperatures)
   for(std::uint32_t i = 0; i < cells; ++i)
     reconstructed.problem.reconstruction.add_row(std::vector{i}, std::vector{2.},
                                                  scratch);
-  const Recorder one = plain.run("bdf2", 30), other = reconstructed.run("bdf2", 30);
+  const Course one = plain.run("bdf2", 30), other = reconstructed.run("bdf2", 30);
   for(int i = 0; i < cells; ++i)
     EXPECT_NEAR(one.temperature[i], other.temperature[i], 1e-13);
   EXPECT_TRUE(std::isnan(other.heat.defect()));

@@ -40,7 +40,7 @@ namespace meltfront::particles::testing
           Problem problem;
           cases::Material material = unit_material(100);
           material.solid.conductivity = 2;
-          problem.scene = slab(material, 1, 1, 3, flux(6), fixed(1));
+          problem.scene = slab(material, 1, 1, 3, flux_wall(6), fixed_wall(1));
           const Outcome outcome
               = run(*method, problem, 20, {{"layout", layout}, {"dimension", dimension}});
           EXPECT_LE(outcome.largest_defect, 1e-12);
@@ -58,7 +58,7 @@ namespace meltfront::particles::testing
         Problem box;
         box.scene = unit_box(dimension, unit_material(100), 1, 0.5);
         for(int side = 0; side < 2 * dimension; ++side)
-          box.scene.boundaries[side] = flux(0.25);
+          box.scene.boundaries[side] = flux_wall(0.25);
         const Outcome in_box = run(*method, box, 10);
         EXPECT_NEAR(in_box.heat.boundary, 0.5 * 0.25 * 2 * dimension, 1e-12);
         EXPECT_LE(in_box.largest_defect, 1e-12);
@@ -70,7 +70,7 @@ namespace meltfront::particles::testing
         ball.scene.domain.shape = cases::DomainShape::ball;
         ball.scene.domain.radius = 0.5;
         ball.scene.boundaries = {};
-        ball.scene.boundaries[static_cast<int>(cases::Side::outer)] = flux(0.25);
+        ball.scene.boundaries[static_cast<int>(cases::Side::outer)] = flux_wall(0.25);
         const Outcome in_ball = run(*method, ball, 12);
         EXPECT_NEAR(in_ball.heat.boundary, 0.5 * 0.25 * pi, 1e-12);
         EXPECT_LE(in_ball.largest_defect, 1e-12);
@@ -91,7 +91,7 @@ namespace meltfront::particles::testing
             scene.domain = {cases::DomainShape::ball, dimension, {}, {}, 0.5, 0};
             scene.material = unit_material(100);
             scene.initial.temperature = cases::Field::uniform(1);
-            scene.boundaries[static_cast<int>(cases::Side::outer)] = flux(0.25);
+            scene.boundaries[static_cast<int>(cases::Side::outer)] = flux_wall(0.25);
             scene.heat_release = cases::Field::uniform(0.7);
             scene.end_time = 0.3;
             const Outcome outcome = run(*method, problem, n, {{"time_scheme", scheme}});
@@ -140,7 +140,7 @@ namespace meltfront::particles::testing
     {
       Problem problem;
       problem.scene = unit_box(2, unit_material(100), 0, 0.02);
-      problem.scene.boundaries[0] = problem.scene.boundaries[1] = periodic();
+      problem.scene.boundaries[0] = problem.scene.boundaries[1] = periodic_wall();
       problem.scene.initial.temperature
           = {"sin(2 pi x)",
              [](const cases::Position &p, double) { return std::sin(2 * pi * p[0]); },
@@ -165,7 +165,7 @@ namespace meltfront::particles::testing
         problem.scene.domain.radius = 0.5;
         problem.scene.symmetry = cases::Symmetry::cylindrical;
         problem.scene.boundaries = {};
-        problem.scene.boundaries[static_cast<int>(cases::Side::outer)] = fixed(0);
+        problem.scene.boundaries[static_cast<int>(cases::Side::outer)] = fixed_wall(0);
         const double zero = 2 * 2.404825557695773;
         const auto mode = [zero](double r) { return std::cyl_bessel_j(0, zero * r); };
         problem.scene.initial.temperature = {"J0",
@@ -321,7 +321,7 @@ namespace meltfront::particles::testing
         {
           Problem problem;
           const cases::Material material = unit_material();
-          problem.scene = slab(material, 1, 0, 1e-3, insulated(), insulated());
+          problem.scene = slab(material, 1, 0, 1e-3, {}, {});
           problem.scene.initial.temperature
               = {"", [&](const cases::Position &p, double)
                  {

@@ -23,7 +23,7 @@ namespace meltfront::particles::testing
       Problem problem;
       cases::Material material = unit_material();
       material.latent_heat = 0;
-      problem.scene = slab(material, 1, 0, end_time, fixed(0), fixed(0));
+      problem.scene = slab(material, 1, 0, end_time, fixed_wall(0), fixed_wall(0));
       problem.scene.initial.temperature = {"", formula};
       problem.exact = std::make_shared<cases::FormulaSolution>(cases::Symmetry::planar,
                                                                "", formula);

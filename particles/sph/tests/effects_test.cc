@@ -107,7 +107,7 @@ namespace meltfront::particles::testing
     TEST(Effects, PhaseChangeOutOfReachChangesNothing)
     {
       Problem problem;
-      problem.scene = slab(unit_material(5), 1, 1, 0.02, fixed(0), insulated());
+      problem.scene = slab(unit_material(5), 1, 1, 0.02, fixed_wall(0), {});
       const Outcome with_phases = run(*make_sph(), problem, 40);
       problem.scene.effect_choices[Effect::phase_change] = EffectChoice::off;
       const Outcome without = run(*make_sph(), problem, 40);
@@ -122,7 +122,7 @@ namespace meltfront::particles::testing
     {
       Problem problem = plane_freezing_water();
       problem.exact = nullptr;
-      problem.scene.boundaries[1] = fixed(10);
+      problem.scene.boundaries[1] = fixed_wall(10);
       problem.scene.material.solid.density = 917;
       EXPECT_THROW(run(*make_sph(), problem, 20), cases::Refusal);
     }

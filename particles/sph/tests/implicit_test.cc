@@ -41,7 +41,7 @@ namespace meltfront::particles::testing
         : dp(1. / n)
         , lambda(2 * (1 - std::cos(std::numbers::pi * dp)) / (dp * dp))
       {
-        problem.scene = slab(unit_material(100), 1, 0, end, insulated(), insulated());
+        problem.scene = slab(unit_material(100), 1, 0, end, {}, {});
         problem.scene.initial.temperature = {"cos(pi x)",
                                              [](const cases::Position &p, double) {
                                                return std::cos(std::numbers::pi * p[0]);

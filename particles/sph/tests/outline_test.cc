@@ -34,7 +34,7 @@ namespace meltfront::particles::testing
         scene.domain.upper[d] = scene.domain.outline->upper()[d];
       }
       scene.domain.reference_length = 1;
-      scene.boundaries[static_cast<std::size_t>(Side::outer)] = insulated();
+      scene.boundaries[static_cast<std::size_t>(Side::outer)] = cases::Boundary{};
       scene.material = water();
       scene.initial.temperature = Field::uniform(10);
       scene.end_time = end_time;
@@ -122,7 +122,7 @@ namespace meltfront::particles::testing
     TEST(OutlineRun, InsulatedWallsOnly)
     {
       Problem problem = cavity(100);
-      problem.scene.boundaries[static_cast<std::size_t>(Side::outer)] = fixed(0);
+      problem.scene.boundaries[static_cast<std::size_t>(Side::outer)] = fixed_wall(0);
       EXPECT_THROW(run(*make_sph(), problem, 20), Refusal);
       problem = cavity(100);
       problem.scene.domain.reference_length = 10;

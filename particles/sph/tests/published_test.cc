@@ -49,7 +49,7 @@ namespace meltfront::particles::testing
     TEST(Published, PlaneFreezingWithFortyParticles)
     {
       Problem problem = plane_freezing();
-      problem.scene.boundaries[1] = fixed(1.2);
+      problem.scene.boundaries[1] = fixed_wall(1.2);
       const Outcome outcome = run(*method, problem, 40);
       EXPECT_EQ(outcome.cost.steps, 400);
       EXPECT_EQ(outcome.position_x.size(), 1600u);

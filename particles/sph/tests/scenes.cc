@@ -12,81 +12,14 @@ namespace meltfront::particles::testing
 {
   using namespace cases;
 
-  Material unit_material(double melting_temperature)
-  {
-    Material material;
-    material.melting_temperature = melting_temperature;
-    return material;
-  }
-
-  Material water()
-  {
-    Material material;
-    material.solid = {2.2, 2090, 1000};
-    material.liquid = {0.591, 4190, 1000};
-    material.latent_heat = 333500;
-    return material;
-  }
-
-  Boundary insulated()
-  {
-    return {};
-  }
-
-  Boundary periodic()
-  {
-    return {BoundaryKind::periodic, {}, false};
-  }
-
-  Boundary fixed(double temperature)
-  {
-    return {BoundaryKind::fixed_temperature, Field::uniform(temperature), false};
-  }
-
-  Boundary exact_wall(std::shared_ptr<const ExactSolution> exact)
-  {
-    return {BoundaryKind::fixed_temperature,
-            {"exact",
-             [exact](const Position &p, double t) { return exact->temperature(p, t); },
-             false},
-            true};
-  }
-
-  Boundary flux(double value)
-  {
-    return {BoundaryKind::flux, Field::uniform(value), false};
-  }
-
-  Scene slab(const Material &material, double length, double temperature, double end_time,
-             const Boundary &left, const Boundary &right)
-  {
-    Scene scene;
-    scene.symmetry = Symmetry::planar;
-    scene.domain = {DomainShape::slab, 1, {}, {length, 0, 0}, 0};
-    scene.material = material;
-    scene.initial.temperature = Field::uniform(temperature);
-    scene.boundaries[0] = left;
-    scene.boundaries[1] = right;
-    scene.end_time = end_time;
-    return scene;
-  }
-
   Scene unit_box(int dimension, const Material &material, double temperature,
                  double end_time)
   {
-    Scene scene;
-    scene.domain.shape = DomainShape::box;
-    scene.domain.dimension = dimension;
+    Position corner{};
     for(int d = 0; d < dimension; ++d)
-    {
-      scene.domain.lower[d] = -0.5;
-      scene.domain.upper[d] = 0.5;
-      scene.boundaries[2 * d] = scene.boundaries[2 * d + 1] = insulated();
-    }
-    scene.material = material;
-    scene.initial.temperature = Field::uniform(temperature);
-    scene.end_time = end_time;
-    return scene;
+      corner[d] = 0.5;
+    return box(material, dimension, {-corner[0], -corner[1], -corner[2]}, corner,
+               temperature, end_time);
   }
 
   Problem freezing_slab(const Material &material, double wall_temperature,
@@ -94,8 +27,8 @@ namespace meltfront::particles::testing
   {
     const auto exact = std::make_shared<PlanarNeumann>(material, wall_temperature,
                                                        initial_temperature);
-    return {slab(material, length, initial_temperature, end_time, fixed(wall_temperature),
-                 exact_wall(exact)),
+    return {slab(material, length, initial_temperature, end_time,
+                 fixed_wall(wall_temperature), exact_wall(exact)),
             exact};
   }
 
@@ -121,29 +54,17 @@ namespace meltfront::particles::testing
     const auto exact = std::make_shared<LineSink>(water(), 0.15, 10);
     Scene scene = unit_box(2, water(), 10, end_time);
     scene.symmetry = Symmetry::cylindrical;
-    const double strength = exact->strength();
-    scene.sources = {{{},
-                      "-Q",
-                      [strength](double) { return -strength; },
-                      [strength](double time) { return -strength * time; }}};
+    scene.sources = {steady_sink({}, exact->strength())};
     return {scene, exact};
   }
 
   namespace
   {
-    Scene ball(int dimension, const std::shared_ptr<const ExactSolution> &exact,
-               const PointSource &sink)
+    Scene ball_about(const PointSource &sink, int dimension, const ExactPointer &exact)
     {
-      Scene scene;
-      scene.symmetry = exact->symmetry();
-      scene.domain.shape = DomainShape::ball;
-      scene.domain.dimension = dimension;
-      scene.domain.radius = 0.5;
-      scene.material = water();
-      scene.initial.temperature = Field::uniform(10);
-      scene.boundaries[static_cast<std::size_t>(Side::outer)] = exact_wall(exact);
+      Scene scene = ball(water(), dimension, 0.5, 10, 475000);
+      set_boundary(scene, Side::outer, exact_wall(exact));
       scene.sources = {sink};
-      scene.end_time = 475000;
       return scene;
     }
   } // namespace
@@ -152,7 +73,7 @@ namespace meltfront::particles::testing
   {
     const auto exact = std::make_shared<LineSink>(water(), 0.15, 10);
     const Problem in_square = line_sink();
-    return {ball(2, exact, in_square.scene.sources[0]), exact};
+    return {ball_about(in_square.scene.sources[0], 2, exact), exact};
   }
 
   Problem line_sink_in_annulus()
@@ -176,11 +97,11 @@ namespace meltfront::particles::testing
   Problem point_sink_in_ball()
   {
     const auto exact = std::make_shared<PointSink>(water(), 0.15, 10);
-    return {ball(3, exact,
-                 {{},
-                  "-Q(t)",
-                  [exact](double time) { return -exact->strength(time); },
-                  [exact](double time) { return -exact->energy(time); }}),
+    return {ball_about({{},
+                        "-Q(t)",
+                        [exact](double time) { return -exact->strength(time); },
+                        [exact](double time) { return -exact->energy(time); }},
+                       3, exact),
             exact};
   }
 
@@ -301,18 +222,10 @@ namespace meltfront::particles::testing
   Outcome run(const Method &method, const Problem &problem, int n,
               const OptionTexts &options, std::uint64_t seed, int threads)
   {
-    Resolution resolution;
-    resolution.n = n;
-    resolution.seed = seed;
-    resolution.threads = threads;
-    resolution.options = Options(method.option_declarations());
-    for(const auto &[key, text] : options)
-      resolution.options.set(key, text);
-    const EffectSet effects = effects_called_for(problem.scene);
-    const Scene scene = simulated_scene(problem.scene, effects);
     Outcome outcome;
     Watcher watcher(problem, outcome);
-    outcome.cost = method.solve(scene, effects, resolution, watcher);
+    outcome.cost = solve(method, problem.scene,
+                         resolution_of(method, n, options, threads, seed), watcher);
     watcher.finish();
     return outcome;
   }
@@ -330,21 +243,5 @@ namespace meltfront::particles::testing
     }
     result.order = fitted_order(spacing, result.errors);
     return result;
-  }
-
-  double fitted_order(const std::vector<double> &spacing,
-                      const std::vector<double> &errors)
-  {
-    double sx = 0, sy = 0, sxx = 0, sxy = 0;
-    for(std::size_t i = 0; i < spacing.size(); ++i)
-    {
-      const double x = std::log(spacing[i]), y = std::log(errors[i]);
-      sx += x;
-      sy += y;
-      sxx += x * x;
-      sxy += x * y;
-    }
-    const double count = spacing.size();
-    return (count * sxy - sx * sy) / (count * sxx - sx * sx);
   }
 } // namespace meltfront::particles::testing

@@ -1,34 +1,17 @@
 #ifndef meltfront_particles_sph_tests_scenes_h
 #define meltfront_particles_sph_tests_scenes_h
 
-#include <cases/method.h>
-#include <cases/scene.h>
+#include <cases/tests/support/course.h>
+#include <cases/tests/support/scenes.h>
 #include <particles/sph/sph.h>
 
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
 /** Scenes and observers that the tests of SPH share. */
 namespace meltfront::particles::testing
 {
-  /** All ones, melting at `melting_temperature`. */
-  cases::Material unit_material(double melting_temperature = 0);
-
-  /** Water and ice as in Monaghan et al. (2005), ice with its own heat capacity. */
-  cases::Material water();
-
-  cases::Boundary insulated();
-  cases::Boundary periodic();
-  cases::Boundary fixed(double temperature);
-  cases::Boundary exact_wall(std::shared_ptr<const cases::ExactSolution> exact);
-  cases::Boundary flux(double value);
-
-  /** A slab of uniform temperature. */
-  cases::Scene slab(const cases::Material &material, double length, double temperature,
-                    double end_time, const cases::Boundary &left,
-                    const cases::Boundary &right);
+  using namespace test_support;
 
   /** A unit square or cube centred on the origin, insulated. */
   cases::Scene unit_box(int dimension, const cases::Material &material,
@@ -63,8 +46,6 @@ namespace meltfront::particles::testing
   /** A point sink with Q ~ sqrt(t) in a ball of radius 0.5, exact temperature outside. */
   Problem point_sink_in_ball();
 
-  using OptionTexts = std::vector<std::pair<std::string, std::string>>;
-
   /** What a run showed. */
   struct Outcome
   {
@@ -96,10 +77,6 @@ namespace meltfront::particles::testing
 
   Convergence converge(const cases::Method &method, const Problem &problem,
                        const std::vector<int> &n, const OptionTexts &options = {});
-
-  /** Exponent of `spacing` in `errors` by least squares in the logarithms. */
-  double fitted_order(const std::vector<double> &spacing,
-                      const std::vector<double> &errors);
 } // namespace meltfront::particles::testing
 
 #endif

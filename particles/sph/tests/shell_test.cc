@@ -83,8 +83,8 @@ namespace meltfront::particles::testing
     // annulus. From the start it was -1.
     TEST(Shell, SteadyLogarithmicProfile)
     {
-      const Study fixed_walls
-          = refine(shell(2, -1, 0.1, fixed(1), fixed(0)), logarithm, {20, 30, 40, 60});
+      const Study fixed_walls = refine(shell(2, -1, 0.1, fixed_wall(1), fixed_wall(0)),
+                                       logarithm, {20, 30, 40, 60});
       EXPECT_GE(fixed_walls.order, 1.8);
       EXPECT_LE(fixed_walls.finest, 2e-6);
       const Boundary exact = profile_wall(logarithm);
@@ -116,7 +116,7 @@ namespace meltfront::particles::testing
 
     TEST(Shell, SteadyPowerThroughBothWalls)
     {
-      const Problem problem = shell(2, -1, 0.1, fixed(1), fixed(0));
+      const Problem problem = shell(2, -1, 0.1, fixed_wall(1), fixed_wall(0));
       const double exact = 2 * pi * 2 / std::log(outer / inner);
       for(const int n : {20, 40, 80})
       {
@@ -129,13 +129,13 @@ namespace meltfront::particles::testing
     TEST(Shell, FluxThroughOneWall)
     {
       const double rise = 3 * inner / 2; // q r_inner/k
-      const Study in = refine(shell(2, 0, 0.4, flux(3), fixed(0)),
+      const Study in = refine(shell(2, 0, 0.4, flux_wall(3), fixed_wall(0)),
                               [rise](double r) { return rise * std::log(outer / r); },
                               {20, 30, 40, 60});
       EXPECT_GE(in.order, 1.8);
       EXPECT_LE(in.finest, 1e-5 * rise);
       const double fall = 3 * outer / 2;
-      const Study out = refine(shell(2, 0, 0.4, fixed(0), flux(-3)),
+      const Study out = refine(shell(2, 0, 0.4, fixed_wall(0), flux_wall(-3)),
                                [fall](double r) { return -fall * std::log(r / inner); },
                                {20, 30, 40, 60});
       EXPECT_GE(out.order, 1.8);
@@ -146,7 +146,7 @@ namespace meltfront::particles::testing
     {
       for(const int dimension : {2, 3})
       {
-        const Problem problem = shell(dimension, 1, 0.05, flux(0.25), insulated());
+        const Problem problem = shell(dimension, 1, 0.05, flux_wall(0.25), {});
         const Outcome outcome = run(*method, problem, 20);
         const double area = dimension == 2 ? 2 * pi * inner : 4 * pi * inner * inner;
         EXPECT_NEAR(outcome.heat.boundary, 0.05 * 0.25 * area, 1e-13);
@@ -187,7 +187,8 @@ namespace meltfront::particles::testing
         const double a = wave_number(k), end = 0.01;
         const double scale = 1 / mode(a, k, inner, k == 0 ? 0.35 : inner);
         const double decay = std::exp(-2 * a * a * end);
-        Problem problem = shell(2, 0, end, k == 0 ? fixed(0) : insulated(), fixed(0));
+        Problem problem
+            = shell(2, 0, end, k == 0 ? fixed_wall(0) : cases::Boundary{}, fixed_wall(0));
         problem.scene.initial.temperature
             = {"mode",
                [=](const Position &p, double)
@@ -204,7 +205,7 @@ namespace meltfront::particles::testing
     TEST(Shell, SteadyHollowBall)
     {
       const Study study
-          = refine(shell(3, 0, 0.08, fixed(1), fixed(0)),
+          = refine(shell(3, 0, 0.08, fixed_wall(1), fixed_wall(0)),
                    [](double r) { return (1 / r - 1 / outer) / (1 / inner - 1 / outer); },
                    {16, 20, 26, 32});
       EXPECT_GE(study.order, 1.7);
@@ -217,7 +218,7 @@ namespace meltfront::particles::testing
         for(const char *layout : {"cell", "edge"})
         {
           const Outcome outcome
-              = run(*method, shell(dimension, 1, 1e-6, fixed(1), fixed(1)), 30,
+              = run(*method, shell(dimension, 1, 1e-6, fixed_wall(1), fixed_wall(1)), 30,
                     {{"layout", layout}});
           double volume = 0;
           for(const double share : outcome.weights)
@@ -273,7 +274,7 @@ namespace meltfront::particles::testing
         }
         return "runs";
       };
-      Scene scene = shell(2, 0, 1e-6, fixed(1), fixed(0)).scene;
+      Scene scene = shell(2, 0, 1e-6, fixed_wall(1), fixed_wall(0)).scene;
       EXPECT_EQ(refusal(scene, 20), "runs");
       scene.domain.inner_radius = 0.1;
       EXPECT_EQ(refusal(scene, 10),

@@ -35,7 +35,7 @@ namespace meltfront::particles::testing
       static const cases::Scene &make_periodic(cases::Scene &scene)
       {
         for(int side = 0; side < 4; ++side)
-          scene.boundaries[side] = periodic();
+          scene.boundaries[side] = periodic_wall();
         return scene;
       }
 
@@ -264,7 +264,7 @@ namespace meltfront::particles::testing
       for(const OptionTexts &options : variants)
       {
         Problem problem;
-        problem.scene = slab(unit_material(), 1, 0, 0.04, fixed(-50), insulated());
+        problem.scene = slab(unit_material(), 1, 0, 0.04, fixed_wall(-50), {});
         problem.scene.initial.temperature
             = {"if(x < 0.3, -5, 2)",
                [](const cases::Position &p, double) { return p[0] < 0.3 ? -5. : 2.; },
@@ -278,7 +278,8 @@ namespace meltfront::particles::testing
       for(const OptionTexts &options : variants)
       {
         Problem problem;
-        problem.scene = slab(unit_material(), 1, 0, 0.02, fixed(-0.1), fixed(-0.1));
+        problem.scene
+            = slab(unit_material(), 1, 0, 0.02, fixed_wall(-0.1), fixed_wall(-0.1));
         problem.scene.initial.temperature
             = {"if(x > 0.49 && x < 0.515, 0.01, -0.1)",
                [](const cases::Position &p, double)
@@ -295,12 +296,12 @@ namespace meltfront::particles::testing
       for(const OptionTexts &options : variants)
       {
         Problem problem;
-        cases::Boundary wall = fixed(-1);
+        cases::Boundary wall = fixed_wall(-1);
         wall.value = {"-1 + 0.49*(1 + tanh((t - 0.03)/0.0015))",
                       [](const cases::Position &, double t)
                       { return -1 + 0.49 * (1 + std::tanh((t - 0.03) / 0.0015)); },
                       false};
-        problem.scene = slab(unit_material(), 1, 1, 0.09, wall, fixed(1));
+        problem.scene = slab(unit_material(), 1, 1, 0.09, wall, fixed_wall(1));
         const Outcome outcome = expect_held(problem, 80, options);
         // The exact front: 0.1305 at 0.03, 0.0404 at the end.
         const double farthest
@@ -338,7 +339,7 @@ namespace meltfront::particles::testing
         material.latent_heat = 1e-6;
         Problem problem;
         // Start from the steady state: front in the middle between two particles.
-        problem.scene = slab(material, 1, 0, 10, fixed(-1), fixed(ratio));
+        problem.scene = slab(material, 1, 0, 10, fixed_wall(-1), fixed_wall(ratio));
         problem.scene.initial.temperature
             = {"steady",
                [ratio](const cases::Position &p, double)

@@ -10,56 +10,30 @@ namespace meltfront::reference_fem::tests
 {
   using namespace cases;
 
-  void Course::observe(const Snapshot &snapshot)
+  double moment_of_solid(const Course &course)
   {
-    double solid = 0, moment = 0;
-    for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
-    {
-      const double part = snapshot.weights[i] * snapshot.solid_fraction[i];
-      solid += part;
-      moment += part * (snapshot.positions[0][i] + 2 * snapshot.positions[1][i]);
-    }
-    time.push_back(snapshot.time);
-    area.push_back(solid);
-    last_moment = moment;
-    defect = snapshot.heat.defect();
-    heat = snapshot.heat;
+    double moment = 0;
+    for(std::size_t i = 0; i < course.weights.size(); ++i)
+      moment += course.weights[i] * course.solid_fraction[i]
+                * (course.positions[0][i] + 2 * course.positions[1][i]);
+    return moment;
   }
 
-  bool Course::monotone() const
+  bool grows(const Course &course)
   {
-    return std::is_sorted(area.begin(), area.end());
+    return std::ranges::is_sorted(course.solid);
   }
 
-  Course run_cut(const Scene &scene, int n,
-                 const std::map<std::string, std::string> &options)
+  Course run_cut(const Scene &scene, int n, const OptionTexts &options)
   {
-    const auto method = make_fem_cut();
-    const EffectSet effects = effects_called_for(scene);
-    const Scene simulated = simulated_scene(scene, effects);
-    Resolution resolution;
-    resolution.n = n;
-    resolution.options = Options(method->option_declarations());
-    for(const auto &[key, text] : options)
-      resolution.options.set(key, text);
-    Course course;
-    course.cost = method->solve(simulated, effects, resolution, course);
-    return course;
-  }
-
-  PointSource sink(double x, double y, double strength)
-  {
-    return {{x, y, 0},
-            "constant",
-            [strength](double) { return -strength; },
-            [strength](double time) { return -strength * time; }};
+    return course_of(*make_fem_cut(), scene, n, options);
   }
 
   Scene sink_in_disk(const std::shared_ptr<const LineSink> &exact)
   {
     Scene scene = ball(water(), 2, 0.5, 10, end_of_sink);
     set_boundary(scene, Side::outer, exact_wall(exact));
-    scene.sources.push_back(sink(0, 0, exact->strength()));
+    scene.sources.push_back(steady_sink({}, exact->strength()));
     return scene;
   }
 
@@ -68,7 +42,7 @@ namespace meltfront::reference_fem::tests
     double sum = 0;
     for(std::size_t i = 1; i < course.time.size(); ++i)
       sum += std::pow(
-          std::sqrt(course.area[i] / std::numbers::pi) - exact.front(course.time[i]), 2);
+          std::sqrt(course.solid[i] / std::numbers::pi) - exact.front(course.time[i]), 2);
     return std::sqrt(sum / static_cast<double>(course.time.size() - 1))
            / exact.front(end_of_sink);
   }
@@ -88,7 +62,7 @@ namespace meltfront::reference_fem::tests
       return least;
     };
     for(const Position &place : places)
-      scene.sources.push_back(sink(place[0], place[1], 2));
+      scene.sources.push_back(steady_sink(place, 2));
     scene.initial.front = Field{
         "circles", [nearest](const Position &p, double) { return nearest(p) - radius; },
         false};

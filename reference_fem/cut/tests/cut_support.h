@@ -5,39 +5,19 @@
 #include <cases/method.h>
 #include <reference_fem/enthalpy/tests/support.h>
 
-#include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace meltfront::reference_fem::tests
 {
-  /** What a run showed, by step. */
-  class Course : public cases::Observer
-  {
-  public:
-    bool wants(long, double) override
-    {
-      return true;
-    }
+  /** The first moment of the solid at the end, with x + 2 y (m^3). */
+  double moment_of_solid(const Course &course);
 
-    void observe(const cases::Snapshot &snapshot) override;
-
-    bool monotone() const;
-
-    std::vector<double> time, area;
-    double last_moment = 0; ///< of the solid, with x + 2 y (m^3)
-    double defect = 0;      ///< of the heat balance, at the end
-    cases::HeatBudget heat; ///< at the end
-    cases::Cost cost;
-  };
+  /** Whether the solid only grows. */
+  bool grows(const Course &course);
 
   /** A run of `fem-cut`. */
-  Course run_cut(const cases::Scene &scene, int n,
-                 const std::map<std::string, std::string> &options = {});
-
-  /** A line sink of a strength (W/m). */
-  cases::PointSource sink(double x, double y, double strength);
+  Course run_cut(const cases::Scene &scene, int n, const OptionTexts &options = {});
 
   /** Time at which the runs of sink_in_disk() end (s). */
   inline constexpr double end_of_sink = 475000;

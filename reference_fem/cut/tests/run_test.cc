@@ -22,10 +22,10 @@ namespace meltfront::reference_fem::tests
       for(const int cells : n)
       {
         const Course course = run_cut(sink_in_disk(exact), cells);
-        EXPECT_TRUE(course.monotone());
+        EXPECT_TRUE(grows(course));
         EXPECT_EQ(course.cost.capped_steps, 0);
         errors.push_back(front_error(course, *exact));
-        defects.push_back(course.defect);
+        defects.push_back(course.budget_defect.back());
       }
       EXPECT_LE(errors.back(), 2e-4);
       EXPECT_GE(fitted_order(n, errors), 1.7);
@@ -37,11 +37,11 @@ namespace meltfront::reference_fem::tests
     TEST(FemCut, DisksMergeAndTheirAreaOnlyGrows)
     {
       const Course course = run_cut(disks({{-0.36, 0, 0}, {0.36, 0, 0}}, 0.3), 40);
-      EXPECT_TRUE(course.monotone());
+      EXPECT_TRUE(grows(course));
       EXPECT_EQ(course.cost.capped_steps, 0);
-      EXPECT_GT(course.area.back(), 0.95);
-      EXPECT_LE(course.defect, 2e-3);
-      EXPECT_NEAR(course.last_moment, 0, 1e-6);
+      EXPECT_GT(course.solid.back(), 0.95);
+      EXPECT_LE(course.budget_defect.back(), 2e-3);
+      EXPECT_NEAR(moment_of_solid(course), 0, 1e-6);
     }
 
     /** The unit square, half of it solid, with a wall that is warmer at once. */
@@ -71,12 +71,12 @@ namespace meltfront::reference_fem::tests
 
     TEST(FemCut, AWallThatIsSwitchedOnIsDamped)
     {
-      const double fine = run_cut(switched_on(2), 48).area.back();
+      const double fine = run_cut(switched_on(2), 48).solid.back();
       EXPECT_LT(fine, 0.45);
       for(const int n : {16, 24, 32})
       {
         const Course course = run_cut(switched_on(2), n);
-        EXPECT_NEAR(course.area.back(), fine, 2e-3) << n;
+        EXPECT_NEAR(course.solid.back(), fine, 2e-3) << n;
         EXPECT_GE(course.cost.evidence.at("steps of backward Euler"), 4) << n;
       }
       // Where nothing jumps one step of backward Euler is enough.
@@ -87,9 +87,9 @@ namespace meltfront::reference_fem::tests
     TEST(FemCut, MirrorAndQuarterTurn)
     {
       const Position lower{-0.5, -0.5, 0}, upper{0.5, 0.5, 0};
-      const std::map<std::string, std::string> options{{"fewest_steps", "20"}};
+      const OptionTexts options{{"fewest_steps", "20"}};
       const auto area = [&](double x, double y) {
-        return run_cut(disks({{x, y, 0}}, 0.02, lower, upper), 24, options).area;
+        return run_cut(disks({{x, y, 0}}, 0.02, lower, upper), 24, options).solid;
       };
       const std::vector<double> one = area(0.11, 0.07);
       EXPECT_EQ(one, area(0.11, 0.07));
@@ -115,8 +115,8 @@ namespace meltfront::reference_fem::tests
                                    false};
       const Course course
           = run_cut(scene, 24, {{"fewest_steps", "60"}, {"step_factor", "0.5"}});
-      EXPECT_EQ(course.area.back(), 0);
-      EXPECT_LE(course.defect, 0.02);
+      EXPECT_EQ(course.solid.back(), 0);
+      EXPECT_LE(course.budget_defect.back(), 0.02);
     }
 
     std::string why_refused(const Scene &scene, int n)

@@ -60,18 +60,18 @@ namespace meltfront::reference_fem
         vector.add(1, 1e-12);
       EXPECT_EQ(vector[0], vector[1]);
       EXPECT_NEAR(vector.difference(1, 0), 1e-9, 1e-22);
-      CompensatedSum sum;
+      cases::CompensatedSum sum;
       vector.add_difference(1, 0, 3, sum);
-      EXPECT_NEAR(static_cast<double>(sum.value()), 3e-9, 1e-22);
+      EXPECT_NEAR(sum.value(), 3e-9, 1e-22);
     }
 
     TEST(CompensatedSum, LosesNothingToCancellation)
     {
-      CompensatedSum sum;
+      cases::CompensatedSum sum;
       sum.add(1e16);
       sum.add_product(1 + 1e-8, 1 - 1e-8);
       sum.add(-1e16);
-      EXPECT_DOUBLE_EQ(static_cast<double>(sum.value()), 1);
+      EXPECT_DOUBLE_EQ(sum.value(), 1);
     }
 
     TEST(TimeScheme, Bdf2IsExactForQuadraticsWithUnequalSteps)

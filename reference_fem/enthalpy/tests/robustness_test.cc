@@ -270,23 +270,8 @@ namespace meltfront::reference_fem::tests
       Material material = water();
       material.solid.density = 917;
       Scene scene = slab(material, 1, 10, 0, 1000);
-      const EffectSet effects = effects_called_for(scene);
-      const auto method = make_fem_enthalpy();
-      class : public Observer
-      {
-        bool wants(long, double) override
-        {
-          return false;
-        }
-        void observe(const Snapshot &) override
-        {
-        }
-      } observer;
-      Resolution resolution;
-      resolution.options = Options(method->option_declarations());
-      EXPECT_THROW(
-          method->solve(simulated_scene(scene, effects), effects, resolution, observer),
-          Refusal);
+      NoObserver nobody;
+      EXPECT_THROW(solve(*make_fem_enthalpy(), scene, {}, nobody), Refusal);
     }
 
     TEST(Method, RefusesDimensionsAndMeshesThatTheSceneDoesNotHave)

@@ -133,22 +133,9 @@ namespace meltfront::reference_fem::tests
       EXPECT_NEAR(run(scene, 40).front.front(), inner, 1e-12);
     }
 
-    /** Is never told anything. */
-    struct Nobody : Observer
-    {
-      bool wants(long, double) override
-      {
-        return false;
-      }
-
-      void observe(const Snapshot &) override
-      {
-      }
-    };
-
     TEST(Shell, UndercooledLiquidIsRefused)
     {
-      Nobody nobody;
+      NoObserver nobody;
       Scene scene = ball(Material{}, 2, 1, 0, 0.25);
       scene.material.melting_temperature = 0;
       const auto exact

@@ -59,7 +59,8 @@ namespace meltfront::reference_fem::fitted::tests
     }
 
     /** The reason of a refusal; empty where the scene is run. */
-    std::string refusal_of(const cases::Scene &scene, int n, const Texts &options = {})
+    std::string refusal_of(const cases::Scene &scene, int n,
+                           const OptionTexts &options = {})
     {
       try
       {
@@ -107,7 +108,7 @@ namespace meltfront::reference_fem::fitted::tests
       set_boundary(scene, Side::x_min, fixed_wall(-1));
       set_boundary(scene, Side::x_max, transfer_wall(1, 2));
       const Record record = run(scene, 8, {{"steps", "60"}});
-      EXPECT_NEAR(record.solid_volume.back(), 0.75, 1e-8);
+      EXPECT_NEAR(record.solid.back(), 0.75, 1e-8);
       EXPECT_LT(record.worst_budget_defect(), 1e-12);
 
       // In the plane the walls' rays share the account.
@@ -116,9 +117,9 @@ namespace meltfront::reference_fem::fitted::tests
       set_boundary(plane, Side::x_min, fixed_wall(-1));
       set_boundary(plane, Side::x_max, transfer_wall(1, 2));
       scene.end_time = 0.1;
-      const Texts options{{"degree", "2"}, {"steps", "10"}};
+      const OptionTexts options{{"degree", "2"}, {"steps", "10"}};
       const Record line = run(scene, 8, options), many = run(plane, 8, options);
-      EXPECT_NEAR(many.solid_volume.back(), 0.5 * line.solid_volume.back(), 1e-11);
+      EXPECT_NEAR(many.solid.back(), 0.5 * line.solid.back(), 1e-11);
       EXPECT_LT(many.worst_budget_defect(), 1e-12);
     }
 
@@ -133,7 +134,7 @@ namespace meltfront::reference_fem::fitted::tests
       set_boundary(scene, Side::x_min, transfer_wall(60, 500));
       const Record record = run(scene, 16), finer = run(scene, 32);
       EXPECT_EQ(record.front_points[0].size(), 0u);
-      EXPECT_NEAR(record.solid_volume.back(), 0, 1e-12);
+      EXPECT_NEAR(record.solid.back(), 0, 1e-12);
       EXPECT_NEAR(record.heat.boundary / finer.heat.boundary, 1, 1e-5);
       EXPECT_LT(record.worst_budget_defect(), 1e-12);
       for(const double temperature : record.temperature)
@@ -206,13 +207,13 @@ namespace meltfront::reference_fem::fitted::tests
              [](const cases::Position &p, double) { return std::min(0.5 - p[0], 0.); },
              false};
       at_melting.initial.solid_fraction_at_melting = 1;
-      EXPECT_NEAR(run(at_melting, 8).solid_volume.back(), 1, 1e-12);
+      EXPECT_NEAR(run(at_melting, 8).solid.back(), 1, 1e-12);
 
       // Undercooled liquid without a germ stays liquid, also at its walls.
       cases::Scene undercooled = slab(plain(), 1, -0.5, 0, 0.1);
       undercooled.initial.front = cases::Field::uniform(1);
       set_boundary(undercooled, Side::x_min, flux_wall(-0.1));
-      EXPECT_NEAR(run(undercooled, 8).solid_volume.back(), 0, 1e-12);
+      EXPECT_NEAR(run(undercooled, 8).solid.back(), 0, 1e-12);
     }
 
     TEST(LaterFront, StartsWhereAWallJumps)
@@ -223,7 +224,7 @@ namespace meltfront::reference_fem::fitted::tests
       set_boundary(scene, Side::x_min,
                    varying(cases::BoundaryKind::fixed_temperature,
                            [](double t) { return t < 0.02 ? 0.5 : -1; }, {0.02}));
-      EXPECT_NEAR(run(scene, 32).solid_volume.back() / exact.front(0.05), 1, 1e-7);
+      EXPECT_NEAR(run(scene, 32).solid.back() / exact.front(0.05), 1, 1e-7);
     }
 
     TEST(LaterFront, OfAStrongFluxIsResolved)
@@ -232,7 +233,7 @@ namespace meltfront::reference_fem::fitted::tests
       cases::Scene scene = slab(plain(), 1, 0.05, 0, 0.5);
       set_boundary(scene, Side::x_min, flux_wall(-1));
       const Record coarse = run(scene, 16), fine = run(scene, 32);
-      EXPECT_NEAR(coarse.solid_volume.back() / fine.solid_volume.back(), 1, 1e-6);
+      EXPECT_NEAR(coarse.solid.back() / fine.solid.back(), 1, 1e-6);
       EXPECT_LT(fine.worst_budget_defect(), 1e-12);
       // All heat that was drawn: 0.5.
       EXPECT_NEAR(fine.heat.boundary, -0.5, 1e-12);
@@ -270,7 +271,7 @@ namespace meltfront::reference_fem::fitted::tests
 
     TEST(Evidence, CountsWhatTheTimeSchemeDid)
     {
-      const auto counts = [](const Texts &options)
+      const auto counts = [](const OptionTexts &options)
       { return run(two_phases(0.4, 0.1), 8, options).cost.evidence; };
       EXPECT_EQ(counts({{"scheme", "bdf3"}}).at("steps of Radau that start BDF"), 2);
       EXPECT_EQ(counts({{"scheme", "bdf2"}}).at("steps that fell back to Radau"), 0);

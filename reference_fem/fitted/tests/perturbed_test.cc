@@ -17,14 +17,14 @@ namespace meltfront::reference_fem::fitted::tests
     {
       // Differences of successive levels of degree 2: of the order of the radial case.
       // The steps are the same on all levels.
-      const Texts options{{"degree", "2"}, {"steps", "50"}};
+      const OptionTexts options{{"degree", "2"}, {"steps", "50"}};
       const cases::Scene scene = perturbed_annulus(0.03);
       std::vector<double> volumes;
       for(const int n : {8, 16, 32})
       {
         const Record record = run(scene, n, options);
         EXPECT_LT(record.worst_budget_defect(), 1e-12) << n;
-        volumes.push_back(record.solid_volume.back());
+        volumes.push_back(record.solid.back());
       }
       const double first = std::abs(volumes[1] - volumes[0]);
       const double second = std::abs(volumes[2] - volumes[1]);
@@ -33,7 +33,7 @@ namespace meltfront::reference_fem::fitted::tests
 
     TEST(FemFitted, WavyFrontsInBoxesKeepTheirHeat)
     {
-      const Texts options{{"degree", "2"}, {"steps", "10"}};
+      const OptionTexts options{{"degree", "2"}, {"steps", "10"}};
       for(const int dimension : {2, 3})
       {
         const Record record

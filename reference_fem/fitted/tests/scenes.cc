@@ -43,11 +43,6 @@ namespace meltfront::reference_fem::fitted::tests
       source.energy = [](double) { return 0.; };
       scene.sources.push_back(source);
     }
-
-    Field field(const std::function<double(const Position &)> &value)
-    {
-      return {"field", [value](const Position &p, double) { return value(p); }, false};
-    }
   } // namespace
 
   ExactScene started_slab()
@@ -111,7 +106,7 @@ namespace meltfront::reference_fem::fitted::tests
              - 0.0102 * (p[0] * p[0] * p[0] - 3 * p[0] * p[1] * p[1])
                    * (std::pow(squared, -3) - 1);
     };
-    const Field temperature = field(
+    const Field temperature = field_of(
         [harmonic](const Position &p)
         {
           const double psi = harmonic(p);
@@ -119,7 +114,7 @@ namespace meltfront::reference_fem::fitted::tests
                          : 0.4 * (1 - std::exp(-1.6 * psi)) / 1.6;
         });
     scene.initial.temperature = temperature;
-    scene.initial.front = field(harmonic);
+    scene.initial.front = field_of(harmonic);
     for(const Side side : {Side::inner, Side::outer})
       set_boundary(scene, side, {BoundaryKind::fixed_temperature, temperature, false});
     return scene;
@@ -136,8 +131,8 @@ namespace meltfront::reference_fem::fitted::tests
                           + (dimension == 3 ? std::cos(4 * std::numbers::pi * p[2]) : 0.);
       return p[0] - 0.4 - 0.04 * wave * p[0] * (1 - p[0]);
     };
-    scene.initial.temperature = field(level);
-    scene.initial.front = field(level);
+    scene.initial.temperature = field_of(level);
+    scene.initial.front = field_of(level);
     set_boundary(scene, Side::x_min, fixed_wall(-0.4));
     set_boundary(scene, Side::x_max, fixed_wall(0.6));
     for(int side = 2; side < 2 * dimension; ++side)

@@ -17,7 +17,7 @@ namespace meltfront::reference_fem::fitted::tests
 
     constexpr long target_iterations = 6;
 
-    Record run(const ExactScene &scene, int n, const Texts &options = {},
+    Record run(const ExactScene &scene, int n, const OptionTexts &options = {},
                double temperature_from = 0)
     {
       return tests::run(scene.scene, n, options, scene.exact.get(), temperature_from);
@@ -114,7 +114,7 @@ namespace meltfront::reference_fem::fitted::tests
 
     TEST(FemFitted, SolvesRadialScenesInSpaceAsAlongARadius)
     {
-      const Texts space{{"dimension", "3"}, {"cells_around", "4"}, {"degree", "2"}};
+      const OptionTexts space{{"dimension", "3"}, {"cells_around", "4"}, {"degree", "2"}};
       const Record line = run(frank(3), 8, {{"degree", "2"}});
       const Record ball = run(frank(3), 8, space);
       double worst = 0;

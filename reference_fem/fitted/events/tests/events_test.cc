@@ -1,5 +1,6 @@
+#include <cases/tests/support/course.h>
+#include <cases/tests/support/scenes.h>
 #include <reference_fem/enthalpy/enthalpy.h>
-#include <reference_fem/enthalpy/tests/support.h>
 #include <reference_fem/fitted/events/timeline.h>
 #include <reference_fem/fitted/fitted.h>
 
@@ -18,80 +19,30 @@ namespace meltfront::reference_fem::fitted
   namespace
   {
     using cases::Side;
-    using reference_fem::tests::ball;
-    using reference_fem::tests::exact_wall;
-    using reference_fem::tests::fixed_wall;
-    using reference_fem::tests::flux_wall;
-    using reference_fem::tests::set_boundary;
-    using reference_fem::tests::slab;
-    using reference_fem::tests::varying_wall;
-    using reference_fem::tests::water;
+    using namespace test_support;
 
-    /** Every step of a run. */
-    class Recorder : public cases::Observer
+    Course run(const cases::Method &method, const cases::Scene &scene, const int n,
+               const std::string &steps = "0")
     {
-    public:
-      bool wants(long, double) override
-      {
-        return true;
-      }
-
-      void observe(const cases::Snapshot &snapshot) override
-      {
-        time.push_back(snapshot.time);
-        front.push_back(snapshot.front[0].empty() ? -1 : snapshot.front[0][0]);
-        double volume = 0;
-        for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
-          volume += snapshot.weights[i] * snapshot.solid_fraction[i];
-        solid.push_back(volume);
-        defect = std::max(defect, snapshot.heat.defect());
-        heat = snapshot.heat;
-      }
-
-      std::vector<double> time, front, solid;
-      double defect = 0;
-      cases::HeatBudget heat;
-      cases::Cost cost;
-    };
-
-    Recorder run(const cases::Method &method, const cases::Scene &scene, const int n,
-                 const std::string &steps = "0")
-    {
-      Recorder recorder;
-      cases::Resolution resolution;
-      resolution.n = n;
-      resolution.options = cases::Options(method.option_declarations());
-      if(steps != "0")
-        resolution.options.set("steps", steps);
-      const cases::EffectSet effects = cases::effects_called_for(scene);
-      recorder.cost = method.solve(cases::simulated_scene(scene, effects), effects,
-                                   resolution, recorder);
-      return recorder;
+      return course_of(method, scene, n,
+                       steps != "0" ? OptionTexts{{"steps", steps}} : OptionTexts{});
     }
 
-    Recorder run(const cases::Scene &scene, const int n, const std::string &steps = "0")
+    Course run(const cases::Scene &scene, const int n, const std::string &steps = "0")
     {
       return run(*make_fem_fitted(), scene, n, steps);
     }
 
-    /** k = c = rho = L = 1 with T_m = 0. */
-    cases::Material plain()
-    {
-      cases::Material material;
-      material.latent_heat = 1;
-      return material;
-    }
-
     /** Largest difference of the fronts, over the exact front at the end. */
-    double worst_error(const Recorder &record, const cases::ExactSolution &exact,
+    double worst_error(const Course &record, const cases::ExactSolution &exact,
                        const double mirror = 0)
     {
       double worst = 0;
       for(std::size_t i = 0; i < record.time.size(); ++i)
-        if(record.front[i] >= 0)
-          worst = std::max(
-              worst, std::abs((mirror > 0 ? mirror - record.front[i] : record.front[i])
-                              - exact.front(record.time[i])));
+        if(record.first_front[i] >= 0)
+          worst = std::max(worst, std::abs((mirror > 0 ? mirror - record.first_front[i]
+                                                       : record.first_front[i])
+                                           - exact.front(record.time[i])));
       return worst / exact.front(record.time.back());
     }
 
@@ -101,13 +52,13 @@ namespace meltfront::reference_fem::fitted
         for(const Side side : {Side::x_min, Side::x_max})
         {
           const double wall = freezes ? -1 : 1, far = freezes ? 0.5 : -0.5;
-          const cases::PlanarNeumann exact(plain(), wall, far);
-          cases::Scene scene = slab(plain(), 4, far, 0, 0.05);
+          const cases::PlanarNeumann exact(unit_material(), wall, far);
+          cases::Scene scene = slab(unit_material(), 4, far, 0, 0.05);
           set_boundary(scene, side, fixed_wall(wall));
-          const Recorder record = run(scene, 32);
+          const Course record = run(scene, 32);
           EXPECT_LE(worst_error(record, exact, side == Side::x_max ? 4 : 0), 2e-8)
               << freezes << to_string(side);
-          EXPECT_LE(record.defect, 1e-12);
+          EXPECT_LE(record.worst_budget_defect(), 1e-12);
           EXPECT_EQ(record.time.front(), 0.);
           EXPECT_EQ(record.solid.front(), freezes ? 0. : 4.);
           EXPECT_LE(record.cost.most_iterations, 8);
@@ -132,10 +83,11 @@ namespace meltfront::reference_fem::fitted
         set_boundary(scene, Side::outer,
                      exact_wall(std::shared_ptr<const cases::ExactSolution>(
                          std::shared_ptr<void>(), &exact)));
-        const Recorder record = run(scene, 24);
-        EXPECT_NEAR(record.front.back() / exact.front(475000), 1, 2e-9) << dimension;
+        const Course record = run(scene, 24);
+        EXPECT_NEAR(record.first_front.back() / exact.front(475000), 1, 2e-9)
+            << dimension;
         EXPECT_LE(worst_error(record, exact), 1e-7) << dimension;
-        EXPECT_LE(record.defect, 1e-12) << dimension;
+        EXPECT_LE(record.worst_budget_defect(), 1e-12) << dimension;
       }
     }
 
@@ -143,16 +95,16 @@ namespace meltfront::reference_fem::fitted
     TEST(ColdStart, AWallAtTheOtherEndMayBeHotFromTheSameMoment)
     {
       const double end = 0.05, hot = 2 * std::sqrt(end / std::numbers::pi);
-      const cases::PlanarNeumann exact(plain(), -1, 0);
+      const cases::PlanarNeumann exact(unit_material(), -1, 0);
       for(const bool mirrored : {false, true})
       {
-        cases::Scene scene = slab(plain(), 4, 0, 0, end);
+        cases::Scene scene = slab(unit_material(), 4, 0, 0, end);
         set_boundary(scene, mirrored ? Side::x_max : Side::x_min, fixed_wall(-1));
         set_boundary(scene, mirrored ? Side::x_min : Side::x_max, fixed_wall(1));
-        const Recorder record = run(scene, 32);
+        const Course record = run(scene, 32);
         EXPECT_LE(worst_error(record, exact, mirrored ? 4 : 0), 2e-8);
-        EXPECT_LE(record.defect, 1e-12);
-        cases::Scene cold = slab(plain(), 4, 0, 0, end);
+        EXPECT_LE(record.worst_budget_defect(), 1e-12);
+        cases::Scene cold = slab(unit_material(), 4, 0, 0, end);
         set_boundary(cold, Side::x_min, fixed_wall(-1));
         EXPECT_NEAR(record.heat.boundary - run(cold, 32).heat.boundary, hot, 1e-7);
       }
@@ -164,19 +116,19 @@ namespace meltfront::reference_fem::fitted
     {
       for(const int n : {8, 16, 32, 64})
       {
-        cases::Scene scene = slab(plain(), 1, 0, 0, 0.15);
+        cases::Scene scene = slab(unit_material(), 1, 0, 0, 0.15);
         cases::Boundary wall = varying_wall([](double t) { return t < 0.1 ? 0. : 1.; });
         wall.value.breakpoints = {0.1};
         set_boundary(scene, Side::x_min, wall);
-        const Recorder record = run(scene, n);
-        EXPECT_LE(record.defect, 1e-12);
+        const Course record = run(scene, n);
+        EXPECT_LE(record.worst_budget_defect(), 1e-12);
         EXPECT_NEAR(record.heat.boundary, 2 * std::sqrt(0.05 / std::numbers::pi), 1e-8);
       }
     }
 
     cases::Scene cooled_bar(const double end)
     {
-      cases::Scene scene = slab(plain(), 1, 0, 0, end);
+      cases::Scene scene = slab(unit_material(), 1, 0, 0, end);
       scene.initial.temperature.constant = false;
       scene.initial.temperature.value = [](const cases::Position &p, double)
       { return 0.6 - (1 - p[0]) * (1 - p[0]) / 2; };
@@ -186,23 +138,23 @@ namespace meltfront::reference_fem::fitted
 
     TEST(LateStart, BehindAFluxFollowsTheLawOfEarlyTimesAndConverges)
     {
-      const Recorder coarse = run(cooled_bar(0.9), 32), fine = run(cooled_bar(0.9), 64);
+      const Course coarse = run(cooled_bar(0.9), 32), fine = run(cooled_bar(0.9), 64);
       // The wall is at 0.1 - t until it freezes; then s = 4/3 tau^(3/2)/sqrt(pi).
       int early = 0;
       for(std::size_t i = 0; i < fine.time.size(); ++i)
       {
         const double since = fine.time[i] - 0.1;
-        EXPECT_EQ(fine.front[i] >= 0, since > 1e-12);
+        EXPECT_EQ(fine.first_front[i] >= 0, since > 1e-12);
         if(since <= 1e-12 || since > 1e-4)
           continue;
         ++early;
-        EXPECT_NEAR(fine.front[i]
+        EXPECT_NEAR(fine.first_front[i]
                         / (4. / 3 * std::pow(since, 1.5) / std::sqrt(std::numbers::pi)),
                     1, 2e-2);
       }
       EXPECT_GE(early, 3);
-      EXPECT_NEAR(coarse.front.back(), fine.front.back(), 5e-8);
-      EXPECT_LE(fine.defect, 1e-12);
+      EXPECT_NEAR(coarse.first_front.back(), fine.first_front.back(), 5e-8);
+      EXPECT_LE(fine.worst_budget_defect(), 1e-12);
     }
 
     TEST(LateStart, IsFoundToRoundOff)
@@ -229,30 +181,30 @@ namespace meltfront::reference_fem::fitted
       EXPECT_NEAR(run(cooled_bar(0.9), 16).solid.back(),
                   run(*enthalpy, cooled_bar(0.9), 256).solid.back(), 1e-3);
       // A wall that cools through the melting temperature at t = 0.3.
-      cases::Scene ramp = slab(plain(), 1, 0.3, 0, 1);
+      cases::Scene ramp = slab(unit_material(), 1, 0.3, 0, 1);
       set_boundary(ramp, Side::x_max, varying_wall([](double t) { return 0.3 - t; }));
-      const Recorder record = run(ramp, 16);
+      const Course record = run(ramp, 16);
       EXPECT_NEAR(record.solid.back(), run(*enthalpy, ramp, 256).solid.back(), 1e-3);
       EXPECT_NEAR(record.solid.back(), run(ramp, 32).solid.back(), 1e-5);
-      EXPECT_LE(record.defect, 1e-12);
+      EXPECT_LE(record.worst_budget_defect(), 1e-12);
     }
 
     TEST(Vanishing, LiquidFreezesToTheLastDropAndTheRestCools)
     {
-      cases::Scene scene = slab(plain(), 1, 0.3, 0, 7);
+      cases::Scene scene = slab(unit_material(), 1, 0.3, 0, 7);
       set_boundary(scene, Side::x_min, fixed_wall(-1));
       double arrival[2];
       int which = 0;
       for(const int n : {16, 32})
       {
-        const Recorder record = run(scene, n, "200");
+        const Course record = run(scene, n, "200");
         for(std::size_t i = 0; i < record.time.size(); ++i)
-          if(record.front[i] >= 0)
+          if(record.first_front[i] >= 0)
             arrival[which] = record.time[i];
         ++which;
-        EXPECT_EQ(record.front.back(), -1);
+        EXPECT_EQ(record.first_front.back(), -1);
         EXPECT_NEAR(record.solid.back(), 1, 1e-12);
-        EXPECT_LE(record.defect, 1e-12);
+        EXPECT_LE(record.worst_budget_defect(), 1e-12);
         // All is at -1 in the end: 0.3 + 1 of sensible heat and 1 of latent heat left.
         EXPECT_NEAR(record.heat.boundary, -2.3, 1e-6);
       }
@@ -261,21 +213,21 @@ namespace meltfront::reference_fem::fitted
 
     TEST(Vanishing, ALiquidCoreFreezesToItsCentre)
     {
-      cases::Scene scene = ball(plain(), 3, 1, 0.2, 0.6);
+      cases::Scene scene = ball(unit_material(), 3, 1, 0.2, 0.6);
       set_boundary(scene, Side::outer, fixed_wall(-1));
-      const Recorder record = run(scene, 32);
-      EXPECT_EQ(record.front.back(), -1);
+      const Course record = run(scene, 32);
+      EXPECT_EQ(record.first_front.back(), -1);
       EXPECT_NEAR(record.solid.back(), 4 * std::numbers::pi / 3, 1e-8);
-      EXPECT_LE(record.defect, 1e-12);
+      EXPECT_LE(record.worst_budget_defect(), 1e-12);
     }
 
     TEST(Events, AreRefusedWhereOneFrontIsNotEnough)
     {
-      cases::Scene two_walls = slab(plain(), 1, 0.3, 0, 1);
+      cases::Scene two_walls = slab(unit_material(), 1, 0.3, 0, 1);
       set_boundary(two_walls, Side::x_min, fixed_wall(-1));
       set_boundary(two_walls, Side::x_max, fixed_wall(-1));
       EXPECT_THROW(run(two_walls, 8), cases::Refusal);
-      cases::Scene at_melting = slab(plain(), 1, 0, 0, 1);
+      cases::Scene at_melting = slab(unit_material(), 1, 0, 0, 1);
       set_boundary(at_melting, Side::x_min, flux_wall(-1));
       EXPECT_THROW(run(at_melting, 8), cases::Refusal);
     }

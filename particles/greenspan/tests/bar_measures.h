@@ -1,5 +1,5 @@
-#ifndef meltfront_particles_greenspan_bar_measures_h
-#define meltfront_particles_greenspan_bar_measures_h
+#ifndef meltfront_particles_greenspan_tests_bar_measures_h
+#define meltfront_particles_greenspan_tests_bar_measures_h
 
 #include <particles/greenspan/bar.h>
 
@@ -54,6 +54,11 @@ namespace meltfront::particles::greenspan
    */
   std::vector<BarLook> mean_looks(const std::vector<std::vector<BarLook>> &runs,
                                   std::size_t block = 1);
+
+  /** Runs with seeds first_seed, first_seed + 1, ... */
+  std::vector<std::vector<BarLook>> run_bars(const BarSettings &settings,
+                                             const BarSchedule &schedule, int members,
+                                             std::uint64_t first_seed, int threads);
 } // namespace meltfront::particles::greenspan
 
 #endif

@@ -1,10 +1,11 @@
 #include <cases/error.h>
-#include <particles/greenspan/bar_measures.h>
+#include <particles/greenspan/tests/bar_measures.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 namespace meltfront::particles::greenspan
 {
@@ -135,5 +136,29 @@ namespace meltfront::particles::greenspan
       result.push_back(mean);
     }
     return result;
+  }
+
+  std::vector<std::vector<BarLook>> run_bars(const BarSettings &settings,
+                                             const BarSchedule &schedule, int members,
+                                             std::uint64_t first_seed, int threads)
+  {
+    std::vector<std::vector<BarLook>> runs(std::max(0, members));
+    std::vector<std::exception_ptr> failures(runs.size());
+#pragma omp parallel for schedule(dynamic) num_threads(threads) if(threads > 1)
+    for(int member = 0; member < members; ++member)
+      try
+      {
+        BarSettings own = settings;
+        own.seed = first_seed + member;
+        runs[member] = run_bar(own, schedule);
+      }
+      catch(...)
+      {
+        failures[member] = std::current_exception();
+      }
+    for(const std::exception_ptr &failure : failures)
+      if(failure)
+        std::rethrow_exception(failure);
+    return runs;
   }
 } // namespace meltfront::particles::greenspan

@@ -1,0 +1,158 @@
+#ifndef meltfront_reference_fem_enthalpy_step_newton_h
+#define meltfront_reference_fem_enthalpy_step_newton_h
+
+#include <cases/stopwatch.h>
+#include <reference_fem/enthalpy/truncated_newton.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace meltfront::reference_fem
+{
+  /**
+   * What truncated Newton methods have in common whatever the graph: the outer iteration,
+   * the sweeps, and how far a state is off the graph.
+   *
+   * Solver derives from it and gives: `jumps` (whether its graph does, so that sweeps are
+   * needed); `excess(u)`, T - T_m (K); `excess_at_enthalpy(i, H)`, the same by a node's
+   * enthalpy per volume (J/m^3); `latent_temperature()`, L/c (K); `same_side(i, u, t)`,
+   * whether an unknown is in the region of its graph that a temperature excess tells;
+   * `relax(i, c, rhs, u)`, which solves one node's inclusion and tells whether it moved
+   * to another region; `linearise(u, heat)`, which fills heat_capacity, active and
+   * residual and returns the heat that changes a typical active node by one kelvin (J);
+   * `descend(c, u, heat)`, which goes along the direction.
+   */
+  template <class Solver>
+  class StepNewton
+  {
+  protected:
+    StepNewton(const StepProblem &problem, LinearSolver &linear_solver)
+      : problem(problem)
+      , linear_solver(linear_solver)
+      , active(problem.free)
+      , heat_capacity(problem.free.size())
+      , residual(problem.free.size())
+      , direction(problem.free.size())
+    {
+    }
+
+    /** As NonlinearSolver::solve. */
+    StepOutcome iterate(double c, const std::vector<double> &rhs, int iteration_limit,
+                        CompensatedVector &u, std::vector<double> &heat)
+    {
+      constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
+      constexpr int most_sweeps = 4;
+      StepOutcome outcome;
+      for(;; ++outcome.iterations)
+      {
+        recover_heat(c, rhs, u, heat);
+        const Consistency state = compare(u, heat);
+        outcome.graph_inconsistency = state.distance;
+        outcome.converged = state.distance <= NonlinearSolver::target_inconsistency;
+        if(outcome.converged)
+          scale = state.scale;
+        if(outcome.converged || outcome.iterations == iteration_limit
+           || !std::isfinite(state.distance))
+          break;
+        if constexpr(Solver::jumps)
+          if(!state.settled)
+          {
+            const cases::ScopedTimer timer(cost.seconds);
+            for(int sweeps = 0; sweeps < most_sweeps && sweep(c, rhs, u);)
+              ++sweeps;
+            recover_heat(c, rhs, u, heat);
+          }
+        const double heat_per_kelvin = solver().linearise(u, heat);
+        linear_solver.solve({heat_capacity, c, active, residual,
+                             safety * NonlinearSolver::target_inconsistency * state.scale
+                                 * heat_per_kelvin},
+                            state.settled ? tight : loose, direction);
+        solver().descend(c, u, heat);
+      }
+      if(!outcome.converged)
+        outcome.converged
+            = outcome.graph_inconsistency <= NonlinearSolver::accepted_inconsistency;
+      return outcome;
+    }
+
+    StepProblem problem;
+    LinearSolver &linear_solver;
+    std::vector<char> active;
+    std::vector<double> heat_capacity, residual, direction;
+    double scale = 0; ///< largest |T - T_m| of the steps solved so far
+    long entries_touched = 0;
+    NonlinearSolver::GraphCost cost;
+
+  private:
+    /** The share of rho L/(rho c) below which temperatures drown in its round-off. */
+    static constexpr double round_off_share = 1e-3;
+
+    struct Consistency
+    {
+      double distance; ///< max |T(u) - T(H)| over the scale
+      double scale;    ///< see StepOutcome::graph_inconsistency
+      bool settled;    ///< every node is in the region of its heat
+    };
+
+    Solver &solver()
+    {
+      return static_cast<Solver &>(*this);
+    }
+
+    const Solver &solver() const
+    {
+      return static_cast<const Solver &>(*this);
+    }
+
+    void recover_heat(double c, const std::vector<double> &rhs,
+                      const CompensatedVector &u, std::vector<double> &heat)
+    {
+      for(std::size_t i = 0; i < u.size(); ++i)
+        if(problem.free[i])
+          heat[i]
+              = static_cast<double>(rhs[i] + c * problem.conduction.exact_inflow(i, u));
+      entries_touched += problem.conduction.entries();
+    }
+
+    Consistency compare(const CompensatedVector &u, const std::vector<double> &heat) const
+    {
+      double distance = 0, largest = 0;
+      bool settled = true;
+      for(std::size_t i = 0; i < u.size(); ++i)
+      {
+        const double excess = solver().excess(u[i]);
+        largest = std::max(largest, std::abs(excess));
+        if(!problem.free[i])
+          continue;
+        const double recovered
+            = solver().excess_at_enthalpy(i, heat[i] / problem.volume[i]);
+        const double off = std::abs(excess - recovered);
+        if(off > distance || std::isnan(off))
+          distance = off;
+        settled = settled && solver().same_side(i, u[i], recovered);
+      }
+      largest
+          = std::max({largest, scale, round_off_share * solver().latent_temperature()});
+      return {largest > 0 ? distance / largest : distance, largest, settled};
+    }
+
+    /** A symmetric sweep of nonlinear Gauss-Seidel; true if a node moved to another
+     * region. */
+    bool sweep(double c, const std::vector<double> &rhs, CompensatedVector &u)
+    {
+      bool moved = false;
+      for(std::size_t i = 0; i < u.size(); ++i)
+        if(problem.free[i])
+          moved = solver().relax(i, c, rhs, u) || moved;
+      for(std::size_t i = u.size(); i-- > 0;)
+        if(problem.free[i])
+          moved = solver().relax(i, c, rhs, u) || moved;
+      entries_touched += 2 * problem.conduction.entries();
+      ++cost.sweeps;
+      return moved;
+    }
+  };
+} // namespace meltfront::reference_fem
+
+#endif
