@@ -224,7 +224,7 @@ namespace meltfront::particles::testing
       const AlloySubstance substance(scene, "test");
       cases::Resolution resolution;
       resolution.n = 3001;
-      resolution.options = cases::Options(mixture_options());
+      resolution.options = cases::Options(cases::options_of(MixtureParameters()));
       const MixtureParameters parameters = resolve_mixture_parameters(scene, resolution);
       const Discretisation dis(scene, parameters.sph);
       const ConductionRows rows(dis, true);

@@ -81,7 +81,7 @@ namespace meltfront::particles::testing
         const AlloySubstance substance(scene, "test");
         cases::Resolution resolution;
         resolution.n = 40;
-        resolution.options = cases::Options(mixture_options());
+        resolution.options = cases::Options(cases::options_of(MixtureParameters()));
         resolution.options.set("conductivity", kind.conductivity);
         const MixtureParameters parameters
             = resolve_mixture_parameters(scene, resolution);

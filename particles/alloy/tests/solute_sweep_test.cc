@@ -65,7 +65,7 @@ namespace meltfront::particles::testing
       {
         cases::Resolution resolution;
         resolution.n = n;
-        resolution.options = cases::Options(mixture_options());
+        resolution.options = cases::Options(cases::options_of(MixtureParameters()));
         return resolution;
       }
 

@@ -162,7 +162,7 @@ namespace meltfront::reference_fem::fitted
       const cases::Scene scene = cooled_bar(0.2);
       cases::Resolution resolution;
       resolution.n = 16;
-      resolution.options = cases::Options(fitted_options());
+      resolution.options = cases::Options(cases::options_of(RunOptions()));
       const cases::EffectSet effects = cases::effects_called_for(scene);
       const RunOptions options(scene, resolution);
       const EventScene setting{scene, effects, options, rays_of(scene, options)};
