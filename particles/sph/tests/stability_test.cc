@@ -42,7 +42,9 @@ namespace meltfront::particles::testing
       static SphParameters make_parameters(KernelShape kernel, double smoothing,
                                            double jitter)
       {
-        SphParameters p{};
+        SphParameters p;
+        p.moment_correction = false;
+        p.front = FrontRule::sub_particle;
         p.dimension = 2;
         p.kernel = kernel;
         p.smoothing = smoothing;

@@ -164,7 +164,7 @@ namespace meltfront::reference_fem::fitted
       resolution.n = 16;
       resolution.options = cases::Options(cases::options_of(RunOptions()));
       const cases::EffectSet effects = cases::effects_called_for(scene);
-      const RunOptions options(scene, resolution);
+      const RunOptions options = options_for(scene, resolution);
       const EventScene setting{scene, effects, options, rays_of(scene, options)};
       Timeline timeline(setting, {},
                         {[](const Stretch &) {},
