@@ -1,4 +1,3 @@
-#include <cases/case_file/criterion_parser.h>
 #include <cases/error.h>
 #include <cases/numbers.h>
 #include <verification/judge/criteria.h>
@@ -6,7 +5,6 @@
 #include <verification/record/label.h>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -119,41 +117,5 @@ namespace meltfront::verification
         one.evidence.push_back(judge(result, evidence));
     }
     return judged;
-  }
-
-  void to_json(nlohmann::json &json, const Finding &finding)
-  {
-    json = {{"claim", finding.claim}, {"evidence", nlohmann::json::array()}};
-    for(const Evidence &evidence : finding.evidence)
-      json["evidence"].push_back({{"cases", evidence.cases},
-                                  {"criterion", {{"text", evidence.criterion.text}}}});
-  }
-
-  void from_json(const nlohmann::json &json, Finding &finding)
-  {
-    finding = {};
-    finding.claim = json.at("claim");
-    for(const auto &evidence : json.at("evidence"))
-      finding.evidence.push_back(
-          {evidence.at("cases"),
-           cases::parse_criterion(evidence.at("criterion").at("text"))});
-  }
-
-  void to_json(nlohmann::json &json, const Picture &picture)
-  {
-    json = {{"caption", picture.caption},
-            {"cases", picture.cases},
-            {"runs", picture.runs},
-            {"quantity", picture.quantity},
-            {"against", picture.against}};
-  }
-
-  void from_json(const nlohmann::json &json, Picture &picture)
-  {
-    picture.caption = json.at("caption");
-    picture.cases = json.at("cases");
-    json.at("runs").get_to(picture.runs);
-    picture.quantity = json.at("quantity");
-    picture.against = json.at("against");
   }
 } // namespace meltfront::verification
