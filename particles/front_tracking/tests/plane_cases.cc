@@ -126,10 +126,10 @@ namespace meltfront::particles::front_tracking
                         int threads)
   {
     const auto method = make_rkpm_tracked();
-    cases::Resolution resolution = resolution_of(*method, n, options, threads);
-    resolution.options.set("dimension", "2");
+    OptionTexts all{{"dimension", "2"}};
+    all.insert(all.end(), options.begin(), options.end());
     PlaneRecord record;
-    record.cost = solve(*method, scene, resolution, record);
+    record.cost = solve(*method, scene, resolution_of(*method, n, all, threads), record);
     return record;
   }
 
