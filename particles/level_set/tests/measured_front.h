@@ -4,7 +4,7 @@
 #include <particles/level_set/front_contour.h>
 #include <particles/level_set/front_geometry.h>
 #include <particles/level_set/tests/shapes.h>
-#include <verification/measure/interface_error.h>
+#include <verification/measure/formulas/interface_error.h>
 
 namespace meltfront::particles::level_set
 {
