@@ -2,6 +2,7 @@
 #include <cases/exact/front_start.h>
 #include <cases/exact/line_sink.h>
 #include <cases/initial_level.h>
+#include <cases/numbers.h>
 #include <cases/sampling.h>
 #include <cases/undisturbed.h>
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 namespace meltfront::cases
@@ -21,8 +21,6 @@ namespace meltfront::cases
 
     /** Front constants of sinks. */
     constexpr double least_constant = 1e-4, greatest_constant = 5;
-
-    constexpr double infinity = std::numeric_limits<double>::infinity();
 
     double apart(const Position &a, const Position &b)
     {

@@ -12,9 +12,6 @@
 
 namespace meltfront::reference_fem
 {
-  /** The share of rho L/(rho c) below which temperatures drown in its round-off. */
-  inline constexpr double round_off_share = 1e-3;
-
   /** How the solution of one step ended. */
   struct StepOutcome
   {
