@@ -107,8 +107,8 @@ namespace meltfront::particles
           reached(steps, time);
         }
         if(parameters.sph.step_error > 0)
-          note(scene.end_time, fmt::format("{} steps were accepted and {} rejected", steps,
-                                           implicit_scheme->repeated()));
+          note(scene.end_time, fmt::format("{} steps were accepted and {} rejected",
+                                           steps, implicit_scheme->repeated()));
       }
 
       /** Time after a step; the end exactly. */

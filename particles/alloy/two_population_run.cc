@@ -119,25 +119,25 @@ namespace meltfront::particles
       {
         cases::RunDescription description
             = describe_particles(dis, parameters.sph, plan.step, unknowns());
-        const std::vector<cases::Parameter> own
-            = {{"sites", fmt::format("{}", n), "1"},
-               {"interactions per site",
-                fmt::format("{:.4g}", double(flows.interactions()) / n), "1"},
-               {"second moment divided out",
-                fmt::format("{:.10g}", flows.second_moment()), "1"},
-               {"exchange between ice and liquid",
-                parameters.exchange == PhaseExchange::corrected ? "corrected"
-                                                                : "as published",
-                ""},
-               {"new ice goes to",
-                parameters.new_ice == NewIce::site ? "its site" : "the kernel", ""},
-               {"latent heat",
-                parameters.constant_latent_heat ? "constant"
-                                                : "as the heat capacities demand",
-                ""},
-               {"time scheme", describe_scheme(parameters.sph.time_scheme, plan.stages), ""},
-               {"largest explicit step that keeps the maximum principle",
-                fmt::format("{:.6g}", plan.monotone), "s"}};
+        const std::vector<cases::Parameter> own = {
+            {"sites", fmt::format("{}", n), "1"},
+            {"interactions per site",
+             fmt::format("{:.4g}", double(flows.interactions()) / n), "1"},
+            {"second moment divided out", fmt::format("{:.10g}", flows.second_moment()),
+             "1"},
+            {"exchange between ice and liquid",
+             parameters.exchange == PhaseExchange::corrected ? "corrected"
+                                                             : "as published",
+             ""},
+            {"new ice goes to",
+             parameters.new_ice == NewIce::site ? "its site" : "the kernel", ""},
+            {"latent heat",
+             parameters.constant_latent_heat ? "constant"
+                                             : "as the heat capacities demand",
+             ""},
+            {"time scheme", describe_scheme(parameters.sph.time_scheme, plan.stages), ""},
+            {"largest explicit step that keeps the maximum principle",
+             fmt::format("{:.6g}", plan.monotone), "s"}};
         description.parameters.insert(description.parameters.end(), own.begin(),
                                       own.end());
         return description;
@@ -291,9 +291,10 @@ namespace meltfront::particles
     };
   } // namespace
 
-  std::unique_ptr<cases::Run> make_two_population_run(
-      const TwoPopulationPolicy &policy, const cases::Scene &scene,
-      const cases::EffectSet &effects, const cases::Resolution &resolution)
+  std::unique_ptr<cases::Run> make_two_population_run(const TwoPopulationPolicy &policy,
+                                                      const cases::Scene &scene,
+                                                      const cases::EffectSet &effects,
+                                                      const cases::Resolution &resolution)
   {
     return std::make_unique<TwoPopulationRun>(policy, scene, effects, resolution);
   }

@@ -6,9 +6,10 @@
 
 namespace meltfront::particles
 {
-  std::unique_ptr<cases::Run> make_two_population_run(
-      const TwoPopulationPolicy &policy, const cases::Scene &scene,
-      const cases::EffectSet &effects, const cases::Resolution &resolution);
+  std::unique_ptr<cases::Run>
+  make_two_population_run(const TwoPopulationPolicy &policy, const cases::Scene &scene,
+                          const cases::EffectSet &effects,
+                          const cases::Resolution &resolution);
 } // namespace meltfront::particles
 
 #endif

@@ -68,8 +68,8 @@ namespace meltfront::particles
           reached(steps, time);
         }
         if(parameters.step_error > 0)
-          note(scene.end_time, fmt::format("{} steps were accepted and {} rejected", steps,
-                                           stepper->counts().repeated));
+          note(scene.end_time, fmt::format("{} steps were accepted and {} rejected",
+                                           steps, stepper->counts().repeated));
       }
 
       cases::HeatBudget heat_content() const
