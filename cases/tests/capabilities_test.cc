@@ -1,10 +1,13 @@
 #include <cases/error.h>
 #include <cases/method.h>
+#include <cases/run.h>
 #include <cases/scene.h>
 
 #include <cases/tests/support/course.h>
 
 #include <gtest/gtest.h>
+
+#include <memory>
 
 using namespace meltfront::cases;
 
@@ -66,6 +69,37 @@ namespace
             .most_fronts = 1};
   }
 
+  /** Counts the steps that it is asked for. */
+  class ModestRun : public Run
+  {
+  public:
+    explicit ModestRun(long steps)
+      : steps(steps)
+    {
+    }
+    RunDescription describe() const override
+    {
+      return {};
+    }
+    Cost cost() const override
+    {
+      Cost cost;
+      cost.steps = steps;
+      return cost;
+    }
+
+  private:
+    void take_steps() override
+    {
+    }
+    Snapshot snapshot(long, double) override
+    {
+      return {};
+    }
+
+    long steps;
+  };
+
   class Modest : public Method
   {
   public:
@@ -96,12 +130,10 @@ namespace
     }
 
   protected:
-    Cost run(const Scene &, const EffectSet &, const Resolution &resolution,
-             Observer &) const override
+    std::unique_ptr<Run> set_up(const Scene &, const EffectSet &,
+                                const Resolution &resolution) const override
     {
-      Cost cost;
-      cost.steps = resolution.options.get_integer("steps");
-      return cost;
+      return std::make_unique<ModestRun>(resolution.options.get_integer("steps"));
     }
 
   private:

@@ -3,7 +3,7 @@
 
 #include <cases/case.h>
 #include <cases/error.h>
-#include <cases/method.h>
+#include <cases/run.h>
 #include <verification/matrix/matrix.h>
 #include <verification/measure/tests/fixtures.h>
 #include <verification/record/temporary_directory.h>
@@ -108,6 +108,74 @@ end
             .most_threads = cases::any_number_of_threads};
   }
 
+  /** What is done to a state before it is handed out. */
+  using Cheat = std::function<void(State &)>;
+
+  /** The solution of slab_case() in 200 steps, with a known error at every time but the
+   * start. */
+  class FakeRun : public cases::Run
+  {
+  public:
+    FakeRun(const cases::EffectSet &effects, int n, double error, Cheat cheat)
+      : effects(effects)
+      , n(n)
+      , error(error)
+      , cheat(std::move(cheat))
+    {
+    }
+
+    cases::RunDescription describe() const override
+    {
+      cases::RunDescription description;
+      description.spacing = 1. / n;
+      description.unknowns = n;
+      return description;
+    }
+
+    cases::Cost cost() const override
+    {
+      cases::Cost cost;
+      cost.steps = steps;
+      cost.unknowns = n;
+      cost.work = static_cast<long>(n) * steps;
+      for(const cases::EffectDecision &decision : effects.decisions())
+        if(decision.on)
+          cost.effects.push_back({decision.effect, steps, 8L * n, 1e-4});
+      return cost;
+    }
+
+  private:
+    void take_steps() override
+    {
+      for(int step = 0; step <= steps; ++step)
+        reached(step, static_cast<double>(step) / steps);
+    }
+
+    cases::Snapshot snapshot(long step, double time) override
+    {
+      state = slab_state(n, 0.5 * std::sqrt(time) + (step > 0 ? error : 0));
+      state.book(initial_heat);
+      if(step == 0)
+      {
+        initial_heat = state.snapshot.heat.boundary;
+        state.book(initial_heat);
+      }
+      state.snapshot.step = step;
+      if(cheat && step > 0)
+        cheat(state);
+      return state.view(1, time);
+    }
+
+    static constexpr int steps = 200;
+
+    const cases::EffectSet &effects;
+    int n;
+    double error;
+    Cheat cheat;
+    double initial_heat = 0;
+    State state;
+  };
+
   /**
    * A method that knows the solution of slab_case() and adds a known error: its front is
    * off by factor * h^order at every time but the start.
@@ -117,9 +185,6 @@ end
   public:
     /** What a run does at its start, before it solves anything. */
     using Act = std::function<void(const cases::Scene &, const cases::Resolution &)>;
-
-    /** What is done to a state before it is handed out. */
-    using Cheat = std::function<void(State &)>;
 
     explicit FakeMethod(const std::string &name, Act act = {}, double factor = 0.1,
                         double order = 1, Cheat cheat = {})
@@ -152,46 +217,14 @@ end
               {"scheme", "", std::string("euler"), "A word.", 0, 0, {"euler", "rkl2"}}};
     }
 
-    cases::Cost run(const cases::Scene &scene, const cases::EffectSet &effects,
-                    const cases::Resolution &resolution,
-                    cases::Observer &observer) const override
+    std::unique_ptr<cases::Run> set_up(const cases::Scene &scene,
+                                       const cases::EffectSet &effects,
+                                       const cases::Resolution &resolution) const override
     {
       if(act)
         act(scene, resolution);
-      const int n = resolution.n;
-      cases::RunDescription description;
-      description.spacing = 1. / n;
-      description.unknowns = n;
-      observer.begin(description);
-      constexpr int steps = 200;
-      double initial_heat = 0;
-      for(int step = 0; step <= steps; ++step)
-      {
-        const double time = static_cast<double>(step) / steps;
-        if(step > 0 && step < steps && !observer.wants(step, time))
-          continue;
-        const double error = step > 0 ? factor * std::pow(1. / n, order) : 0;
-        State state = slab_state(n, 0.5 * std::sqrt(time) + error);
-        state.book(initial_heat);
-        if(step == 0)
-        {
-          initial_heat = state.snapshot.heat.boundary;
-          state.book(initial_heat);
-        }
-        state.snapshot.step = step;
-        if(cheat && step > 0)
-          cheat(state);
-        observer.observe(state.view(1, time));
-      }
-      cases::Cost cost;
-      cost.stepping_cpu = cost.stepping_wall = 1e-3 * n;
-      cost.steps = steps;
-      cost.unknowns = n;
-      cost.work = static_cast<long>(n) * steps;
-      for(const cases::EffectDecision &decision : effects.decisions())
-        if(decision.on)
-          cost.effects.push_back({decision.effect, steps, 8L * n, 1e-4});
-      return cost;
+      return std::make_unique<FakeRun>(
+          effects, resolution.n, factor * std::pow(1. / resolution.n, order), cheat);
     }
 
   private:
