@@ -24,10 +24,13 @@ namespace meltfront::cases
     failure ///< whether the run at one n ends with a numerical error, as it is known to
   };
 
-  /** A bound that a result must keep: an acceptance criterion of a case. */
+  /** Stands for the label in a criterion that every label has to keep by itself. */
+  inline constexpr const char *any_method = "any method";
+
+  /** A bound that a result must keep: an acceptance criterion of a case or a matrix. */
   struct Criterion
   {
-    std::string text;     ///< as written in the case file
+    std::string text;     ///< as written in the file
     std::string method;   ///< or a label, `fem-fitted[degree=2]`; `[degree=*]`: any
     std::string quantity; ///< a column of the convergence table, e.g. `front_rms`
     Statistic statistic = Statistic::value;

@@ -19,7 +19,8 @@ namespace meltfront::cases
    *
    * those of order and worst with `over n=20..50` after the quantity if only some rows
    * count, and each but the last with an optional tail `; known shortfall: SENTENCE`.
-   * METHOD may be a label with options, `fem-fitted[degree=2,time=bdf3]`.
+   * METHOD may be a label with options, `fem-fitted[degree=2,time=bdf3]`, or `any
+   * method`.
    *
    * @throws InputError with the reason alone (the caller knows file, line and key).
    */

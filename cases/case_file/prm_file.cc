@@ -104,6 +104,20 @@ namespace meltfront::cases
     declared.push_back({subsection, entry, count});
   }
 
+  void PrmFile::declare_in_each(const std::string &subsection,
+                                const std::string &placeholder, const PrmEntry &entry,
+                                int count)
+  {
+    in_each.push_back({subsection, placeholder, entry, count});
+  }
+
+  void PrmFile::declare_opened()
+  {
+    for(const InEach &each : in_each)
+      for(const std::string &name : subsections_of(each.subsection))
+        declare_numbered(each.subsection + "/" + name, each.entry, each.count);
+  }
+
   void PrmFile::read(const std::string &path)
   {
     read_text(read_all(path), path);
@@ -114,6 +128,7 @@ namespace meltfront::cases
     file = quotable(name);
     content = text;
     scan = scan_prm(text, file);
+    declare_opened();
     check_subsections();
     for(const PrmAssignment &assignment : scan.assignments)
     {
@@ -134,6 +149,8 @@ namespace meltfront::cases
     for(const Declared &key : keys)
       for(std::string path = key.subsection; !path.empty(); path = parent(path))
         children[parent(path)].push_back(path);
+    for(const InEach &each : in_each)
+      children[parent(each.subsection)].push_back(each.subsection);
     // A parent is ordered before its children, so that the outermost mistake is named.
     for(const auto &[path, line] : scan.subsections)
     {
@@ -229,6 +246,15 @@ namespace meltfront::cases
     return scan.subsections.contains(subsection);
   }
 
+  std::vector<std::string> PrmFile::subsections_of(const std::string &subsection) const
+  {
+    std::vector<std::string> names;
+    for(const auto &[path, line] : scan.subsections)
+      if(path.rfind('/') != std::string::npos && parent(path) == subsection)
+        names.push_back(path.substr(subsection.size() + 1));
+    return names;
+  }
+
   std::string PrmFile::value(const std::string &subsection, const std::string &key) const
   {
     const PrmEntry &entry = declaration(subsection, key);
@@ -322,7 +348,10 @@ namespace meltfront::cases
   {
     std::string text;
     std::string current;
-    for(const Declared &key : declared)
+    std::vector<Declared> all = declared;
+    for(const InEach &each : in_each)
+      all.push_back({each.subsection + "/" + each.placeholder, each.entry, each.count});
+    for(const Declared &key : all)
     {
       if(key.subsection != current)
         text += fmt::format("\nsubsection {}\n", key.subsection);

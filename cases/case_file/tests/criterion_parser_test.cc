@@ -27,6 +27,15 @@ TEST(Criterion, BoundsAValueAtOneN)
   EXPECT_TRUE(c.known_shortfall.empty());
 }
 
+TEST(Criterion, MayBeOnAnyMethod)
+{
+  const Criterion c = parse_criterion("any method: worst budget_defect <= 1e-12");
+  EXPECT_EQ(c.method, any_method);
+  EXPECT_EQ(c.statistic, Statistic::worst);
+  EXPECT_THROW(parse_criterion("any other: worst budget_defect <= 1e-12"), InputError);
+  EXPECT_THROW(parse_label("any method"), InputError);
+}
+
 TEST(Criterion, TakesRangesAndShares)
 {
   const Criterion range = parse_criterion("sph-2005: fraction at n = 40 in 0.656..0.666");

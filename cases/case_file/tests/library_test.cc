@@ -100,10 +100,9 @@ TEST(Library, EveryCaseLoadsAndDescribesItself)
     EXPECT_TRUE(c.text.starts_with("# ")) << name;
     EXPECT_EQ(name.starts_with("hard-"), has_tag(c, "hard")) << name;
     EXPECT_TRUE(c.exact || !c.limits.empty()) << name;
-    if(!has_tag(c, "hard"))
-    {
-      EXPECT_FALSE(c.criteria.empty()) << name;
-    }
+    for(const Criterion &criterion : c.criteria)
+      EXPECT_EQ(criterion.method, any_method)
+          << name << ": what one method has to keep belongs to the matrix that runs it";
   }
 }
 
@@ -312,24 +311,5 @@ TEST(Library, TheFrontTurnsBackWhereItIsSaidTo)
       before = front;
     }
     EXPECT_EQ(monotone, c.measurement.monotone_front) << name;
-  }
-}
-
-TEST(Library, TheTableOfThePaperIsRestatedInFull)
-{
-  const Case &c = library_case("line-sink");
-  ASSERT_EQ(c.printed.size(), 8u);
-  for(const PrintedValue &printed : c.printed)
-  {
-    const auto bound = std::find_if(c.criteria.begin(), c.criteria.end(),
-                                    [&printed](const Criterion &criterion)
-                                    {
-                                      return criterion.method == printed.method
-                                             && criterion.quantity == printed.quantity
-                                             && criterion.n == printed.n;
-                                    });
-    ASSERT_NE(bound, c.criteria.end()) << printed.quantity << printed.n;
-    EXPECT_NEAR(bound->lower, 0.85 * printed.value, 1e-15);
-    EXPECT_NEAR(bound->upper, 1.15 * printed.value, 1e-15);
   }
 }
