@@ -292,7 +292,7 @@ namespace meltfront::cases
 
   PrmFile case_keys()
   {
-    PrmFile prm;
+    PrmFile prm(MELTFRONT_CASE_LIBRARY);
     declare_head(prm);
     declare_domain(prm);
     declare_material(prm);

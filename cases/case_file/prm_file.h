@@ -55,7 +55,9 @@ namespace meltfront::cases
   class PrmFile
   {
   public:
-    PrmFile();
+    /** @param library is the folder in which included files are searched that do not
+     * stand beside the file that includes them. */
+    explicit PrmFile(std::string library = {});
     ~PrmFile();
     PrmFile(PrmFile &&) noexcept;
     PrmFile &operator=(PrmFile &&) noexcept;
@@ -81,7 +83,8 @@ namespace meltfront::cases
     /** Read a text; `file` is its name in messages. @throws InputError */
     void read_text(const std::string &text, const std::string &file);
 
-    /** The file's text. */
+    /** The file's text by itself: what it includes stands in it, and what is set anew
+     * later is a comment. */
     const std::string &text() const;
 
     /** Whether the file sets the key. */
@@ -142,6 +145,7 @@ namespace meltfront::cases
     };
 
     void declare_opened();
+    void comment_out_overridden();
     const PrmEntry &declaration(const std::string &subsection,
                                 const std::string &key) const;
     const PrmAssignment *assignment(const std::string &subsection,
@@ -155,8 +159,8 @@ namespace meltfront::cases
     std::vector<Declared> declared; ///< numbered keys once
     std::vector<Declared> keys;     ///< numbered keys one by one
     std::vector<InEach> in_each;
-    std::string file;
-    std::string content;
+    std::string library;
+    PrmText source;
     PrmScan scan;
   };
 } // namespace meltfront::cases

@@ -27,7 +27,7 @@ namespace meltfront::verification
 
     PrmFile matrix_keys()
     {
-      PrmFile prm;
+      PrmFile prm(library_folder);
       prm.declare("", {"title", PrmKind::text, "", "", "One line."});
       prm.declare("", {"description", PrmKind::text, "", "", "What the matrix shows."});
       prm.declare("", {"hard cases", PrmKind::boolean, "false", "",

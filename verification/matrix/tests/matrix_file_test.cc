@@ -199,15 +199,15 @@ namespace meltfront::verification
       ASSERT_EQ(c.printed.size(), 8u);
       for(const cases::PrintedValue &printed : c.printed)
       {
-        const auto bound = std::ranges::find_if(
-            paper.criteria,
-            [&printed](const MatrixCriterion &one)
-            {
-              return one.case_name == "line-sink"
-                     && one.criterion.method == printed.method
-                     && one.criterion.quantity == printed.quantity
-                     && one.criterion.n == printed.n;
-            });
+        const auto bound
+            = std::ranges::find_if(paper.criteria,
+                                   [&printed](const MatrixCriterion &one)
+                                   {
+                                     return one.case_name == "line-sink"
+                                            && one.criterion.method == printed.method
+                                            && one.criterion.quantity == printed.quantity
+                                            && one.criterion.n == printed.n;
+                                   });
         ASSERT_NE(bound, paper.criteria.end()) << printed.quantity << printed.n;
         EXPECT_NEAR(bound->criterion.lower, 0.85 * printed.value, 1e-15);
         EXPECT_NEAR(bound->criterion.upper, 1.15 * printed.value, 1e-15);
