@@ -1,10 +1,12 @@
 #include <cases/case_file/case_file.h>
+#include <cases/case_file/prm_include.h>
 #include <cases/effects.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -312,4 +314,23 @@ TEST(Library, TheFrontTurnsBackWhereItIsSaidTo)
     }
     EXPECT_EQ(monotone, c.measurement.monotone_front) << name;
   }
+}
+
+TEST(Library, MaterialsAreIncludedAndAreNoCases)
+{
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(library_path("x")).parent_path();
+  std::string texts;
+  for(const std::string &name : library_names())
+    texts += library_case(name).text;
+  int materials = 0;
+  for(const auto &entry : fs::directory_iterator(folder / "materials"))
+  {
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(read_prm_text(entry.path().string()).starts_with("# ")) << name;
+    EXPECT_NE(texts.find(name + "\n"), std::string::npos) << name << " has no use";
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
+    ++materials;
+  }
+  EXPECT_GE(materials, 4);
 }

@@ -147,7 +147,7 @@ namespace meltfront::verification
         return element("h3", "Left out, and why") + list("ul", items);
       return element(
           "details",
-          element("summary", fmt::format("{} runs left out, and why", items.size()))
+          element("summary", fmt::format("{} left out, and why", items.size()))
               + list("ul", items));
     }
   } // namespace
