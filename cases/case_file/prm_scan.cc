@@ -72,27 +72,27 @@ namespace meltfront::cases
         const std::string key = trimmed(assignment.substr(0, equals));
         if(key.empty())
           fail(line, "'set' has no key before '='");
-        const auto [before, is_new] = set.emplace(path() + "\n" + key, statement);
-        if(!is_new)
-        {
-          override_statement(before->second, line, key);
-          before->second = statement;
-        }
+        std::vector<PrmStatement> &before = set[path() + "\n" + key];
+        if(!before.empty())
+          override_statement(before, line, key);
+        before.push_back(statement);
         scan.assignments.push_back(
             {path(), key, trimmed(assignment.substr(equals + 1)), line});
       }
 
       /** A file may set anew what another one has set: the later one counts. */
-      void override_statement(const PrmStatement &before, int line,
+      void override_statement(const std::vector<PrmStatement> &before, int line,
                               const std::string &key)
       {
-        if(source.reading(before.line) == source.reading(line))
-          fail(line, fmt::format("{} is set a second time, after line {}",
-                                 name_of_key(path(), key),
-                                 source.origins[before.line - 1].line));
-        scan.overridden.emplace_back(before.line, before.last_line);
-        std::erase_if(scan.assignments, [&before](const PrmAssignment &assignment)
-                      { return assignment.line == before.line; });
+        for(const PrmStatement &one : before)
+          if(source.reading(one.line) == source.reading(line))
+            fail(line, fmt::format("{} is set a second time, after line {}",
+                                   name_of_key(path(), key),
+                                   source.origins[one.line - 1].line));
+        const PrmStatement &last = before.back();
+        scan.overridden.emplace_back(last.line, last.last_line);
+        std::erase_if(scan.assignments, [&last](const PrmAssignment &assignment)
+                      { return assignment.line == last.line; });
       }
 
       void open(const std::string &name, int line)
@@ -115,7 +115,7 @@ namespace meltfront::cases
       static constexpr std::size_t deepest = 20;
       const PrmText &source;
       std::vector<Opened> opened;
-      std::map<std::string, PrmStatement> set; ///< by subsection and key, the last one
+      std::map<std::string, std::vector<PrmStatement>> set; ///< by subsection and key
       PrmScan scan;
     };
   } // namespace

@@ -10,9 +10,9 @@
 namespace meltfront::verification
 {
   /**
-   * Write what is known before the first run: DIR/matrix.json (title, date, version and
-   * the list of runs) and DIR/cases/CASE.json. With it, load_matrix_result() can read a
-   * matrix that is still running or was killed.
+   * Write what is known before the first run: DIR/matrix.json (title, date, version,
+   * the list of runs, criteria, findings and pictures) and DIR/cases/CASE.json. With it,
+   * load_matrix_result() can read a matrix that is still running or was killed.
    */
   void write_plan(const std::string &directory, const Matrix &matrix,
                   const std::vector<StoredCase> &cases,

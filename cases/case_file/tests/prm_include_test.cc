@@ -164,6 +164,13 @@ TEST_F(Include, KeepsAKeyThatOneFileSetsTwiceAMistake)
                       "end\n"),
             "main.prm:4: key 'latent heat' in subsection 'Material' is set a second "
             "time, after line 3");
+  EXPECT_EQ(complaint("subsection Material\n"
+                      "  set latent heat = 1\n"
+                      "  include materials/wax.prm\n"
+                      "  set latent heat = 2\n"
+                      "end\n"),
+            "main.prm:4: key 'latent heat' in subsection 'Material' is set a second "
+            "time, after line 2");
 }
 
 TEST_F(Include, NamesTheFileAndLineOfAMistake)
