@@ -145,10 +145,9 @@ namespace meltfront::verification
       constexpr std::size_t most_shown = 6;
       if(items.size() <= most_shown)
         return element("h3", "Left out, and why") + list("ul", items);
-      return element(
-          "details",
-          element("summary", fmt::format("{} left out, and why", items.size()))
-              + list("ul", items));
+      return element("details",
+                     element("summary", fmt::format("{} left out, and why", items.size()))
+                         + list("ul", items));
     }
   } // namespace
 
