@@ -108,8 +108,8 @@ namespace meltfront::cases
     return holds(front_origins, origin);
   }
 
-  std::string objection(const Capabilities &capabilities, const Scene &scene,
-                        const EffectSet &effects, int threads)
+  std::string reason_unsupported(const Capabilities &capabilities, const Scene &scene,
+                                 const EffectSet &effects, int threads)
   {
     if(!holds(capabilities.problems, scene.problem))
       return fmt::format("solves no scenes of the kind '{}'", to_string(scene.problem));

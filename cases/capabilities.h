@@ -87,8 +87,8 @@ namespace meltfront::cases
    * Why a form of a method does not take a scene, in one clause that follows the method's
    * name, `takes no walls of the kind 'periodic' (y_min)`; empty if it takes it.
    */
-  std::string objection(const Capabilities &capabilities, const Scene &scene,
-                        const EffectSet &effects, int threads);
+  std::string reason_unsupported(const Capabilities &capabilities, const Scene &scene,
+                                 const EffectSet &effects, int threads);
 } // namespace meltfront::cases
 
 #endif

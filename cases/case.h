@@ -24,10 +24,13 @@ namespace meltfront::cases
     failure ///< whether the run at one n ends with a numerical error, as it is known to
   };
 
-  /** A bound that a result must keep: an acceptance criterion of a case. */
+  /** Stands for the label in a criterion that every label has to keep by itself. */
+  inline constexpr const char *any_method = "any method";
+
+  /** A bound that a result must keep: an acceptance criterion of a case or a matrix. */
   struct Criterion
   {
-    std::string text;     ///< as written in the case file
+    std::string text;     ///< as written in the file
     std::string method;   ///< or a label, `fem-fitted[degree=2]`; `[degree=*]`: any
     std::string quantity; ///< a column of the convergence table, e.g. `front_rms`
     Statistic statistic = Statistic::value;
@@ -38,7 +41,7 @@ namespace meltfront::cases
     double upper = std::numeric_limits<double>::infinity();
     /** Why it is not met and by how much, measured; empty when it is met. Does not make
      * it pass. */
-    std::string known_shortfall;
+    std::string expected_failure;
   };
 
   /** The run that others are held against where no exact solution exists. */
@@ -76,7 +79,7 @@ namespace meltfront::cases
       "first_contact", "half_frozen", "all_frozen"};
 
   /** Most times at which a case measures the volume that is solid. */
-  inline constexpr int most_marks = 8;
+  inline constexpr int most_intermediate_times = 8;
 
   /** How the case is measured. */
   struct Measurement
@@ -98,9 +101,9 @@ namespace meltfront::cases
      * measured from the first time on at which the front has come so far (m). Absent: it
      * is not. */
     std::optional<double> front_square_from;
-    /** Times at which the volume that is solid is measured, at most `most_marks` (s),
-     * ascending; the end beside them. */
-    std::vector<double> marks;
+    /** Times at which the volume that is solid is measured, at most
+     * `most_intermediate_times` (s), ascending; the end beside them. */
+    std::vector<double> intermediate_times;
     /**
      * Absolute zero on the scene's scale of temperature, -273.15 for degrees Celsius: the
      * entropy is measured, which must never fall in an isolated scene. Absent: it is not.
@@ -112,9 +115,9 @@ namespace meltfront::cases
     /** The direction (0, 1, 2 for x, y, z) in which the temperature is compared with its
      * mirror image about the origin. Absent: it is not. */
     std::optional<int> mirror;
-    /** Number of the mark, from 1, at which a picture of the scene is kept beside that of
-     * the end; 0: none. */
-    int picture_mark = 0;
+    /** Number of the intermediate time, from 1, at which a picture of the scene is kept
+     * beside that of the end; 0: none. */
+    int picture_time = 0;
   };
 
   /** A scene, what is known of its solution, what to measure and what to accept. */

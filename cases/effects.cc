@@ -11,13 +11,15 @@ namespace meltfront::cases
 {
   namespace
   {
-    /** One rule: the reason why a scene calls for the effect, or why it does not. */
+    /** One rule: the reason why a scene calls for the effect, or why it does not, and
+     * what is taken out of a scene where it is off. */
     struct Rule
     {
       Effect effect;
       const char *name;
       const char *description;
       EffectDecision (*decide)(const Scene &);
+      void (*leave_out)(Scene &);
     };
 
     EffectDecision decide(Effect effect, bool on, const std::string &why,
@@ -159,12 +161,13 @@ namespace meltfront::cases
               : "the alloy has no eutectic temperature");
     }
 
-    EffectDecision heat_release(const Scene &scene)
+    EffectDecision volumetric_source(const Scene &scene)
     {
-      return decide(Effect::heat_release, scene.heat_release.has_value(),
-                    fmt::format("heat is released throughout the domain: {}",
-                                scene.heat_release ? scene.heat_release->expression : ""),
-                    "no heat is released throughout the domain");
+      return decide(
+          Effect::volumetric_source, scene.volumetric_source.has_value(),
+          fmt::format("heat is released throughout the domain: {}",
+                      scene.volumetric_source ? scene.volumetric_source->expression : ""),
+          "no heat is released throughout the domain");
     }
 
     EffectDecision inclusion(const Scene &scene)
@@ -178,9 +181,9 @@ namespace meltfront::cases
                                     : "there is none");
     }
 
-    EffectDecision wall_transfer(const Scene &scene)
+    EffectDecision robin_wall(const Scene &scene)
     {
-      return walls(scene, Effect::wall_transfer, BoundaryKind::heat_transfer,
+      return walls(scene, Effect::robin_wall, BoundaryKind::heat_transfer,
                    "an exchange of heat");
     }
 
@@ -221,54 +224,99 @@ namespace meltfront::cases
                     "there is no such source");
     }
 
-    /** Whether an effect is one of particle solids; the others are those of heat. */
-    bool moves_particles(Effect effect)
+    /** Whether the kind of problem knows an effect: particle solids those from gravity
+     * on, what conducts heat the others. */
+    bool knows(const Scene &scene, Effect effect)
     {
-      return effect == Effect::gravity || effect == Effect::base
-             || effect == Effect::hot_base || effect == Effect::point_heating;
+      return effect >= Effect::gravity ? scene.problem == ProblemKind::particle_solid
+                                       : scene.conducts_heat();
+    }
+
+    void insulate(Scene &scene, BoundaryKind kind)
+    {
+      for(auto &boundary : scene.boundaries)
+        if(boundary && boundary->kind == kind)
+          boundary = Boundary();
     }
 
     constexpr Rule rules[] = {
         {Effect::phase_change, "phase_change", "Latent heat is exchanged at the front.",
-         phase_change},
+         phase_change, [](Scene &scene) { scene.material.latent_heat = 0; }},
         {Effect::phase_conductivity, "phase_conductivity",
-         "The phases conduct heat differently.", phase_conductivity},
+         "The phases conduct heat differently.", phase_conductivity,
+         [](Scene &scene)
+         { scene.material.liquid.conductivity = scene.material.solid.conductivity; }},
         {Effect::phase_heat_capacity, "phase_heat_capacity",
-         "The phases store heat differently.", phase_heat_capacity},
+         "The phases store heat differently.", phase_heat_capacity,
+         [](Scene &scene)
+         {
+           scene.material.liquid.specific_heat_capacity
+               = scene.material.solid.specific_heat_capacity;
+         }},
         {Effect::heat_sources, "heat_sources", "Point or line sources and sinks of heat.",
-         heat_sources},
+         heat_sources, [](Scene &scene) { scene.sources.clear(); }},
         {Effect::wall_temperature, "wall_temperature",
-         "Walls with a prescribed temperature.", wall_temperature},
-        {Effect::wall_flux, "wall_flux", "Walls with a prescribed heat flux.", wall_flux},
+         "Walls with a prescribed temperature.", wall_temperature,
+         [](Scene &scene) { insulate(scene, BoundaryKind::fixed_temperature); }},
+        {Effect::wall_flux, "wall_flux", "Walls with a prescribed heat flux.", wall_flux,
+         [](Scene &scene) { insulate(scene, BoundaryKind::flux); }},
         {Effect::liquid_motion, "liquid_motion",
-         "Freezing displaces liquid because the phases' densities differ.",
-         liquid_motion},
+         "Freezing displaces liquid because the phases' densities differ.", liquid_motion,
+         [](Scene &scene)
+         { scene.material.liquid.density = scene.material.solid.density; }},
         {Effect::metastable_phase, "metastable_phase",
          "A phase lies beyond the melting temperature: undercooled liquid or superheated "
          "solid, which only a tracked front can hold.",
-         metastable_phase},
+         metastable_phase, [](Scene &) {}},
         {Effect::solute, "solute",
          "A dissolved substance lowers the melting temperature; crystals reject it.",
-         solute},
+         solute,
+         [](Scene &scene)
+         {
+           scene.alloy.reset();
+           scene.initial.concentration.clear();
+         }},
         {Effect::solute_diffusion, "solute_diffusion", "Solute spreads in the liquid.",
-         solute_diffusion},
+         solute_diffusion,
+         [](Scene &scene)
+         {
+           if(scene.alloy)
+             for(Solute &solute : scene.alloy->solutes)
+               solute.diffusivity = 0;
+         }},
         {Effect::eutectic, "eutectic",
-         "What is left of the liquid freezes at the eutectic temperature.", eutectic},
-        {Effect::heat_release, "heat_release", "Heat released throughout the domain.",
-         heat_release},
+         "What is left of the liquid freezes at the eutectic temperature.", eutectic,
+         [](Scene &scene)
+         {
+           if(scene.alloy)
+             scene.alloy->eutectic_temperature = Alloy().eutectic_temperature;
+         }},
+        {Effect::volumetric_source, "volumetric_source",
+         "Heat released throughout the domain.", volumetric_source,
+         [](Scene &scene) { scene.volumetric_source.reset(); }},
         {Effect::inclusion, "inclusion",
-         "A region that conducts otherwise than the rest.", inclusion},
-        {Effect::wall_transfer, "wall_transfer",
-         "Walls that exchange heat with their surroundings.", wall_transfer},
+         "A region that conducts otherwise than the rest.", inclusion,
+         [](Scene &scene) { scene.inclusion.reset(); }},
+        {Effect::robin_wall, "robin_wall",
+         "Walls that exchange heat with their surroundings.", robin_wall,
+         [](Scene &scene) { insulate(scene, BoundaryKind::heat_transfer); }},
         {Effect::gibbs_thomson, "gibbs_thomson",
-         "The melting temperature of a curved front is lowered or raised.",
-         gibbs_thomson},
-        {Effect::gravity, "gravity", "Particles of a solid have weight.", gravity},
-        {Effect::base, "base", "A floor throws particles back.", base},
+         "The melting temperature of a curved front is lowered or raised.", gibbs_thomson,
+         [](Scene &scene) { scene.material.gibbs_thomson_coefficient = 0; }},
+        {Effect::gravity, "gravity", "Particles of a solid have weight.", gravity,
+         [](Scene &scene) { scene.particle_solid->gravity = 0; }},
+        {Effect::base, "base", "A floor throws particles back.", base,
+         [](Scene &scene) { scene.particle_solid->base.reset(); }},
         {Effect::hot_base, "hot_base",
-         "A part of the floor throws particles back with another speed.", hot_base},
+         "A part of the floor throws particles back with another speed.", hot_base,
+         [](Scene &scene)
+         {
+           if(scene.particle_solid->base)
+             scene.particle_solid->base->hot.reset();
+         }},
         {Effect::point_heating, "point_heating",
-         "A source drives particles away from itself.", point_heating}};
+         "A source drives particles away from itself.", point_heating,
+         [](Scene &scene) { scene.particle_solid->heating.reset(); }}};
     static_assert(std::size(rules) == n_effects);
 
     const Rule &rule(Effect effect)
@@ -321,8 +369,7 @@ namespace meltfront::cases
     std::vector<EffectDecision> decisions;
     for(const Rule &r : rules)
     {
-      if(moves_particles(r.effect) ? scene.problem != ProblemKind::particle_solid
-                                   : !scene.conducts_heat())
+      if(!knows(scene, r.effect))
         continue;
       EffectDecision decision = r.decide(scene);
       const auto choice = scene.effect_choices.find(r.effect);
@@ -338,75 +385,12 @@ namespace meltfront::cases
     return EffectSet(std::move(decisions));
   }
 
-  namespace
-  {
-    void leave_out_of_alloy(const EffectSet &effects, Scene &scene)
-    {
-      if(!effects.contains(Effect::solute))
-      {
-        scene.alloy.reset();
-        scene.initial.concentration.clear();
-      }
-      if(!scene.alloy)
-        return;
-      if(!effects.contains(Effect::eutectic))
-        scene.alloy->eutectic_temperature = Alloy().eutectic_temperature;
-      if(!effects.contains(Effect::solute_diffusion))
-        for(Solute &solute : scene.alloy->solutes)
-          solute.diffusivity = 0;
-    }
-
-    void leave_out_of_particle_solid(const EffectSet &effects, ParticleSolid &solid)
-    {
-      if(!effects.contains(Effect::gravity))
-        solid.gravity = 0;
-      if(!effects.contains(Effect::base))
-        solid.base.reset();
-      if(solid.base && !effects.contains(Effect::hot_base))
-        solid.base->hot.reset();
-      if(!effects.contains(Effect::point_heating))
-        solid.heating.reset();
-    }
-  } // namespace
-
   Scene simulated_scene(const Scene &scene, const EffectSet &effects)
   {
     Scene result = scene;
-    if(scene.problem == ProblemKind::particle_solid)
-      leave_out_of_particle_solid(effects, *result.particle_solid);
-    if(!scene.conducts_heat())
-      return result;
-    if(!effects.contains(Effect::gibbs_thomson))
-      result.material.gibbs_thomson_coefficient = 0;
-    const PhaseProperties &solid = scene.material.solid;
-    PhaseProperties &liquid = result.material.liquid;
-    if(!effects.contains(Effect::phase_change))
-      result.material.latent_heat = 0;
-    if(!effects.contains(Effect::phase_conductivity))
-      liquid.conductivity = solid.conductivity;
-    if(!effects.contains(Effect::phase_heat_capacity))
-      liquid.specific_heat_capacity = solid.specific_heat_capacity;
-    if(!effects.contains(Effect::liquid_motion))
-      liquid.density = solid.density;
-    if(!effects.contains(Effect::heat_sources))
-      result.sources.clear();
-    const auto insulate = [&result](BoundaryKind kind)
-    {
-      for(auto &boundary : result.boundaries)
-        if(boundary && boundary->kind == kind)
-          boundary = Boundary();
-    };
-    if(!effects.contains(Effect::wall_temperature))
-      insulate(BoundaryKind::fixed_temperature);
-    if(!effects.contains(Effect::wall_flux))
-      insulate(BoundaryKind::flux);
-    if(!effects.contains(Effect::wall_transfer))
-      insulate(BoundaryKind::heat_transfer);
-    if(!effects.contains(Effect::heat_release))
-      result.heat_release.reset();
-    if(!effects.contains(Effect::inclusion))
-      result.inclusion.reset();
-    leave_out_of_alloy(effects, result);
+    for(const Rule &r : rules)
+      if(knows(scene, r.effect) && !effects.contains(r.effect))
+        r.leave_out(result);
     return result;
   }
 } // namespace meltfront::cases

@@ -23,16 +23,16 @@ namespace meltfront::cases
     solute,              ///< dissolved substance lowers the melting temperature
     solute_diffusion,    ///< solute spreads in the liquid
     eutectic,            ///< what is left of the liquid freezes at one temperature
-    heat_release,        ///< heat is released throughout the domain
+    volumetric_source,   ///< heat is released throughout the domain
     inclusion,           ///< a region conducts otherwise than the rest
-    wall_transfer,       ///< a wall exchanges heat with its surroundings
+    robin_wall,          ///< a wall exchanges heat with its surroundings
     gibbs_thomson,       ///< a curved front melts at another temperature
-    gravity,             ///< particles of a solid have weight
+    gravity,             ///< weight of a solid's particles, whose effects begin here
     base,                ///< a floor throws particles back
     hot_base,            ///< a part of the floor throws them back faster than they came
     point_heating        ///< a source drives particles away from itself
   };
-  inline constexpr std::size_t n_effects = 19;
+  inline constexpr auto n_effects = static_cast<std::size_t>(Effect::point_heating) + 1;
 
   /** The word for an effect in case files and tables, `phase_change` and so on. */
   const char *to_string(Effect effect);

@@ -31,7 +31,7 @@ namespace meltfront::cases
     std::string reasons;
     for(const Capabilities &form : method.capabilities())
     {
-      const std::string reason = objection(form, scene, effects, threads);
+      const std::string reason = reason_unsupported(form, scene, effects, threads);
       if(reason.empty())
         return form;
       reasons += fmt::format("{}{}{}{}", reasons.empty() ? "" : "; ", form.form,

@@ -92,9 +92,9 @@ namespace meltfront::cases
     /**
      * What only the method could count: when the first bond of a particle solid broke,
      * how many markers were seeded. It becomes a quantity of the run.
-     * @param name one of outcomes(), cases/outcomes.h
+     * @param name one of reported_scalars(), cases/reported_scalars.h
      */
-    virtual void outcome(const std::string &name, double value)
+    virtual void report(const std::string &name, double value)
     {
       static_cast<void>(name);
       static_cast<void>(value);

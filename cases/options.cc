@@ -142,10 +142,36 @@ namespace meltfront::cases
   std::string nearest_name(const std::string &word,
                            const std::vector<std::string> &candidates)
   {
-    const auto nearest
-        = std::min_element(candidates.begin(), candidates.end(),
-                           [&word](const auto &a, const auto &b)
-                           { return edit_distance(word, a) < edit_distance(word, b); });
+    // What had another name in earlier case files.
+    static const std::map<std::string, std::string> renamed{
+        {"particles", "cells"},
+        {"intervals", "cells"},
+        {"step_factor", "cfl"},
+        {"largest_move", "cfl"},
+        {"absorption", "interpolation_distance"},
+        {"closure", "heat_correction"},
+        {"homing", "springs"},
+        {"marks", "intermediate times"},
+        {"picture mark", "picture time number"},
+        {"Scene/Heat release", "Scene/Volumetric source"},
+        {"heat_release", "volumetric_source"},
+        {"wall_transfer", "robin_wall"}};
+    const auto now = renamed.find(word);
+    if(now != renamed.end()
+       && std::find(candidates.begin(), candidates.end(), now->second)
+              != candidates.end())
+      return now->second;
+    // A name that holds the whole word, or is held by it, is nearer than any other.
+    const auto rank = [&word](const std::string &name)
+    {
+      const bool within = std::min(word.size(), name.size()) >= 3
+                          && (name.find(word) != std::string::npos
+                              || word.find(name) != std::string::npos);
+      return std::pair(!within, edit_distance(word, name));
+    };
+    const auto nearest = std::min_element(candidates.begin(), candidates.end(),
+                                          [&rank](const auto &a, const auto &b)
+                                          { return rank(a) < rank(b); });
     return nearest == candidates.end() ? std::string() : *nearest;
   }
 } // namespace meltfront::cases

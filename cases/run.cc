@@ -42,8 +42,8 @@ namespace meltfront::cases
     watch.without([&] { observer->note(time, event); });
   }
 
-  void Run::outcome(const std::string &name, double value)
+  void Run::report(const std::string &name, double value)
   {
-    watch.without([&] { observer->outcome(name, value); });
+    watch.without([&] { observer->report(name, value); });
   }
 } // namespace meltfront::cases

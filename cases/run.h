@@ -46,8 +46,8 @@ namespace meltfront::cases
     /** As Observer::note. */
     void note(double time, const std::string &event);
 
-    /** As Observer::outcome. */
-    void outcome(const std::string &name, double value);
+    /** As Observer::report. */
+    void report(const std::string &name, double value);
 
   private:
     Observer *observer = nullptr;

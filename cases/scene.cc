@@ -100,7 +100,7 @@ namespace meltfront::cases
     /** Release that varies in space and time is sampled at some points only. */
     void visit_release(const Scene &scene, const ValueVisitor &visit)
     {
-      const Field &release = *scene.heat_release;
+      const Field &release = *scene.volumetric_source;
       std::vector<Position> positions;
       const auto collect = [&](const Position &p) { positions.push_back(p); };
       const bool steady = release.constant || !may_depend_on(release.expression, "t");
@@ -175,7 +175,7 @@ namespace meltfront::cases
     for(const Side side : scene.sides())
       if(scene.boundary(side).kind == BoundaryKind::flux)
         visit_wall_values(scene, side, scene.boundary(side).value, widen);
-    if(scene.heat_release)
+    if(scene.volumetric_source)
       visit_release(scene, widen);
     for(const PointSource &source : scene.sources)
       visit_power(scene, source, widen);

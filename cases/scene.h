@@ -192,7 +192,7 @@ namespace meltfront::cases
         boundaries; ///< by Side; those the shape has
     std::vector<PointSource> sources;
     /** Heat released throughout the domain (W/m^3). */
-    std::optional<Field> heat_release;
+    std::optional<Field> volumetric_source;
     std::optional<Inclusion> inclusion;
     /** Of ProblemKind::interface_advection. */
     std::optional<InterfaceAdvection> interface;

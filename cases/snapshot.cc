@@ -8,13 +8,13 @@ namespace meltfront::cases
 {
   double HeatBudget::imbalance() const
   {
-    return booked ? stored + latent - initial - boundary - sources
-                  : std::numeric_limits<double>::quiet_NaN();
+    return conservative ? stored + latent - initial - boundary - sources
+                        : std::numeric_limits<double>::quiet_NaN();
   }
 
   double HeatBudget::defect() const
   {
-    if(!booked)
+    if(!conservative)
       return std::numeric_limits<double>::quiet_NaN();
     if(!std::isfinite(imbalance()))
       return std::numeric_limits<double>::infinity();

@@ -22,9 +22,9 @@ namespace meltfront::cases
     double initial = 0;  ///< stored + latent at the start
     /** Whether the method balances heat; collocation, which solves equations at points,
      * does not: its defect is NaN. */
-    bool booked = true;
+    bool conservative = true;
 
-    /** stored + latent - initial - boundary - sources; NaN if not booked. */
+    /** stored + latent - initial - boundary - sources; NaN if not conservative. */
     double imbalance() const;
 
     /** |imbalance| over the largest magnitude among its terms: round-off for a method

@@ -140,8 +140,8 @@ namespace meltfront::cases
     };
     for(const Side side : scene.sides())
       add(scene.boundary(side).value);
-    if(scene.heat_release)
-      add(*scene.heat_release);
+    if(scene.volumetric_source)
+      add(*scene.volumetric_source);
     std::ranges::sort(times);
     const auto repeated = std::ranges::unique(times, is_same_time);
     times.erase(repeated.begin(), repeated.end());

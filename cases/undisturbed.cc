@@ -26,7 +26,7 @@ namespace meltfront::cases
         if(!(std::abs(energy - steady) <= same_energy * std::abs(steady)))
           return "the power of a source changes";
       }
-      if(scene.heat_release)
+      if(scene.volumetric_source)
         return "heat is released in the domain";
       const Material &material = scene.material;
       const double scale

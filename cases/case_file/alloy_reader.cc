@@ -59,8 +59,8 @@ namespace meltfront::cases
       prm.declare(here, number("largest concentration", "1", {},
                                "Mass fraction up to which an expression of C holds.",
                                above_zero, 1));
-      prm.declare(here,
-                  number("diffusivity", "0", "m^2/s", "Of the solute in the liquid.", 0));
+      prm.declare(here, number("diffusivity", "0", "m^2/s",
+                               "Diffusivity of the solute in the liquid.", 0));
     }
 
     double read_number(const std::string &text)
@@ -264,28 +264,6 @@ namespace meltfront::cases
       }
     }
 
-    /** An effect of solutes that is switched on must have what it acts on. */
-    void check_solute_effects(const PrmFile &prm, const Scene &scene)
-    {
-      const auto demand = [&](Effect effect, bool fulfilled, const std::string &missing)
-      {
-        const auto choice = scene.effect_choices.find(effect);
-        if(choice != scene.effect_choices.end() && choice->second == EffectChoice::on
-           && !fulfilled)
-          throw prm.error("Effects", to_string(effect),
-                          fmt::format("is on but {}", missing));
-      };
-      const bool diffuses = prm.given(solute_keys(0), "diffusivity")
-                            || prm.given(solute_keys(1), "diffusivity");
-      demand(Effect::solute, scene.alloy.has_value(),
-             "there is no subsection 'Scene/Material/Solute 1'");
-      demand(Effect::solute_diffusion, diffuses,
-             fmt::format("{} is missing", name_of_key(solute_keys(0), "diffusivity")));
-      demand(
-          Effect::eutectic, prm.given(alloy_keys, "eutectic temperature"),
-          fmt::format("{} is missing", name_of_key(alloy_keys, "eutectic temperature")));
-    }
-
     std::string words(const Position &p, int dimension)
     {
       std::string text;
@@ -346,7 +324,6 @@ namespace meltfront::cases
   void check_alloy(const PrmFile &prm, const Scene &scene,
                    const std::vector<Position> &points)
   {
-    check_solute_effects(prm, scene);
     if(!scene.alloy)
       return;
     const PhaseDiagram diagram(scene.material, *scene.alloy);

@@ -216,7 +216,7 @@ namespace meltfront::cases
         }
       }
 
-      void held_wall(Side side) const
+      void dirichlet_wall(Side side) const
       {
         const Boundary &boundary = scene.boundary(side);
         for(const Position &p : wall_points(scene.domain, side))
@@ -329,48 +329,6 @@ namespace meltfront::cases
     return interior_points(domain);
   }
 
-  void check_effects(const PrmFile &prm, const Scene &scene)
-  {
-    const auto demand = [&](Effect effect, bool fulfilled, const std::string &missing)
-    {
-      const auto choice = scene.effect_choices.find(effect);
-      if(choice != scene.effect_choices.end() && choice->second == EffectChoice::on
-         && !fulfilled)
-        throw prm.error("Effects", to_string(effect),
-                        fmt::format("is on but {}", missing));
-    };
-    const auto has_wall = [&scene](BoundaryKind kind)
-    {
-      const std::vector<Side> sides = scene.sides();
-      return std::any_of(sides.begin(), sides.end(),
-                         [&scene, kind](Side side)
-                         { return scene.boundary(side).kind == kind; });
-    };
-    const std::string liquid = "Scene/Material/Liquid";
-    const auto own_property = [&](Effect effect, const std::string &key)
-    {
-      demand(effect, prm.given(liquid, key),
-             fmt::format("{} is missing", name_of_key(liquid, key)));
-    };
-    demand(Effect::heat_sources, !scene.sources.empty(),
-           "there is no subsection 'Scene/Source 1'");
-    demand(Effect::wall_temperature, has_wall(BoundaryKind::fixed_temperature),
-           "no wall in subsection 'Scene/Walls' has the kind 'fixed temperature' or "
-           "'exact'");
-    demand(Effect::wall_flux, has_wall(BoundaryKind::flux),
-           "no wall in subsection 'Scene/Walls' has the kind 'flux'");
-    demand(Effect::metastable_phase, scene.initial.front.has_value(),
-           fmt::format("{} is missing, which alone can leave a phase beyond the melting "
-                       "temperature",
-                       name_of_key(initial_keys, "front")));
-    demand(Effect::gibbs_thomson,
-           prm.given("Scene/Material", "Gibbs-Thomson coefficient"),
-           "'Gibbs-Thomson coefficient' in subsection 'Scene/Material' is missing");
-    own_property(Effect::phase_conductivity, "conductivity");
-    own_property(Effect::phase_heat_capacity, "specific heat capacity");
-    own_property(Effect::liquid_motion, "density");
-  }
-
   void check_fields(const PrmFile &prm, const Scene &scene)
   {
     const bool round = scene.domain.round() && scene.symmetry != Symmetry::none;
@@ -434,7 +392,7 @@ namespace meltfront::cases
       {
       case BoundaryKind::fixed_temperature:
         if(!c.scene.boundary(side).exact)
-          check.held_wall(side);
+          check.dirichlet_wall(side);
         break;
       case BoundaryKind::periodic:
         break;

@@ -7,12 +7,6 @@
 
 namespace meltfront::cases
 {
-  /**
-   * An effect that is switched on must have what it acts on: a wall, a source, a property
-   * of its own. @throws InputError
-   */
-  void check_effects(const PrmFile &prm, const Scene &scene);
-
   /** Points all over a domain at which values are checked. */
   std::vector<Position> sample_points(const Domain &domain);
 

@@ -4,6 +4,7 @@
 #include <cases/case_file/case_keys.h>
 #include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/criterion_parser.h>
+#include <cases/case_file/effect_checks.h>
 #include <cases/case_file/exact_reader.h>
 #include <cases/case_file/scene_reader.h>
 #include <cases/options.h>
@@ -80,15 +81,18 @@ namespace meltfront::cases
       measurement.front_mode = static_cast<int>(prm.get_integer(here, "front mode"));
       if(prm.given(here, "front square from"))
         measurement.front_square_from = prm.get_number(here, "front square from");
-      if(prm.given(here, "marks"))
-        measurement.marks = prm.get_numbers(here, "marks");
+      if(prm.given(here, "intermediate times"))
+        measurement.intermediate_times = prm.get_numbers(here, "intermediate times");
       if(prm.given(here, "events"))
         measurement.events = at_key(prm, here, "events", parse_events);
-      measurement.picture_mark = static_cast<int>(prm.get_integer(here, "picture mark"));
-      if(measurement.picture_mark > static_cast<int>(measurement.marks.size()))
-        throw prm.error(here, "picture mark",
-                        fmt::format("({}) counts the marks, of which there are {}",
-                                    measurement.picture_mark, measurement.marks.size()));
+      measurement.picture_time
+          = static_cast<int>(prm.get_integer(here, "picture time number"));
+      if(measurement.picture_time
+         > static_cast<int>(measurement.intermediate_times.size()))
+        throw prm.error(
+            here, "picture time number",
+            fmt::format("({}) counts the intermediate times, of which there are {}",
+                        measurement.picture_time, measurement.intermediate_times.size()));
       const std::string mirror = prm.get_text(here, "mirror");
       if(mirror != "none")
         measurement.mirror = mirror[0] - 'x';
@@ -108,15 +112,15 @@ namespace meltfront::cases
                                     "scene, which may fall to {:.6g}",
                                     *c.measurement.absolute_zero, coldest));
       double before = c.scene.start_time;
-      for(const double mark : c.measurement.marks)
+      for(const double intermediate : c.measurement.intermediate_times)
       {
-        if(!(mark > before && mark < c.scene.end_time))
+        if(!(intermediate > before && intermediate < c.scene.end_time))
           throw prm.error(
-              here, "marks",
+              here, "intermediate times",
               fmt::format("must ascend between the scene's start ({}) and its "
                           "end ({}), which {} does not",
-                          c.scene.start_time, c.scene.end_time, mark));
-        before = mark;
+                          c.scene.start_time, c.scene.end_time, intermediate));
+        before = intermediate;
       }
       if(c.measurement.front_mode > 0
          && !(c.scene.domain.round() && c.scene.domain.dimension == 2

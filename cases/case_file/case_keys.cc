@@ -59,22 +59,24 @@ namespace meltfront::cases
       prm.declare(domain, number_key("inner radius", "", "m", "Inner radius of a shell.",
                                      above_zero));
       prm.declare(domain,
-                  text_key("corners", "Of an outline that is a polygon: x, y; x, y; "
+                  text_key("corners", "Corners of a polygonal outline: x, y; x, y; "
                                       "... in metres, either way round."));
-      prm.declare(domain, text_key("polar radius",
-                                   "Of any other outline: distance from its centre "
-                                   "(m), expression of the angle phi from -pi to "
-                                   "pi."));
       prm.declare(domain,
-                  numbers_key("centre", "m",
-                              "Of an outline: where its angles are taken, and what "
-                              "lattices are arranged about; the origin where not "
-                              "given."));
-      prm.declare(domain,
-                  number_key("reference length", "", "m",
-                             "Of an outline: what a resolution n divides; the larger "
-                             "side of its bounding box where not given.",
-                             above_zero));
+                  text_key("polar radius", "Any other outline: distance from its centre "
+                                           "(m), expression of the angle phi from -pi to "
+                                           "pi."));
+      prm.declare(
+          domain,
+          numbers_key("centre", "m",
+                      "Centre of an outline: where its angles are taken, and what "
+                      "lattices are arranged about; the origin where not "
+                      "given."));
+      prm.declare(
+          domain,
+          number_key("reference length", "", "m",
+                     "Length of an outline that a resolution n divides; the larger "
+                     "side of its bounding box where not given.",
+                     above_zero));
     }
 
     void declare_material(PrmFile &prm)
@@ -132,9 +134,9 @@ namespace meltfront::cases
                      "What holds at the wall; exact: the exact solution's "
                      "temperature; heat transfer: a flux that the wall's difference "
                      "from the ambient temperature drives."));
-        prm.declare(wall,
-                    text_key("ambient temperature", "Of heat transfer: expression of x, "
-                                                    "y, z, t (K)."));
+        prm.declare(wall, text_key("ambient temperature",
+                                   "Temperature of the surroundings: expression of x, "
+                                   "y, z, t (K)."));
         prm.declare(wall,
                     number_key("heat transfer coefficient", "", "W/(m^2 K)",
                                "Heat flux per difference of temperature.", above_zero));
@@ -174,9 +176,9 @@ namespace meltfront::cases
               {"none", "neumann", "line sink", "point sink", "frank", "mushy layer",
                "oracle", "formula", "five-point lattice"},
               "The solution that is known; oracle: a spectral solution of the scene."));
-      prm.declare(exact,
-                  number_key("wall temperature", "", "K",
-                             "Of neumann; that of the wall x_min where not given."));
+      prm.declare(exact, number_key("wall temperature", "", "K",
+                                    "Wall temperature of Neumann's solution; that of the "
+                                    "wall x_min where not given."));
       prm.declare(exact,
                   number_key("far temperature", "", "K",
                              "Far from the wall or the sink; the initial temperature "
@@ -243,18 +245,18 @@ namespace meltfront::cases
                   integer_key("front mode", "0", 0, 1000,
                               "m: the amplitude of cos(m phi) in a circular front is "
                               "measured; 0: none."));
-      PrmEntry marks
-          = numbers_key("marks", "s",
+      PrmEntry intermediate_times
+          = numbers_key("intermediate times", "s",
                         "Times, ascending, at which the volume that is solid is "
                         "measured beside the end.");
-      marks.most_values = most_marks;
-      prm.declare(measure, marks);
+      intermediate_times.most_values = most_intermediate_times;
+      prm.declare(measure, intermediate_times);
       prm.declare(measure,
                   text_key("events",
                            "What is timed, separated by commas: first_contact of "
                            "the ice around two sinks, half_frozen, all_frozen."));
       prm.declare(measure,
-                  integer_key("picture mark", "0", 0, most_marks,
+                  integer_key("picture time number", "0", 0, most_intermediate_times,
                               "Number of the mark, from 1, at which a picture of the "
                               "scene is kept beside that of the end; 0: none."));
       prm.declare(measure,
@@ -292,7 +294,7 @@ namespace meltfront::cases
 
   PrmFile case_keys()
   {
-    PrmFile prm;
+    PrmFile prm(MELTFRONT_CASE_LIBRARY);
     declare_head(prm);
     declare_domain(prm);
     declare_material(prm);

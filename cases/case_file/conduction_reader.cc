@@ -12,7 +12,7 @@ namespace meltfront::cases
 {
   namespace
   {
-    const std::string release_keys = "Scene/Heat release";
+    const std::string release_keys = "Scene/Volumetric source";
     const std::string inclusion_keys = "Scene/Inclusion";
 
     std::string variables(const Scene &scene)
@@ -56,7 +56,7 @@ namespace meltfront::cases
       problem.upper = scene.domain.upper;
       problem.conductivity = scene.material.solid.conductivity;
       problem.intervals = static_cast<int>(prm.get_integer(exact_keys, "intervals"));
-      problem.heat_release = [release = scene.heat_release](const Position &p)
+      problem.volumetric_source = [release = scene.volumetric_source](const Position &p)
       { return release ? (*release)(p, 0) : 0.; };
       problem.wall_temperature = [&scene](const Position &p)
       {
@@ -91,14 +91,18 @@ namespace meltfront::cases
                          "y, z, t (W/m^3)."));
     prm.declare(
         inclusion_keys,
-        text_key("level set", "Where it is: expression of x, y, z, negative inside."));
+        text_key("level set",
+                 "Level set of the region: expression of x, y, z, negative inside."));
     prm.declare(inclusion_keys, number_key("conductivity", "", "W/(m K)",
                                            "Thermal conductivity inside.", above_zero));
+    prm.declare(
+        exact_keys,
+        text_key("temperature",
+                 "Temperature of the exact solution `formula`: expression of x, y, z, t "
+                 "(K)."));
     prm.declare(exact_keys,
-                text_key("temperature", "Of a formula: expression of x, y, z, t "
-                                        "(K)."));
-    prm.declare(exact_keys, integer_key("intervals", "101", 4, 2000,
-                                        "Of the five-point lattice, along each side."));
+                integer_key("intervals", "101", 4, 2000,
+                            "Intervals of the five-point lattice along each side."));
   }
 
   ProblemKind read_problem(const PrmFile &prm)
@@ -119,7 +123,7 @@ namespace meltfront::cases
       throw prm.subsection_error(release ? release_keys : inclusion_keys,
                                  "has no meaning where the material has a latent heat");
     if(release)
-      scene.heat_release
+      scene.volumetric_source
           = field(prm, release_keys, "power density", variables(scene) + "t");
     if(!inclusion)
       return;
@@ -175,26 +179,10 @@ namespace meltfront::cases
   void check_conduction(const PrmFile &prm, const Scene &scene,
                         const std::vector<Position> &points)
   {
-    const auto demand = [&](Effect effect, bool fulfilled, const std::string &missing)
-    {
-      const auto choice = scene.effect_choices.find(effect);
-      if(choice != scene.effect_choices.end() && choice->second == EffectChoice::on
-         && !fulfilled)
-        throw prm.error("Effects", to_string(effect),
-                        fmt::format("is on but {}", missing));
-    };
-    demand(Effect::heat_release, scene.heat_release.has_value(),
-           "there is no subsection 'Scene/Heat release'");
-    demand(Effect::inclusion, scene.inclusion.has_value(),
-           "there is no subsection 'Scene/Inclusion'");
-    bool transfer = false;
-    for(const Side side : scene.sides())
-      transfer |= scene.boundary(side).kind == BoundaryKind::heat_transfer;
-    demand(Effect::wall_transfer, transfer,
-           "no wall in subsection 'Scene/Walls' has the kind 'heat transfer'");
     for(const Position &p : points)
     {
-      if(scene.heat_release && !std::isfinite((*scene.heat_release)(p, scene.start_time)))
+      if(scene.volumetric_source
+         && !std::isfinite((*scene.volumetric_source)(p, scene.start_time)))
         throw prm.error(release_keys, "power density", "is not finite in the domain");
       if(scene.inclusion && !std::isfinite(scene.inclusion->level_set(p, 0)))
         throw prm.error(inclusion_keys, "level set", "is not finite in the domain");

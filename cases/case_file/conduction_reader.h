@@ -15,7 +15,7 @@ namespace meltfront::cases
   ProblemKind read_problem(const PrmFile &prm);
 
   /**
-   * Heat release and inclusion of a scene whose domain and material are known.
+   * Volumetric source and inclusion of a scene whose domain and material are known.
    * @throws InputError (file, line, key) also where the material changes phase: these
    * belong to conduction alone.
    */
@@ -28,8 +28,7 @@ namespace meltfront::cases
   /** Forbid the keys of solutions without a front for one of another kind. */
   void forbid_frontless_keys(const PrmFile &prm, const std::string &kind);
 
-  /** Effects that are switched on must have what they act on; heat release and inclusion
-   * must be finite. */
+  /** Volumetric source and inclusion must be finite. */
   void check_conduction(const PrmFile &prm, const Scene &scene,
                         const std::vector<Position> &points);
 } // namespace meltfront::cases

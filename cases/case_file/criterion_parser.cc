@@ -229,7 +229,8 @@ namespace meltfront::cases
     Criterion criterion;
     criterion.text = text;
     Cursor cursor(text);
-    criterion.method = parse_label(cursor.up_to(':', "'METHOD:'"));
+    const std::string label = cursor.up_to(':', "'METHOD:'");
+    criterion.method = label == any_method ? label : parse_label(label);
     if(cursor.take("fails"))
     {
       criterion.statistic = Statistic::failure;
@@ -256,13 +257,14 @@ namespace meltfront::cases
     read_bounds(cursor, criterion);
     if(cursor.take(";"))
     {
-      cursor.expect("known shortfall:");
-      criterion.known_shortfall = trimmed(text.substr(text.find("shortfall:") + 10));
-      if(criterion.known_shortfall.empty())
-        throw InputError("names a known shortfall without saying what it is");
+      const std::string tail = "expected failure:";
+      cursor.expect(tail);
+      criterion.expected_failure = trimmed(text.substr(text.find(tail) + tail.size()));
+      if(criterion.expected_failure.empty())
+        throw InputError("names an expected failure without saying what it is");
     }
     else if(!cursor.at_end())
-      cursor.fail("'; known shortfall:' or the end");
+      cursor.fail("'; expected failure:' or the end");
     return criterion;
   }
 

@@ -18,8 +18,9 @@ namespace meltfront::cases
    *   METHOD: fails at n=60
    *
    * those of order and worst with `over n=20..50` after the quantity if only some rows
-   * count, and each but the last with an optional tail `; known shortfall: SENTENCE`.
-   * METHOD may be a label with options, `fem-fitted[degree=2,time=bdf3]`.
+   * count, and each but the last with an optional tail `; expected failure: SENTENCE`.
+   * METHOD may be a label with options, `fem-fitted[degree=2,time=bdf3]`, or `any
+   * method`.
    *
    * @throws InputError with the reason alone (the caller knows file, line and key).
    */

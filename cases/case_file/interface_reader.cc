@@ -121,36 +121,42 @@ namespace meltfront::cases
                 word_key("kind", "ball", {"ball", "slotted disk", "half-space"},
                          "What a velocity carries along: a disk in the plane or a ball "
                          "in space, a disk with a slot, or all of x <= front."));
-    prm.declare(region_keys, numbers_key("centre", "m", "Of the disk or the ball."));
     prm.declare(region_keys,
-                number_key("radius", "", "m", "Of the disk or the ball.", above_zero));
+                numbers_key("centre", "m", "Centre of the disk or the ball."));
+    prm.declare(region_keys, number_key("radius", "", "m",
+                                        "Radius of the disk or the ball.", above_zero));
     prm.declare(region_keys,
-                number_key("slot width", "", "m", "Of a slotted disk.", above_zero));
+                number_key("slot width", "", "m", "Width of the slot.", above_zero));
     prm.declare(region_keys,
                 number_key("slot length", "", "m",
-                           "Of a slotted disk, from its lowest point up.", above_zero));
-    prm.declare(region_keys, number_key("front", "", "m", "Of a half-space."));
+                           "Length of the slot, from the disk's lowest point up.",
+                           above_zero));
+    prm.declare(region_keys,
+                number_key("front", "", "m", "Position of the half-space's front."));
     prm.declare(velocity_keys,
                 word_key("kind", "rigid", {"rigid", "vortex", "deformation", "formula"},
                          "rigid: translation and rotation in the plane; vortex: the "
                          "single vortex in the unit square; deformation: that of the "
                          "unit cube; formula: as the components say."));
-    prm.declare(velocity_keys, numbers_key("translation", "m/s",
-                                           "Of a rigid motion; zero where not "
-                                           "given."));
-    prm.declare(velocity_keys, number_key("angular velocity", "0", "1/s",
-                                          "Of a rigid motion, counterclockwise."));
+    prm.declare(velocity_keys,
+                numbers_key("translation", "m/s",
+                            "Translation velocity of a rigid motion; zero where not "
+                            "given."));
+    prm.declare(velocity_keys,
+                number_key("angular velocity", "0", "1/s",
+                           "Angular velocity of a rigid motion, counterclockwise."));
     prm.declare(velocity_keys, numbers_key("centre", "m",
-                                           "Of the rotation; the origin where not "
+                                           "Centre of the rotation; the origin where not "
                                            "given."));
-    prm.declare(velocity_keys, number_key("period", "", "s",
-                                          "After which a vortex or a deformation has "
-                                          "brought everything back.",
-                                          above_zero));
+    prm.declare(velocity_keys,
+                number_key("period", "", "s",
+                           "Period after which a vortex or a deformation has "
+                           "brought everything back.",
+                           above_zero));
     for(const char axis : {'x', 'y', 'z'})
       prm.declare(velocity_keys,
                   text_key(fmt::format("{} component", axis),
-                           "Of a formula: expression of x, y, z, t (m/s)."));
+                           "Velocity component, expression of x, y, z, t (m/s)."));
   }
 
   void read_interface(const PrmFile &prm, Scene &scene)

@@ -53,11 +53,12 @@ namespace meltfront::cases
                   text_key("stages", "STEPS x STRENGTH, STEPS x STRENGTH, ...: velocity "
                                      "added in each step at distance 1, in turn; the "
                                      "last holds on."));
-      prm.declare(heating_keys,
-                  number_key("power", "2", "",
-                             "Of the distance that the strength is divided by: 2 as "
-                             "printed, -2 as the figures of the report need.",
-                             -8, 8));
+      prm.declare(
+          heating_keys,
+          number_key("power", "2", "",
+                     "Power of the distance by which the strength is divided: 2 as "
+                     "printed, -2 as the figures of the report need.",
+                     -8, 8));
       prm.declare(heating_keys,
                   number_key("reach", "2.5", "", "Particles that are nearer are heated.",
                              above_zero));
@@ -171,7 +172,7 @@ namespace meltfront::cases
     declare_law(prm);
     prm.declare(solid_keys,
                 number_key("time step", "1e-4", "",
-                           "What base and source act once in: it is part of the model.",
+                           "Time step of the model, in which base and source act once.",
                            above_zero));
     prm.declare(solid_keys, number_key("gravity", "0", "", "Downward acceleration.", 0));
     prm.declare(solid_keys,
@@ -187,7 +188,7 @@ namespace meltfront::cases
     prm.declare(solid_keys,
                 numbers_key("corners", "", "Particles whose last bonds are looked for."));
     prm.declare(solid_keys, number_key("pressure", "0", "",
-                                       "On the cold end of a bar, force per length.", 0));
+                                       "Force per length on the cold end of a bar.", 0));
     declare_base_and_heating(prm);
   }
 

@@ -8,34 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
 namespace meltfront::cases
 {
   namespace
   {
-    std::string read_all(const std::string &path)
-    {
-      constexpr std::uintmax_t largest = 4 << 20;
-      std::error_code failure;
-      const auto status = std::filesystem::status(path, failure);
-      if(!std::filesystem::exists(status))
-        throw OutputError(fmt::format("{}: there is no such file", quotable(path)));
-      if(!std::filesystem::is_regular_file(status))
-        throw OutputError(
-            fmt::format("{}: is not a file that can be read", quotable(path)));
-      if(std::filesystem::file_size(path, failure) > largest)
-        throw InputError(fmt::format("{}:1: the file is larger than 4 MB, which no "
-                                     "parameter file is",
-                                     quotable(path)));
-      std::ifstream stream(path, std::ios::binary);
-      std::string text{std::istreambuf_iterator<char>(stream), {}};
-      if(!stream)
-        throw OutputError(fmt::format("{}: cannot be read", quotable(path)));
-      return text;
-    }
-
     std::string parent(const std::string &path)
     {
       const std::size_t slash = path.rfind('/');
@@ -72,8 +49,9 @@ namespace meltfront::cases
     };
   } // namespace
 
-  PrmFile::PrmFile()
+  PrmFile::PrmFile(std::string library)
     : handler(std::make_unique<dealii::ParameterHandler>())
+    , library(std::move(library))
   {
   }
   PrmFile::~PrmFile() = default;
@@ -104,16 +82,31 @@ namespace meltfront::cases
     declared.push_back({subsection, entry, count});
   }
 
+  void PrmFile::declare_in_each(const std::string &subsection,
+                                const std::string &placeholder, const PrmEntry &entry,
+                                int count)
+  {
+    in_each.push_back({subsection, placeholder, entry, count});
+  }
+
+  void PrmFile::declare_opened()
+  {
+    for(const InEach &each : in_each)
+      for(const std::string &name : subsections_of(each.subsection))
+        declare_numbered(each.subsection + "/" + name, each.entry, each.count);
+  }
+
   void PrmFile::read(const std::string &path)
   {
-    read_text(read_all(path), path);
+    read_text(read_prm_text(path), path);
   }
 
   void PrmFile::read_text(const std::string &text, const std::string &name)
   {
-    file = quotable(name);
-    content = text;
-    scan = scan_prm(text, file);
+    source = expand_includes(text, name, library);
+    scan = scan_prm(source);
+    comment_out_overridden();
+    declare_opened();
     check_subsections();
     for(const PrmAssignment &assignment : scan.assignments)
     {
@@ -123,9 +116,27 @@ namespace meltfront::cases
     }
   }
 
+  void PrmFile::comment_out_overridden()
+  {
+    if(scan.overridden.empty())
+      return;
+    std::string text;
+    std::size_t begin = 0;
+    for(int line = 1; begin < source.text.size(); ++line)
+    {
+      const std::size_t end = std::min(source.text.find('\n', begin), source.text.size());
+      const bool counts
+          = std::ranges::none_of(scan.overridden, [line](const auto &lines)
+                                 { return line >= lines.first && line <= lines.second; });
+      text += (counts ? "" : "# ") + source.text.substr(begin, end - begin) + "\n";
+      begin = end + 1;
+    }
+    source.text = text;
+  }
+
   const std::string &PrmFile::text() const
   {
-    return content;
+    return source.text;
   }
 
   void PrmFile::check_subsections() const
@@ -134,6 +145,8 @@ namespace meltfront::cases
     for(const Declared &key : keys)
       for(std::string path = key.subsection; !path.empty(); path = parent(path))
         children[parent(path)].push_back(path);
+    for(const InEach &each : in_each)
+      children[parent(each.subsection)].push_back(each.subsection);
     // A parent is ordered before its children, so that the outermost mistake is named.
     for(const auto &[path, line] : scan.subsections)
     {
@@ -148,8 +161,8 @@ namespace meltfront::cases
           = valid.empty() ? std::string("there is none to be opened there")
                           : fmt::format("the nearest valid subsection is '{}'",
                                         nearest_name(path.substr(0, 200), valid));
-      throw InputError(fmt::format("{}:{}: subsection '{}' is unknown {}; {}", file, line,
-                                   quotable(path), where, advice));
+      throw InputError(fmt::format("{}: subsection '{}' is unknown {}; {}",
+                                   source.place(line), quotable(path), where, advice));
     }
   }
 
@@ -229,6 +242,15 @@ namespace meltfront::cases
     return scan.subsections.contains(subsection);
   }
 
+  std::vector<std::string> PrmFile::subsections_of(const std::string &subsection) const
+  {
+    std::vector<std::string> names;
+    for(const auto &[path, line] : scan.subsections)
+      if(path.rfind('/') != std::string::npos && parent(path) == subsection)
+        names.push_back(path.substr(subsection.size() + 1));
+    return names;
+  }
+
   std::string PrmFile::value(const std::string &subsection, const std::string &key) const
   {
     const PrmEntry &entry = declaration(subsection, key);
@@ -305,24 +327,28 @@ namespace meltfront::cases
           line = opening->second;
           break;
         }
-    return InputError(
-        fmt::format("{}:{}: {} {}", file, line, name_of_key(subsection, key), problem));
+    return InputError(fmt::format("{}: {} {}", source.place(line),
+                                  name_of_key(subsection, key), problem));
   }
 
   InputError PrmFile::subsection_error(const std::string &subsection,
                                        const std::string &problem) const
   {
     const auto opening = scan.subsections.find(subsection);
-    return InputError(fmt::format("{}:{}: subsection '{}' {}", file,
-                                  opening == scan.subsections.end() ? 1 : opening->second,
+    const int line = opening == scan.subsections.end() ? 1 : opening->second;
+    return InputError(fmt::format("{}: subsection '{}' {}", source.place(line),
                                   quotable(subsection), problem));
   }
 
   std::string PrmFile::reference() const
   {
-    std::string text;
+    std::string text = "# include FILE: the lines of FILE stand here; it is searched "
+                       "beside this file, then in the library.\n";
     std::string current;
-    for(const Declared &key : declared)
+    std::vector<Declared> all = declared;
+    for(const InEach &each : in_each)
+      all.push_back({each.subsection + "/" + each.placeholder, each.entry, each.count});
+    for(const Declared &key : all)
     {
       if(key.subsection != current)
         text += fmt::format("\nsubsection {}\n", key.subsection);

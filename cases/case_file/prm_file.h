@@ -55,7 +55,9 @@ namespace meltfront::cases
   class PrmFile
   {
   public:
-    PrmFile();
+    /** @param library is the folder in which included files are searched that do not
+     * stand beside the file that includes them. */
+    explicit PrmFile(std::string library = {});
     ~PrmFile();
     PrmFile(PrmFile &&) noexcept;
     PrmFile &operator=(PrmFile &&) noexcept;
@@ -67,6 +69,11 @@ namespace meltfront::cases
     void declare_numbered(const std::string &subsection, const PrmEntry &entry,
                           int count);
 
+    /** Declare the keys `KEY 1` ... `KEY count` of every subsection of one, whatever its
+     * name; `placeholder` stands for that in the reference. */
+    void declare_in_each(const std::string &subsection, const std::string &placeholder,
+                         const PrmEntry &entry, int count);
+
     /**
      * Read a file.
      * @throws OutputError if it cannot be read, InputError if something in it is wrong.
@@ -76,7 +83,8 @@ namespace meltfront::cases
     /** Read a text; `file` is its name in messages. @throws InputError */
     void read_text(const std::string &text, const std::string &file);
 
-    /** The file's text. */
+    /** The file's text by itself: what it includes stands in it, and what is set anew
+     * later is a comment. */
     const std::string &text() const;
 
     /** Whether the file sets the key. */
@@ -84,6 +92,9 @@ namespace meltfront::cases
 
     /** Whether the file opens the subsection. */
     bool opened(const std::string &subsection) const;
+
+    /** Names of the subsections of one that the file opens, sorted. */
+    std::vector<std::string> subsections_of(const std::string &subsection) const;
 
     /** @throws InputError if the key has no default and the file does not set it. */
     double get_number(const std::string &subsection, const std::string &key) const;
@@ -124,6 +135,17 @@ namespace meltfront::cases
       int count = 0; ///< of a numbered key, 0 otherwise
     };
 
+    /** Keys of every subsection of one. */
+    struct InEach
+    {
+      std::string subsection;
+      std::string placeholder;
+      PrmEntry entry;
+      int count;
+    };
+
+    void declare_opened();
+    void comment_out_overridden();
     const PrmEntry &declaration(const std::string &subsection,
                                 const std::string &key) const;
     const PrmAssignment *assignment(const std::string &subsection,
@@ -136,8 +158,9 @@ namespace meltfront::cases
     std::unique_ptr<dealii::ParameterHandler> handler;
     std::vector<Declared> declared; ///< numbered keys once
     std::vector<Declared> keys;     ///< numbered keys one by one
-    std::string file;
-    std::string content;
+    std::vector<InEach> in_each;
+    std::string library;
+    PrmText source;
     PrmScan scan;
   };
 } // namespace meltfront::cases

@@ -1,8 +1,11 @@
 #ifndef meltfront_cases_case_file_prm_scan_h
 #define meltfront_cases_case_file_prm_scan_h
 
+#include <cases/case_file/prm_include.h>
+
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace meltfront::cases
@@ -21,6 +24,8 @@ namespace meltfront::cases
   {
     std::vector<PrmAssignment> assignments; ///< in the file's order
     std::map<std::string, int> subsections; ///< path -> line on which it first opens
+    /** First and last lines of what one file sets and another one sets again later. */
+    std::vector<std::pair<int, int>> overridden;
   };
 
   /**
@@ -33,6 +38,10 @@ namespace meltfront::cases
    * a key set twice, an `end` too few or too many, and bytes that are not UTF-8 text.
    */
   PrmScan scan_prm(const std::string &text, const std::string &file);
+
+  /** The same of a text put together from several files, of which the last one that sets
+   * a key counts; a file by itself may set it only once. */
+  PrmScan scan_prm(const PrmText &text);
 
   /** A text as it may stand in a message: at most 60 characters and nothing unprintable.
    */

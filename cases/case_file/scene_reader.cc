@@ -312,9 +312,9 @@ namespace meltfront::cases
     /** A scene that conducts none has no use for what belongs to heat. */
     void forbid_heat(const PrmFile &prm, const Scene &scene)
     {
-      std::vector<std::string> foreign{"Scene/Material",     "Scene/Walls",
-                                       initial_keys,         "Scene/Alloy",
-                                       "Scene/Heat release", "Scene/Inclusion"};
+      std::vector<std::string> foreign{
+          "Scene/Material",          "Scene/Walls",    initial_keys, "Scene/Alloy",
+          "Scene/Volumetric source", "Scene/Inclusion"};
       if(scene.problem == ProblemKind::particle_solid)
         foreign.emplace_back("Scene/Domain");
       for(const std::string &here : opened_sources(prm))
@@ -425,8 +425,8 @@ namespace meltfront::cases
       find_breakpoints_of(prm, wall_keys(side), key, scene, some_of(positions),
                           boundary.value);
     }
-    if(scene.heat_release)
-      find_breakpoints_of(prm, "Scene/Heat release", "power density", scene,
-                          some_of(sample_points(scene.domain)), *scene.heat_release);
+    if(scene.volumetric_source)
+      find_breakpoints_of(prm, "Scene/Volumetric source", "power density", scene,
+                          some_of(sample_points(scene.domain)), *scene.volumetric_source);
   }
 } // namespace meltfront::cases

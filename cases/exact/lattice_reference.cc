@@ -41,7 +41,7 @@ namespace meltfront::cases
       for(std::size_t i = 1; i <= inner; ++i)
       {
         const int row = unknown(i, j);
-        right[row] = problem.heat_release(position(i, j)) * spacing * spacing
+        right[row] = problem.volumetric_source(position(i, j)) * spacing * spacing
                      / problem.conductivity;
         entries.emplace_back(row, row, 4.);
         const std::array<std::array<std::size_t, 2>, 4> neighbours{

@@ -12,9 +12,9 @@ namespace meltfront::cases
   /** A steady rectangle to be solved on a fine lattice. */
   struct LatticeProblem
   {
-    Position lower{}, upper{};                            ///< corners (m)
-    double conductivity = 1;                              ///< W/(m K)
-    std::function<double(const Position &)> heat_release; ///< W/m^3
+    Position lower{}, upper{};                                 ///< corners (m)
+    double conductivity = 1;                                   ///< W/(m K)
+    std::function<double(const Position &)> volumetric_source; ///< W/m^3
     std::function<double(const Position &)> wall_temperature;
     int intervals = 101; ///< of the lattice along each side
   };

@@ -57,7 +57,7 @@ namespace
             [power](double time) { return power * time; }};
   }
 
-  /** Takes slabs with insulated and held walls whose front is there at the start. */
+  /** Takes slabs with insulated and Dirichlet walls whose front is there at the start. */
   Capabilities modest()
   {
     return {.problems = {ProblemKind::stefan},

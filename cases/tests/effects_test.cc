@@ -33,7 +33,7 @@ namespace
     scene.boundaries[1] = Boundary{BoundaryKind::flux, Field::uniform(7)};
     scene.boundaries[2]
         = Boundary{BoundaryKind::heat_transfer, Field::uniform(0), false, 1};
-    scene.heat_release = Field::uniform(1);
+    scene.volumetric_source = Field::uniform(1);
     scene.inclusion = Inclusion{Field::uniform(-1), 3};
     scene.sources.resize(2);
     for(PointSource &source : scene.sources)

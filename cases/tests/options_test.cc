@@ -46,6 +46,15 @@ TEST(Options, StartWithTheirDefaults)
   EXPECT_EQ(options.get_string("kernel"), "cubic");
 }
 
+TEST(Options, NearestIsWhatHoldsTheWordOrWasOnceCalledSo)
+{
+  EXPECT_EQ(nearest_name("scheme", {"steps", "time_scheme"}), "time_scheme");
+  EXPECT_EQ(nearest_name("smoothing_length", {"stages", "smoothing"}), "smoothing");
+  EXPECT_EQ(nearest_name("particles", {"stages", "cells"}), "cells");
+  EXPECT_EQ(nearest_name("particles", {"stages", "particle"}), "particle");
+  EXPECT_EQ(nearest_name("stage", {"steps", "stages"}), "stages");
+}
+
 TEST(Options, TakeValuesFromText)
 {
   Options options = sample_options();

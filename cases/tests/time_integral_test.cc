@@ -190,9 +190,9 @@ namespace
     EXPECT_EQ(temperature_bounds(scene).lower, 1.2);
     EXPECT_TRUE(std::isinf(temperature_bounds(scene).upper));
     scene.boundaries[0] = Boundary();
-    scene.heat_release = pulse();
+    scene.volumetric_source = pulse();
     EXPECT_TRUE(std::isinf(temperature_bounds(scene).upper));
-    scene.heat_release = Field::uniform(0);
+    scene.volumetric_source = Field::uniform(0);
     EXPECT_EQ(temperature_bounds(scene).upper, 1.2);
   }
 

@@ -44,7 +44,7 @@ namespace meltfront::particles
                                    const ParticleOperator &heat_rows)
     : substance(substance)
     , n(dis.particles.size())
-    , held(dis.held)
+    , dirichlet(dis.dirichlet)
     , eutectic_concentration(concentration_at_eutectic(substance))
   {
     meter.measure_setup(
@@ -87,7 +87,7 @@ namespace meltfront::particles
             for(std::size_t s = 0; s < concentration.size(); ++s)
               in_liquid[s * size + a] = share > 0 ? concentration[s][a] / share : 0.;
           }
-          for(const std::uint32_t a : held)
+          for(const std::uint32_t a : dirichlet)
             mobility[a] = 0;
         });
   }
@@ -139,7 +139,7 @@ namespace meltfront::particles
   {
     const std::size_t bytes = sizeof(closing[0]) * closing.size()
                               + sizeof(double) * (mobility.size() + in_liquid.size())
-                              + sizeof(std::uint32_t) * held.size() + further_bytes;
+                              + sizeof(std::uint32_t) * dirichlet.size() + further_bytes;
     cases::EffectCost cost = meter.cost(cases::Effect::solute_diffusion, bytes);
     const cases::EffectCost joint = joint_meter.cost(cases::Effect::solute_diffusion, 0);
     cost.calls += joint.calls;

@@ -97,8 +97,8 @@ namespace meltfront::particles
 
     const AlloySubstance &substance;
     std::size_t n;
-    std::vector<std::uint32_t> held; ///< solid wall particles, which take no solute
-    double eutectic_concentration;   ///< of a single solute
+    std::vector<std::uint32_t> dirichlet; ///< solid wall particles, which take no solute
+    double eutectic_concentration;        ///< of a single solute
     double largest_row_sum;
     /** Coefficients with closed walls minus those of the heat. */
     std::vector<ParticleOperator::Entry> closing;

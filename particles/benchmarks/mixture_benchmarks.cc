@@ -1,7 +1,7 @@
-#include <particles/alloy/mixture_conduction.h>
 #include <particles/alloy/solute_diffusion.h>
 #include <particles/benchmarks/benchmarks.h>
 #include <particles/benchmarks/table.h>
+#include <particles/sph_mixture/mixture_conduction.h>
 
 #include <fmt/format.h>
 

@@ -241,7 +241,7 @@ namespace meltfront::particles::greenspan
         snapshot.solid_fraction = solid;
         snapshot.front[0] = {&front, 1};
         snapshot.obeys_maximum_principle = false;
-        snapshot.heat.booked = false;
+        snapshot.heat.conservative = false;
         return snapshot;
       }
 

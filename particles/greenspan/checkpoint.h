@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_greenspan_checkpoint_h
 #define meltfront_particles_greenspan_checkpoint_h
 
-#include <particles/greenspan/witness.h>
+#include <particles/greenspan/diagnostics.h>
 
 #include <optional>
 #include <string>
@@ -13,7 +13,7 @@ namespace meltfront::particles::greenspan
   {
     std::string run; ///< what run it is of, see run_fingerprint()
     ParticleState state;
-    Witness::Memory memory;
+    Diagnostics::Memory memory;
     double initial_energy = 0;
     double energy_error = 0; ///< largest change of the energy so far
   };

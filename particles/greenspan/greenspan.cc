@@ -1,13 +1,13 @@
 #include <cases/error.h>
 #include <cases/numbers.h>
-#include <cases/outcomes.h>
+#include <cases/reported_scalars.h>
 #include <cases/run.h>
 #include <cases/scene.h>
 #include <particles/greenspan/bar_run.h>
 #include <particles/greenspan/checkpoint.h>
+#include <particles/greenspan/diagnostics.h>
 #include <particles/greenspan/greenspan.h>
 #include <particles/greenspan/scene_experiment.h>
-#include <particles/greenspan/witness.h>
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ namespace meltfront::particles
                       ? std::optional<Checkpoint>()
                       : read_checkpoint(options.checkpoint, experiment))
         , motion(experiment.parameters, resumed ? resumed->state : experiment.start)
-        , witness(experiment)
+        , diagnostics(experiment)
         , conserves_energy(!experiment.parameters.base && !experiment.parameters.source)
       {
         if(options.checkpoint_interval % experiment.interval != 0)
@@ -94,7 +94,7 @@ namespace meltfront::particles
         }
         if(!options.checkpoint.empty())
           std::filesystem::remove(options.checkpoint); // it has served
-        tell_outcomes();
+        tell_reported_scalars();
       }
 
       long unknowns() const
@@ -110,7 +110,7 @@ namespace meltfront::particles
 
       void go_on()
       {
-        witness.remember(resumed->memory);
+        diagnostics.remember(resumed->memory);
         initial_energy = resumed->initial_energy;
         energy_error = resumed->energy_error;
         state = motion.state();
@@ -126,14 +126,14 @@ namespace meltfront::particles
         if(options.checkpoint.empty() || motion.step() % options.checkpoint_interval != 0)
           return;
         write_checkpoint(options.checkpoint,
-                         {run_fingerprint(experiment), motion.state(), witness.memory(),
-                          initial_energy, energy_error});
+                         {run_fingerprint(experiment), motion.state(),
+                          diagnostics.memory(), initial_energy, energy_error});
       }
 
       void look()
       {
         state = motion.state();
-        witness.look(state);
+        diagnostics.look(state);
         if(conserves_energy)
           energy_error = std::max(energy_error,
                                   std::abs(motion.energy().total() - initial_energy));
@@ -143,7 +143,7 @@ namespace meltfront::particles
       cases::Snapshot snapshot(long step, double time) override
       {
         weights.assign(state.size(), 1);
-        solid.assign(witness.solid().begin(), witness.solid().end());
+        solid.assign(diagnostics.solid().begin(), diagnostics.solid().end());
         temperature.resize(state.size());
         if(!state.kinetic_sum.empty() && state.step > 0)
           temperature = temperatures(state);
@@ -166,15 +166,15 @@ namespace meltfront::particles
         snapshot.weights = weights;
         snapshot.temperature = temperature;
         snapshot.solid_fraction = solid;
-        snapshot.heat.booked = false;
+        snapshot.heat.conservative = false;
         return snapshot;
       }
 
-      void tell_outcomes()
+      void tell_reported_scalars()
       {
-        const RunRecord &record = witness.record();
+        const RunRecord &record = diagnostics.record();
         const auto step = [&](const char *name, long value)
-        { outcome(name, value < 0 ? nan : static_cast<double>(value)); };
+        { report(name, value < 0 ? nan : static_cast<double>(value)); };
         step("first_break", record.first_break);
         step("first_fluid", record.first_fluid);
         step("unheated_from", record.unheated);
@@ -195,23 +195,23 @@ namespace meltfront::particles
                {"highest_y", record.highest_y},
                {"kinetic_energy_end", record.kinetic_energy}};
         for(const auto &[name, value] : counts)
-          outcome(name, value);
+          report(name, value);
         if(experiment.parameters.temperatures)
-          outcome("mean_temperature_end", record.mean_temperature);
+          report("mean_temperature_end", record.mean_temperature);
         if(conserves_energy)
-          outcome("energy_error", energy_error);
+          report("energy_error", energy_error);
         for(std::size_t c = 0; c < record.corners.size(); ++c)
         {
           const bool lost = record.corners[c].step >= 0;
-          outcome(fmt::format("corner_{}_temperature", c + 1),
-                  lost ? record.corners[c].temperature : nan);
-          outcome(fmt::format("corner_{}_step", c + 1),
-                  lost ? static_cast<double>(record.corners[c].step) : nan);
+          report(fmt::format("corner_{}_temperature", c + 1),
+                 lost ? record.corners[c].temperature : nan);
+          report(fmt::format("corner_{}_step", c + 1),
+                 lost ? static_cast<double>(record.corners[c].step) : nan);
         }
         if(motion.size() <= cases::most_named_particles)
           for(std::uint32_t particle = 1; particle <= motion.size(); ++particle)
-            outcome(fmt::format("fluid_end_{}", particle),
-                    std::ranges::find(fluid, particle) != fluid.end());
+            report(fmt::format("fluid_end_{}", particle),
+                   std::ranges::find(fluid, particle) != fluid.end());
       }
 
       const cases::Scene &scene;
@@ -220,7 +220,7 @@ namespace meltfront::particles
       SolidOptions options;
       std::optional<Checkpoint> resumed;
       Motion motion;
-      Witness witness;
+      Diagnostics diagnostics;
       bool conserves_energy;
       double initial_energy = 0;
       double energy_error = 0;

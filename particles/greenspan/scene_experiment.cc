@@ -116,7 +116,7 @@ namespace meltfront::particles::greenspan
     options.add("neighbours", search,
                 "How neighbours are found: cells for large solids, or all pairs.",
                 {{"automatic", NeighbourRows::Search::automatic},
-                 {"all pairs", NeighbourRows::Search::among_all}});
+                 {"all-pairs", NeighbourRows::Search::among_all}});
     options.add("step_factor", step_factor,
                 "Time step over that of the scene, where nothing acts once per step.",
                 0.01, 10);

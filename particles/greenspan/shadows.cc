@@ -22,19 +22,19 @@ namespace meltfront::particles::greenspan
       /** Add an interval. @return the length of it that was not yet covered */
       double add(double begin, double end)
       {
-        double fresh = end - begin, low = begin, high = end;
+        double uncovered = end - begin, low = begin, high = end;
         auto next = intervals.upper_bound(begin);
         if(next != intervals.begin() && std::prev(next)->second >= begin)
           --next;
         while(next != intervals.end() && next->first <= end)
         {
-          fresh -= std::min(end, next->second) - std::max(begin, next->first);
+          uncovered -= std::min(end, next->second) - std::max(begin, next->first);
           low = std::min(low, next->first);
           high = std::max(high, next->second);
           next = intervals.erase(next);
         }
         intervals[low] = high;
-        return std::max(0., fresh);
+        return std::max(0., uncovered);
       }
 
     private:

@@ -79,13 +79,13 @@ namespace meltfront::particles
     void FrontOptions::bind(cases::OptionBinder &options)
     {
       options.add("cfl", transport.courant_number,
-                  "Part of a spacing that the fastest component of the velocity crosses "
-                  "in a step.",
+                  "CFL number: time step times the largest component of the velocity "
+                  "over the spacing.",
                   0.01, 1);
       options.add("reinitialise_every", transport.reinitialise_every,
                   "Steps from one reinitialisation to the next; 0: never.", 0, 1e6);
-      options.add("iterations", transport.iterations, "Of one reinitialisation.", 1,
-                  1000);
+      options.add("iterations", transport.iterations,
+                  "Iterations of one reinitialisation.", 1, 1000);
       options.add("band_layers", band_layers,
                   "Layers of nodes beside the front that are computed; 0: the whole "
                   "grid.",
@@ -113,7 +113,8 @@ namespace meltfront::particles
                   "By how many spacings the grid's front lies off at the start, which "
                   "the markers know better: a test of corrections.",
                   -3, 3);
-      options.add("offset_y", offset_y, "The same along y.", -3, 3);
+      options.add("offset_y", offset_y,
+                  "Offset of the grid's front along y, as offset_x.", -3, 3);
       options.add("steps_at_rest", steps_at_rest,
                   "Corrections where the velocity is zero.", 1, 1000);
       if(scheme == Scheme::corrected)
@@ -312,7 +313,7 @@ namespace meltfront::particles
         snapshot.front_curvature = curvatures;
         snapshot.level_set
             = [this](const Position &point) { return front->value(point); };
-        snapshot.heat.booked = false;
+        snapshot.heat.conservative = false;
         return snapshot;
       }
 

@@ -38,7 +38,7 @@ namespace meltfront::particles::level_set
       for(int stage = 0; stage < 3; ++stage)
       {
         prepare(stage);
-        const double fresh = share[stage];
+        const double weight = share[stage];
 #pragma omp parallel num_threads(level_set.parameters().threads)
         {
 #pragma omp for schedule(static)
@@ -56,7 +56,7 @@ namespace meltfront::particles::level_set
             for(int n = 0; n < runs[r].length; ++n)
             {
               // in this form what has no rate stays as it is to the bit
-              value[n] = first[n] + fresh * (value[n] - first[n] + length * change[n]);
+              value[n] = first[n] + weight * (value[n] - first[n] + length * change[n]);
               good = good && std::abs(value[n]) < 1e300;
             }
           }

@@ -99,8 +99,8 @@ namespace meltfront::particles
         const std::vector<BoundaryKind> walls{
             BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
             BoundaryKind::heat_transfer};
-        std::vector<Effect> effects{Effect::heat_release, Effect::wall_temperature,
-                                    Effect::wall_flux, Effect::wall_transfer};
+        std::vector<Effect> effects{Effect::volumetric_source, Effect::wall_temperature,
+                                    Effect::wall_flux, Effect::robin_wall};
         // Where the kernel is differentiated, or each neighbour has a dilation of its
         // own, supports that are cut at a jump make single rows large: a steady slab was
         // wrong by up to a fifth of its span at some n, and right at the next.

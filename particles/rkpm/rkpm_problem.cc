@@ -239,7 +239,7 @@ namespace meltfront::particles::rkpm
   {
     ++evaluations;
     std::ranges::fill(source, 0.);
-    if(scene.heat_release)
+    if(scene.volumetric_source)
     {
       const cases::ScopedTimer timer(release_seconds);
       for(const std::uint32_t i : nodes.inner)
@@ -325,16 +325,16 @@ namespace meltfront::particles::rkpm
         costs.push_back({effect, calls, static_cast<long>(bytes), seconds});
     };
     using cases::Effect;
-    add(Effect::heat_release, 0, release_seconds, evaluations);
+    add(Effect::volumetric_source, 0, release_seconds, evaluations);
     add(Effect::inclusion, nodes.region.size() * sizeof(Region), inclusion_seconds, 1);
     // One pass serves all walls: its time and memory are shared evenly.
     const std::size_t bytes = walls.size() * sizeof(WallCondition);
     long kinds = 0;
     for(const Effect effect :
-        {Effect::wall_temperature, Effect::wall_flux, Effect::wall_transfer})
+        {Effect::wall_temperature, Effect::wall_flux, Effect::robin_wall})
       kinds += effects.contains(effect);
     for(const Effect effect :
-        {Effect::wall_temperature, Effect::wall_flux, Effect::wall_transfer})
+        {Effect::wall_temperature, Effect::wall_flux, Effect::robin_wall})
       add(effect, bytes / std::max(kinds, 1L), wall_seconds / double(std::max(kinds, 1L)),
           evaluations);
     return costs;

@@ -30,8 +30,8 @@ namespace meltfront::particles
          boundary.kind == cases::BoundaryKind::flux
          || boundary.kind == cases::BoundaryKind::heat_transfer)
         walls[static_cast<std::size_t>(side)].emplace(boundary.value);
-    if(scene.heat_release)
-      released.emplace(*scene.heat_release);
+    if(scene.volumetric_source)
+      released.emplace(*scene.volumetric_source);
   }
 
   const cases::TimeMean &GivenValues::mean_of(const cases::Boundary &boundary) const

@@ -18,18 +18,18 @@ namespace meltfront::particles
     snapshot.temperature = temperatures();
     snapshot.solid_fraction = solid_fraction;
     snapshot.obeys_maximum_principle = obeys_maximum_principle();
-    snapshot.heat.booked = static_cast<bool>(problem.inflow);
-    if(snapshot.heat.booked && steady())
+    snapshot.heat.conservative = static_cast<bool>(problem.inflow);
+    if(snapshot.heat.conservative && steady())
     {
       // Without release the walls' sum is round-off, with nothing to relate it to.
       const HeatInflow inflow = problem.inflow(steady_step(time), unknowns);
-      snapshot.heat.booked = inflow.released != 0;
+      snapshot.heat.conservative = inflow.released != 0;
       snapshot.heat.boundary = inflow.through_walls;
       snapshot.heat.sources = inflow.released;
     }
-    else if(snapshot.heat.booked)
+    else if(snapshot.heat.conservative)
     {
-      snapshot.heat = booked;
+      snapshot.heat = heat;
       snapshot.heat.stored = stored_heat();
       snapshot.heat.initial = initial_heat;
     }

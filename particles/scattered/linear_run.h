@@ -89,7 +89,7 @@ namespace meltfront::particles
     std::vector<double> temperature; ///< where the unknowns are not them
     std::vector<double> solid_fraction;
     double initial_heat = 0;
-    cases::HeatBudget booked, booked_before; ///< boundary and sources
+    cases::HeatBudget heat, heat_before; ///< boundary and sources
     long work = 0, iterations = 0, most_iterations = 0;
     long matrix_entries = 0, entries_per_solve = 0;
     double worst_residual = 0;

@@ -94,7 +94,7 @@ namespace meltfront::particles
       starting.emplace(
           make_solver(sum_of(1 / length, problem.mass, -1, problem.operator_rows), k));
     before = unknowns;
-    booked_before = booked;
+    heat_before = heat;
     take_euler_step(*starting, k, end, length);
     if(breakpoints.empty())
       starting.reset();
@@ -110,10 +110,10 @@ namespace meltfront::particles
     set_load(1 / length, previous, step);
     solve(solver, k, end);
     // What has flowed in obeys the recursion of what is stored.
-    const cases::HeatBudget last = booked;
-    booked.boundary = (4 * last.boundary - booked_before.boundary) / 3;
-    booked.sources = (4 * last.sources - booked_before.sources) / 3;
-    booked_before = last;
+    const cases::HeatBudget last = heat;
+    heat.boundary = (4 * last.boundary - heat_before.boundary) / 3;
+    heat.sources = (4 * last.sources - heat_before.sources) / 3;
+    heat_before = last;
     book(step, length, 2. / 3);
   }
 
@@ -127,7 +127,7 @@ namespace meltfront::particles
     if(!problem.inflow)
       return;
     const HeatInflow inflow = problem.inflow(step, unknowns);
-    booked.boundary += share * length * inflow.through_walls;
-    booked.sources += share * length * inflow.released;
+    heat.boundary += share * length * inflow.through_walls;
+    heat.sources += share * length * inflow.released;
   }
 } // namespace meltfront::particles

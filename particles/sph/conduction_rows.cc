@@ -57,7 +57,7 @@ namespace meltfront::particles
         normalise_flux_areas();
         for(const WallLink &link : result.temperature_links)
           row_sum[link.row] += link.strength;
-        for(const std::uint32_t a : dis.held)
+        for(const std::uint32_t a : dis.dirichlet)
           row_sum[a] = 0;
         result.wall_cells = dis.wall_cells;
         result.take_per_cell(row_sum);

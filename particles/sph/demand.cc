@@ -38,9 +38,10 @@ namespace meltfront::particles
         return p.steps;
       if(p.step_error > 0)
         return 0;
-      const double step = p.step_factor > 0
-                              ? p.step_factor * monotone_step_of(p, scene, spacing)
-                              : published_step(scene.material, p.smoothing * spacing);
+      const double step
+          = p.step_factor > 0
+                ? p.step_factor * monotone_step_of(p, scene, spacing)
+                : published_step(scene.material, p.smoothing_length * spacing);
       const double steps = (scene.end_time - scene.start_time) / step;
       return p.time_scheme == TimeScheme::rkl2 ? steps / super_step_reach(p.stages)
                                                : steps;
@@ -52,7 +53,7 @@ namespace meltfront::particles
   {
     const double spacing = lattice_spacing(scene.domain.side(), p.n, p.layout);
     const double reach
-        = SmoothingKernel(p.kernel, p.dimension, p.smoothing * spacing).support()
+        = SmoothingKernel(p.kernel, p.dimension, p.smoothing_length * spacing).support()
           / spacing;
     const double neighbours = cases::points_within(p.dimension, reach);
     return {cases::program_bytes

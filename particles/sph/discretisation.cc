@@ -82,7 +82,7 @@ namespace meltfront::particles
     , dimension(p.dimension)
     , layout(p.layout)
     , spacing(lattice_spacing(scene.domain.side(), p.n, p.layout))
-    , kernel(p.kernel, p.dimension, p.smoothing * spacing)
+    , kernel(p.kernel, p.dimension, p.smoothing_length * spacing)
     , displaced(p.jitter > 0 || p.arrangement >= Arrangement::random)
     , particle_volume(power(spacing, p.dimension))
     , cross_section(1)
@@ -99,7 +99,7 @@ namespace meltfront::particles
     weights.assign(particles.size(), particle_volume / cross_section);
     if(!p.whole_cells)
       share_what_cells_miss();
-    find_held_particles();
+    find_dirichlet_particles();
   }
 
   /** Particles beside walls that bend stand for what the cells leave out. */
@@ -333,7 +333,7 @@ namespace meltfront::particles
            < 1e-6 * spacing;
   }
 
-  void Discretisation::find_held_particles()
+  void Discretisation::find_dirichlet_particles()
   {
     if(layout == LatticeLayout::cell_centred)
       return;
@@ -347,7 +347,7 @@ namespace meltfront::particles
           weights[i] *= 0.5; // half of its cell lies outside the domain
         }
       if(holds)
-        held.push_back(i);
+        dirichlet.push_back(i);
     }
   }
 } // namespace meltfront::particles

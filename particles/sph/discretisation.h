@@ -106,7 +106,7 @@ namespace meltfront::particles
     std::vector<WallCell> wall_cells;
     /** Particles on a wall of prescribed temperature (edge layout), which hold its value.
      */
-    std::vector<std::uint32_t> held;
+    std::vector<std::uint32_t> dirichlet;
 
   private:
     void fill_slab_or_box(const SphParameters &parameters);
@@ -122,7 +122,7 @@ namespace meltfront::particles
     void disturb(const SphParameters &parameters);
     void scatter_in_box(const SphParameters &parameters);
     ParticleStorage lattice_around_box() const;
-    void find_held_particles();
+    void find_dirichlet_particles();
   };
 } // namespace meltfront::particles
 

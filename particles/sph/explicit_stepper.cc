@@ -36,16 +36,16 @@ namespace meltfront::particles
                            [this](double fraction, std::vector<double> &flow)
                            { return heat_flow.evaluate(enthalpy, fraction, flow); })
                              : euler_steps(end - begin);
-    double held_heat = finish();
+    double dirichlet_heat = finish();
     if(super && breaks_bounds())
     {
       scheme.restore(enthalpy);
       heat_flow.follow(enthalpy);
       wall_heat = euler_steps(end - begin);
-      held_heat = finish();
+      dirichlet_heat = finish();
       ++repeated;
     }
-    book(wall_heat, held_heat);
+    book(wall_heat, dirichlet_heat);
   }
 
   double ExplicitStepper::euler_steps(double duration)

@@ -40,8 +40,8 @@ namespace meltfront::particles
       mapped.resize(padded_size());
     if(effects.contains(Effect::heat_sources))
       heat_sources.emplace(dis);
-    if(effects.contains(Effect::heat_release))
-      heat_release.emplace(dis);
+    if(effects.contains(Effect::volumetric_source))
+      volumetric_source.emplace(dis);
     if(effects.contains(Effect::wall_temperature))
       wall_temperature.emplace(dis, conduction, variable);
     if(effects.contains(Effect::wall_flux))
@@ -52,8 +52,8 @@ namespace meltfront::particles
   {
     if(heat_sources)
       heat_sources->prepare_step(begin, end);
-    if(heat_release)
-      heat_release->prepare_step(begin, end);
+    if(volumetric_source)
+      volumetric_source->prepare_step(begin, end);
     if(wall_temperature)
       wall_temperature->prepare_step(begin, end);
     if(wall_flux)
@@ -109,8 +109,8 @@ namespace meltfront::particles
       front_exchange->apply(conduction.rows, state, flow);
     if(heat_sources)
       heat_sources->add(flow, scale());
-    if(heat_release)
-      heat_release->add(flow, scale());
+    if(volumetric_source)
+      volumetric_source->add(flow, scale());
     double through_walls = 0;
     if(wall_flux)
       through_walls += wall_flux->add(fraction, flow, scale());
@@ -123,7 +123,7 @@ namespace meltfront::particles
   double HeatFlow::source_heat(double time) const
   {
     return (heat_sources ? heat_sources->heat(time) : 0.)
-           + (heat_release ? heat_release->heat(time) : 0.);
+           + (volumetric_source ? volumetric_source->heat(time) : 0.);
   }
 
   double HeatFlow::monotone_step(double particle_mass) const
@@ -182,8 +182,8 @@ namespace meltfront::particles
       add(front_exchange->cost(exchange_effect));
     if(heat_sources)
       add(heat_sources->cost());
-    if(heat_release)
-      add(heat_release->cost());
+    if(volumetric_source)
+      add(volumetric_source->cost());
     if(effects.contains(Effect::inclusion))
       add(conduction.inclusion_cost);
     if(wall_temperature)

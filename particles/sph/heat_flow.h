@@ -3,9 +3,9 @@
 
 #include <particles/sph/conduction_rows.h>
 #include <particles/sph/front_exchange.h>
-#include <particles/sph/heat_release.h>
 #include <particles/sph/heat_sources.h>
 #include <particles/sph/phase_map.h>
+#include <particles/sph/volumetric_source.h>
 #include <particles/sph/wall_flux.h>
 #include <particles/sph/wall_temperature.h>
 
@@ -134,7 +134,7 @@ namespace meltfront::particles
     Extremes extremes{};           ///< of the conduction variable
     std::optional<FrontExchange> front_exchange;
     std::optional<HeatSources> heat_sources;
-    std::optional<HeatRelease> heat_release;
+    std::optional<VolumetricSource> volumetric_source;
     std::optional<WallTemperature> wall_temperature;
     std::optional<WallFlux> wall_flux;
     Derivative derivative;

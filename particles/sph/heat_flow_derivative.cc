@@ -46,7 +46,7 @@ namespace meltfront::particles
       derivative.diagonal[a] += derivative.wall_diagonal[a];
     conduction.take_per_cell(derivative.diagonal);
     if(wall_temperature)
-      for(const std::uint32_t row : wall_temperature->held_rows())
+      for(const std::uint32_t row : wall_temperature->dirichlet_rows())
         derivative.diagonal[row] = 0;
   }
 
@@ -78,7 +78,7 @@ namespace meltfront::particles
       flow_change[a] += derivative.wall_diagonal[a] * h[a];
     conduction.take_per_cell(flow_change);
     if(wall_temperature)
-      for(const std::uint32_t row : wall_temperature->held_rows())
+      for(const std::uint32_t row : wall_temperature->dirichlet_rows())
         flow_change[row] = 0;
     std::fill(flow_change.begin() + static_cast<std::ptrdiff_t>(n), flow_change.end(),
               0.);

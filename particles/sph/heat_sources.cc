@@ -17,7 +17,7 @@ namespace meltfront::particles
     const bool plane = dis.scene.domain.shape == cases::DomainShape::slab;
     for(std::size_t s = 0; s < sources.size(); ++s)
     {
-      const std::size_t first = shares.size();
+      const std::size_t first = weights.size();
       double sum = 0;
       for(std::size_t a = 0; a < dis.particles.size(); ++a)
       {
@@ -31,7 +31,7 @@ namespace meltfront::particles
         const double weight = dis.kernel.value(std::sqrt(squared));
         if(weight > 0)
         {
-          shares.push_back(
+          weights.push_back(
               {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(s), weight});
           sum += weight;
         }
@@ -39,8 +39,8 @@ namespace meltfront::particles
       if(sum == 0)
         throw cases::Refusal(fmt::format(
             "no particle lies within the kernel's support of source {}", s + 1));
-      for(std::size_t i = first; i < shares.size(); ++i)
-        shares[i].weight /= sum;
+      for(std::size_t i = first; i < weights.size(); ++i)
+        weights[i].weight /= sum;
     }
   }
 
@@ -56,8 +56,8 @@ namespace meltfront::particles
     meter.measure(
         [&]
         {
-          for(const Share &share : shares)
-            flow[share.row] += share.weight * power[share.source] / flow_scale;
+          for(const Weight &source : weights)
+            flow[source.row] += source.weight * power[source.source] / flow_scale;
         });
   }
 
@@ -72,6 +72,6 @@ namespace meltfront::particles
   cases::EffectCost HeatSources::cost() const
   {
     return meter.cost(cases::Effect::heat_sources,
-                      shares.size() * sizeof(Share) + power.size() * sizeof(double));
+                      weights.size() * sizeof(Weight) + power.size() * sizeof(double));
   }
 } // namespace meltfront::particles

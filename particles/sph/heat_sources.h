@@ -35,7 +35,7 @@ namespace meltfront::particles
     cases::EffectCost cost() const;
 
   private:
-    struct Share
+    struct Weight
     {
       std::uint32_t row;
       std::uint32_t source;
@@ -45,7 +45,7 @@ namespace meltfront::particles
     double scale; ///< from the source's unit to that of the simulated strip
     const std::vector<cases::PointSource> &sources;
     double start_time;
-    std::vector<Share> shares;
+    std::vector<Weight> weights;
     std::vector<double> power;
     cases::EffectMeter meter;
   };

@@ -75,7 +75,7 @@ namespace meltfront::particles
     if(subject.attempt(begin, end, with, added))
     {
       heat.through += added.through;
-      heat.held += added.held;
+      heat.dirichlet += added.dirichlet;
       return;
     }
     if(halvings == most_halvings)
@@ -148,7 +148,7 @@ namespace meltfront::particles
         for(std::size_t field = 0; field < moved.size(); ++field)
           moved[field] += change[field];
         heat.through += added.through;
-        heat.held += added.held;
+        heat.dirichlet += added.dirichlet;
         return end;
       }
       std::swap(subject.state(), before);

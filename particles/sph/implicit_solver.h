@@ -54,10 +54,10 @@ namespace meltfront::particles
     virtual double largest_sensible_heat(std::span<const double> enthalpy) const = 0;
   };
 
-  /** Heat that came through walls and that held particles took (J). */
+  /** Heat that came through walls and that particles on Dirichlet walls took (J). */
   struct WallHeat
   {
-    double through = 0, held = 0;
+    double through = 0, dirichlet = 0;
   };
 
   /** For every particle H - factor * flow(H) = base, with flow a function of all H. */
@@ -112,7 +112,7 @@ namespace meltfront::particles
       base.assign(enthalpy.begin(), enthalpy.end());
       if(trapezoidal)
         heat.through += weighted * heat_flow.scale() * add_flow(change, enthalpy);
-      heat.held += hold(std::span(base));
+      heat.dirichlet += hold(std::span(base));
       hold(enthalpy);
       const Outcome outcome
           = solve({std::span(base).first(heat_flow.size()), change, 1.}, enthalpy);

@@ -24,7 +24,7 @@ namespace meltfront::particles
   {
     WallHeat heat;
     const double end = scheme.make_step(*this, step, begin, heat);
-    book(heat.through, heat.held);
+    book(heat.through, heat.dirichlet);
     return end;
   }
 
@@ -33,8 +33,8 @@ namespace meltfront::particles
     heat_flow.prepare_step(begin, end);
     const bool solved = solver.take_step(
         enthalpy, end - begin, with == TimeScheme::crank_nicolson, mass(),
-        [this](std::span<double> held) { return heat_flow.hold_walls(1, held); }, heat);
-    heat.held += finish();
+        [this](std::span<double> dirichlet) { return heat_flow.hold_walls(1, dirichlet); }, heat);
+    heat.dirichlet += finish();
     return solved && !breaks_bounds();
   }
 } // namespace meltfront::particles

@@ -79,7 +79,7 @@ namespace meltfront::particles
     values.layout = policy.layout;
     values.front = policy.front;
     values.moment_correction = policy.moment_correction;
-    values.smoothing = policy.smoothing;
+    values.smoothing_length = policy.smoothing_length;
     values.time_scheme = policy.time_scheme;
     values.step_factor = policy.step_factor;
     values.arrangement = Arrangement::jittered;
@@ -93,7 +93,7 @@ namespace meltfront::particles
                 0, 3);
     options.add("kernel", values.kernel, "Shape of the smoothing kernel.",
                 smoothing_kernels());
-    options.add("smoothing", values.smoothing,
+    options.add("smoothing_length", values.smoothing_length,
                 "Smoothing length over particle spacing; 0: as the paper, 1.2 in planar "
                 "scenes and 1.3 in others.",
                 0, 4);
@@ -129,8 +129,10 @@ namespace meltfront::particles
                 "What n is the number of: particles along the side, or equal steps in "
                 "time.",
                 {{"space", false}, {"time", true}});
-    options.add("particles", particles,
-                "Particles along the side where n is the number of steps.", 5, 1e6);
+    options.add(
+        "cells", cells,
+        "Particles, each for a cell, along the side where n is the number of steps.", 5,
+        1e6);
     options.add("arrangement", values.arrangement,
                 "Particles on a lattice, displaced from it by `jitter` (by nothing if "
                 "that is 0), or relaxed after that until they crowd nowhere; in a box "
@@ -185,11 +187,11 @@ namespace meltfront::particles
     const bool in_time = options.refines_time;
     SphParameters p = options.values;
     p.dimension = resolve_dimension(policy, scene, p.dimension);
-    p.n = in_time ? options.particles : resolution.n;
+    p.n = in_time ? options.cells : resolution.n;
     p.steps = in_time ? resolution.n : 0;
     p.columns = policy.as_published ? p.n : 0;
-    if(p.smoothing == 0)
-      p.smoothing = scene.symmetry == cases::Symmetry::planar ? 1.2 : 1.3;
+    if(p.smoothing_length == 0)
+      p.smoothing_length = scene.symmetry == cases::Symmetry::planar ? 1.2 : 1.3;
     if(p.step_error > 0 && !is_implicit(p.time_scheme))
       throw cases::Refusal(fmt::format(
           "{} chooses steps by a wanted error (step_error) for the implicit schemes "

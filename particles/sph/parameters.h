@@ -65,7 +65,7 @@ namespace meltfront::particles
     LatticeLayout layout;
     FrontRule front;
     bool moment_correction;
-    double smoothing; ///< 0: as the paper, by the scene's symmetry
+    double smoothing_length; ///< 0: as the paper, by the scene's symmetry
     TimeScheme time_scheme;
     double step_factor; ///< 0: as the paper, 0.15 c rho h^2/k
   };
@@ -83,7 +83,7 @@ namespace meltfront::particles
     int columns = 0;   ///< particles across the strip that stands for a slab; 0: what the
                        ///< kernel needs
     KernelShape kernel = KernelShape::cubic_spline;
-    double smoothing = 1; ///< h/dp
+    double smoothing_length = 1; ///< h/dp
     LatticeLayout layout = LatticeLayout::cell_centred;
     bool moment_correction = true;
     FrontRule front = FrontRule::partner;
@@ -111,7 +111,7 @@ namespace meltfront::particles
 
     SphParameters values; ///< as asked for
     bool refines_time = false;
-    int particles = 80;
+    int cells = 80;
   };
 
   /** @throws cases::Refusal for a dimension in which the scene cannot be simulated. */

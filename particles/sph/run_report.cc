@@ -16,7 +16,8 @@ namespace meltfront::particles
     description.unknowns = unknowns;
     description.parameters = {
         {"kernel", kernel_names()[static_cast<std::size_t>(parameters.kernel)], ""},
-        {"smoothing length / spacing", fmt::format("{:.6g}", parameters.smoothing), "1"},
+        {"smoothing length / spacing", fmt::format("{:.6g}", parameters.smoothing_length),
+         "1"},
         {"layout",
          dis.layout == LatticeLayout::on_edge ? "particles on the edge" : "cell-centred",
          ""}};

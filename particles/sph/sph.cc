@@ -43,7 +43,7 @@ namespace meltfront::particles
                  .effects = {Effect::phase_change, Effect::phase_conductivity,
                              Effect::phase_heat_capacity, Effect::heat_sources,
                              Effect::wall_temperature, Effect::wall_flux,
-                             Effect::heat_release, Effect::inclusion},
+                             Effect::volumetric_source, Effect::inclusion},
                  .shapes = {{DomainShape::slab, {1}, of_box},
                             {DomainShape::box, {2, 3}, of_box},
                             {DomainShape::ball, {2, 3}, round},

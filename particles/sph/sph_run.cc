@@ -112,7 +112,7 @@ namespace meltfront::particles
 
       long unknowns() const
       {
-        return static_cast<long>(n - dis.held.size());
+        return static_cast<long>(n - dis.dirichlet.size());
       }
 
       const cases::Scene &scene;

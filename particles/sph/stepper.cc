@@ -51,16 +51,16 @@ namespace meltfront::particles
 
   double Stepper::finish()
   {
-    const double held = heat_flow.hold_walls(1, enthalpy);
+    const double dirichlet = heat_flow.hold_walls(1, enthalpy);
     heat_flow.follow(enthalpy);
     extremes = heat_flow.temperatures(enthalpy);
-    return held;
+    return dirichlet;
   }
 
-  void Stepper::book(double through_walls, double held)
+  void Stepper::book(double through_walls, double dirichlet)
   {
     booked.add(through_walls / dis.cross_section);
-    booked.add(held);
+    booked.add(dirichlet);
   }
 
   bool Stepper::breaks_bounds() const

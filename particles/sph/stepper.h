@@ -73,7 +73,7 @@ namespace meltfront::particles
     bool breaks_bounds() const;
 
     /** @param through_walls over the step; held, likewise of finish() */
-    void book(double through_walls, double held);
+    void book(double through_walls, double dirichlet);
 
     HeatFlow &heat_flow;
     const Discretisation &dis;

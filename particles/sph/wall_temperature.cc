@@ -4,14 +4,15 @@ namespace meltfront::particles
 {
   namespace
   {
-    /** Points for the links of free particles, then one per held particle. */
+    /** Points for the links of free particles, then one per particles on Dirichlet walls.
+     */
     std::vector<WallPoint> all_points(const Discretisation &dis,
                                       const ConductionRows &rows,
                                       std::vector<WallLink> &links)
     {
       std::vector<WallPoint> points = rows.temperature_points;
       links = rows.temperature_links;
-      for(const std::uint32_t row : dis.held)
+      for(const std::uint32_t row : dis.dirichlet)
         for(const PlaneWall &wall : dis.walls)
           if(wall.boundary->kind == cases::BoundaryKind::fixed_temperature
              && dis.on_wall(wall, row))
@@ -49,14 +50,14 @@ namespace meltfront::particles
                                    const ConductionVariable &variable)
     : variable(variable)
     , material(dis.scene.material)
-    , held(dis.held)
+    , dirichlet(dis.dirichlet)
     , values(dis.scene, all_points(dis, rows, links), links)
   {
-    const std::size_t free = links.size() - held.size();
-    held_links.assign(links.begin() + free, links.end());
+    const std::size_t free = links.size() - dirichlet.size();
+    dirichlet_links.assign(links.begin() + free, links.end());
     links = merged(std::span(links).first(free));
-    for(const std::uint32_t row : held)
-      held_weights.push_back(dis.weights[row] * material.solid.density);
+    for(const std::uint32_t row : dirichlet)
+      dirichlet_weights.push_back(dis.weights[row] * material.solid.density);
     wall_variable.resize(values.size());
   }
 
@@ -75,8 +76,8 @@ namespace meltfront::particles
   cases::EffectCost WallTemperature::cost() const
   {
     return meter.cost(cases::Effect::wall_temperature,
-                      (links.size() + held_links.size()) * sizeof(WallLink)
-                          + held.size() * (sizeof(std::uint32_t) + sizeof(double))
+                      (links.size() + dirichlet_links.size()) * sizeof(WallLink)
+                          + dirichlet.size() * (sizeof(std::uint32_t) + sizeof(double))
                           + wall_variable.size() * sizeof(double) + values.bytes());
   }
 } // namespace meltfront::particles

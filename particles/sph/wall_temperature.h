@@ -45,7 +45,7 @@ namespace meltfront::particles
               flow[link.row] += heat;
               sum += heat;
             }
-            for(const std::uint32_t row : held)
+            for(const std::uint32_t row : dirichlet)
             {
               sum -= flow[row];
               flow[row] = 0;
@@ -68,9 +68,9 @@ namespace meltfront::particles
     }
 
     /** Particles on the walls. */
-    std::span<const std::uint32_t> held_rows() const
+    std::span<const std::uint32_t> dirichlet_rows() const
     {
-      return held;
+      return dirichlet;
     }
 
     /**
@@ -85,12 +85,12 @@ namespace meltfront::particles
                 const EnthalpyAt &enthalpy_at) const
     {
       double heat = 0;
-      for(std::size_t i = 0; i < held.size(); ++i)
+      for(std::size_t i = 0; i < dirichlet.size(); ++i)
       {
-        double &own = enthalpy[held[i]];
+        double &own = enthalpy[dirichlet[i]];
         const double wall
-            = enthalpy_at(held[i], values.at(held_links[i].point, fraction));
-        heat += held_weights[i] * (wall - own);
+            = enthalpy_at(dirichlet[i], values.at(dirichlet_links[i].point, fraction));
+        heat += dirichlet_weights[i] * (wall - own);
         own = wall;
       }
       return heat;
@@ -99,7 +99,7 @@ namespace meltfront::particles
     /** Links to walls, the entries that one pass touches. */
     std::size_t size() const
     {
-      return links.size() + held.size();
+      return links.size() + dirichlet.size();
     }
 
     cases::EffectCost cost() const;
@@ -108,9 +108,10 @@ namespace meltfront::particles
     const ConductionVariable &variable;
     const cases::Material &material;
     std::vector<WallLink> links;
-    std::vector<WallLink> held_links; ///< a held particle and its point
-    std::vector<std::uint32_t> held;
-    std::vector<double> held_weights; ///< mass in the measure of the scene
+    std::vector<WallLink>
+        dirichlet_links; ///< a particles on Dirichlet walls and its point
+    std::vector<std::uint32_t> dirichlet;
+    std::vector<double> dirichlet_weights; ///< mass in the measure of the scene
     WallValues values;
     std::vector<double> wall_variable;
     cases::EffectMeter meter;

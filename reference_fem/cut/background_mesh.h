@@ -80,7 +80,7 @@ namespace meltfront::reference_fem::cut
   };
 
   /** A cell that the rim of a disk or of an annulus cuts. */
-  struct RimCell
+  struct CurvedBoundaryCell
   {
     unsigned int cell;
     cases::Side side;
@@ -126,7 +126,7 @@ namespace meltfront::reference_fem::cut
     std::vector<Cell> cells;
     std::vector<InnerFace> inner_faces;
     std::vector<WallFace> wall_faces;
-    std::vector<RimCell> rim_cells;
+    std::vector<CurvedBoundaryCell> curved_boundary_cells;
     std::vector<Place> place;
     std::vector<Point> positions, level_set_positions; ///< by degree of freedom
     double spacing; ///< shortest side of the finest cells (m)

@@ -104,7 +104,7 @@ namespace meltfront::reference_fem::cut
         }
       }
     }
-    for(const RimCell &rim : mesh.rim_cells)
+    for(const CurvedBoundaryCell &rim : mesh.curved_boundary_cells)
       for(const SurfacePoint &point : rim.rim)
         walls.push_back(
             {rim.cell, point, mesh.cells[rim.cell].real(point.unit), rim.side,

@@ -74,7 +74,7 @@ namespace meltfront::reference_fem::cut
     {
       for(const CutCell &cut : cut_cells)
         visit(cut.cell, cut.volume[static_cast<std::size_t>(phase)]);
-      for(const RimCell &rim : mesh.rim_cells)
+      for(const CurvedBoundaryCell &rim : mesh.curved_boundary_cells)
         if(is(location[rim.cell], phase))
           visit(rim.cell, rim.volume);
     }

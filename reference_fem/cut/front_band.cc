@@ -71,7 +71,7 @@ namespace meltfront::reference_fem::cut
                                     const BandWidths &widths)
   {
     std::vector<std::pair<Point, double>> rim;
-    for(const RimCell &cell : mesh.rim_cells)
+    for(const CurvedBoundaryCell &cell : mesh.curved_boundary_cells)
       rim.emplace_back(mesh.cells[cell.cell].real({0.5, 0.5}),
                        mesh.cells[cell.cell].width());
     return [front = std::move(front), rim = std::move(rim), spacing = mesh.spacing,

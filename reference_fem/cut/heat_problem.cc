@@ -39,11 +39,11 @@ namespace meltfront::reference_fem::cut
   }
 
   HeatProblem::HeatProblem(const cases::Scene &scene, double spacing,
-                           const Stabilization &stabilization, double smoothing)
+                           const Stabilisation &stabilisation, double smoothing)
     : sinks(scene, smallest_sink_distance * spacing)
     , scene(scene)
     , spacing(spacing)
-    , stabilization(stabilization)
+    , stabilisation(stabilisation)
     , smoothing(smoothing)
   {
     for(const cases::Side side : scene.sides())
@@ -269,7 +269,7 @@ namespace meltfront::reference_fem::cut
       if(!state.geometry->has(phase))
         continue;
       PhaseProblem problem(*state.mesh, *state.geometry, state.level_set, phase,
-                           stabilization);
+                           stabilisation);
       unknown = problem.solve(equation);
       flux[index(phase)] = problem.front_flux(equation, unknown);
       unknowns += problem.unknowns;
@@ -351,7 +351,7 @@ namespace meltfront::reference_fem::cut
       unknown = values_on_front(*state.mesh, equation);
       if(!geometry.has(phase))
         continue;
-      PhaseProblem problem(*state.mesh, geometry, state.level_set, phase, stabilization);
+      PhaseProblem problem(*state.mesh, geometry, state.level_set, phase, stabilisation);
       unknown = problem.solve(equation);
       flux[index(phase)] = problem.front_flux(equation, unknown);
       state.wall_power += problem.wall_heat(equation, unknown);

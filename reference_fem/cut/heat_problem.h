@@ -52,14 +52,14 @@ namespace meltfront::reference_fem::cut
   public:
     /** @param spacing of the finest cells (m) */
     HeatProblem(const cases::Scene &scene, double spacing,
-                const Stabilization &stabilization, double smoothing);
+                const Stabilisation &stabilisation, double smoothing);
 
     /** Geometry of a front; the level set becomes a distance beside it. */
     void set_front(State &state, Values level_set) const;
 
     /**
      * Temperatures of a function, as their Ritz projection: it has the accuracy of the
-     * discretization also in the heat that flows to the front, and so gives the speed.
+     * discretisation also in the heat that flows to the front, and so gives the speed.
      */
     void project(State &state, const PointFunction &temperature);
 
@@ -120,7 +120,7 @@ namespace meltfront::reference_fem::cut
 
     const cases::Scene &scene;
     const double spacing;
-    const Stabilization &stabilization;
+    const Stabilisation &stabilisation;
     double smoothing;
     std::array<std::optional<cases::TimeMean>, cases::n_sides> fluxes; ///< of walls
     bool fluxes_vary = false;

@@ -18,9 +18,9 @@ namespace meltfront::reference_fem::cut
     options.add("grading", widths.grading,
                 "Cells of each further size between the finest and the coarsest.", 1,
                 1e3);
-    options.add("step_factor", step_factor,
-                "Cells that the front may cross in a time step, at its fastest.", 1e-4,
-                0.5);
+    options.add("cfl", cfl,
+                "CFL number of the front: cells that it crosses in a time step, at most.",
+                1e-4, 0.5);
     options.add("fewest_steps", fewest_steps,
                 "Time steps over the run are at least so many.", 1, 1e9);
     options.add(
@@ -28,14 +28,14 @@ namespace meltfront::reference_fem::cut
         "Solves per step: the first on the front predicted from past speeds, each "
         "further one on the front corrected by the speed found.",
         1, 20);
-    options.add("smoothing", smoothing,
+    options.add("speed_smoothing", speed_smoothing,
                 "Smoothing of the front's speed along it, in squares of a cell.", 0, 10);
     options.add("seed_cells", seed_cells,
                 "Radius in cells of a front that is seeded around a sink in liquid.", 1.5,
                 100);
-    options.add("penalty", stabilization.penalty, "Nitsche's penalty on front and walls.",
+    options.add("penalty", stabilisation.penalty, "Nitsche's penalty on front and walls.",
                 1, 1e4);
-    options.add("ghost_penalty", stabilization.ghost,
+    options.add("ghost_penalty", stabilisation.ghost,
                 "Penalty on jumps of the normal derivative between the cells at the "
                 "front.",
                 1e-4, 1e2);

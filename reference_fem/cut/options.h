@@ -22,12 +22,12 @@ namespace meltfront::reference_fem::cut
     int degree = 1, level_set_degree = 2;
     int refinement = 0;
     BandWidths widths;
-    double step_factor = 0.25;
+    double cfl = 0.25;
     long fewest_steps = 100;
     int solves = 2;
-    double smoothing = 0.25;
+    double speed_smoothing = 0.25;
     double seed_cells = 3;
-    Stabilization stabilization;
+    Stabilisation stabilisation;
   };
 } // namespace meltfront::reference_fem::cut
 

@@ -92,14 +92,14 @@ namespace meltfront::reference_fem::cut
 
   PhaseProblem::PhaseProblem(const BackgroundMesh &mesh, const CutGeometry &geometry,
                              const Values &level_set, Phase phase,
-                             const Stabilization &stabilization)
+                             const Stabilisation &stabilisation)
     : mesh(mesh)
     , geometry(geometry)
     , phase(phase)
-    , stabilization(stabilization)
+    , stabilisation(stabilisation)
     , active(mesh.cells.size())
   {
-    const double band = stabilization.extension * mesh.spacing;
+    const double band = stabilisation.extension * mesh.spacing;
     for(std::size_t cell = 0; cell < active.size(); ++cell)
       active[cell] = geometry.location[cell] != Location::outside
                      && (CutGeometry::is(geometry.location[cell], phase)
@@ -200,7 +200,7 @@ namespace meltfront::reference_fem::cut
   double PhaseProblem::penalty(const PhaseEquation &equation, const Cell &cell) const
   {
     const double degree = mesh.element.degree;
-    return stabilization.penalty * degree * degree * equation.conductivity / cell.width();
+    return stabilisation.penalty * degree * degree * equation.conductivity / cell.width();
   }
 
   /** Nitsche's terms for T = value; the point's normal leaves the phase. */
@@ -271,7 +271,7 @@ namespace meltfront::reference_fem::cut
       const Cell &fine = mesh.cells[face.fine], &coarse = mesh.cells[face.coarse];
       const double h = fine.size[face.direction];
       const double coefficient
-          = stabilization.ghost
+          = stabilisation.ghost
             * (equation.conductivity + mass_share * equation.mass * h * h);
       std::vector<unsigned int> dofs = fine.dofs;
       dofs.insert(dofs.end(), coarse.dofs.begin(), coarse.dofs.end());

@@ -35,8 +35,8 @@ namespace meltfront::reference_fem::cut
     std::function<WallCondition(const WallPoint &)> wall; ///< empty: natural
   };
 
-  /** Parameters of the discretization, without unit. */
-  struct Stabilization
+  /** Parameters of the discretisation, without unit. */
+  struct Stabilisation
   {
     /** Nitsche's penalty for linear elements; grows with the square of the degree. */
     double penalty = 40;
@@ -57,7 +57,7 @@ namespace meltfront::reference_fem::cut
   public:
     PhaseProblem(const BackgroundMesh &mesh, const CutGeometry &geometry,
                  const Values &level_set, Phase phase,
-                 const Stabilization &stabilization);
+                 const Stabilisation &stabilisation);
 
     /** Values at all degrees of freedom; those without a part in the problem take the
      * front's value. @throws std::runtime_error if the matrix is not positive definite */
@@ -95,7 +95,7 @@ namespace meltfront::reference_fem::cut
     const BackgroundMesh &mesh;
     const CutGeometry &geometry;
     const Phase phase;
-    const Stabilization &stabilization;
+    const Stabilisation &stabilisation;
     std::vector<char> active; ///< by cell
   };
 

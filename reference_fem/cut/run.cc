@@ -63,7 +63,7 @@ namespace meltfront::reference_fem::cut
                      ? make_mesh(divided_at_rim(scene.domain), nullptr)
                      : nullptr)
     , state{scene.start_time, make_mesh({}, finest_rim.get()), {}, {}, {}, {}, 0}
-    , heat(scene, state.mesh->spacing, options.stabilization, options.smoothing)
+    , heat(scene, state.mesh->spacing, options.stabilisation, options.speed_smoothing)
     , bounds(cases::temperature_bounds(scene))
     , breakpoints(cases::breakpoints_of(scene))
   {
@@ -187,10 +187,9 @@ namespace meltfront::reference_fem::cut
   {
     const double longest
         = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
-    const double by_front
-        = state.speed.largest > 0
-              ? options.step_factor * state.mesh->spacing / state.speed.largest
-              : std::numeric_limits<double>::infinity();
+    const double by_front = state.speed.largest > 0
+                                ? options.cfl * state.mesh->spacing / state.speed.largest
+                                : std::numeric_limits<double>::infinity();
     double step = std::min(longest, by_front);
     step = fresh ? first_step_share * step : std::min(step, largest_growth * last_step);
     if(damped_steps > 0)
@@ -274,7 +273,7 @@ namespace meltfront::reference_fem::cut
       }
       catch(const std::runtime_error &)
       {
-        // In a shorter step what is stored outweighs the stabilization.
+        // In a shorter step what is stored outweighs the stabilisation.
         if(last_chance)
           throw;
         return false;
@@ -347,7 +346,7 @@ namespace meltfront::reference_fem::cut
   {
     if(options.refinement == 0
        || !leaves_band(*state.mesh, *state.geometry, state.level_set,
-                       options.stabilization.extension + reach_of_step))
+                       options.stabilisation.extension + reach_of_step))
       return;
     const auto mesh
         = make_mesh(refined_about(points_of_front(*state.mesh, *state.geometry),

@@ -37,8 +37,7 @@ namespace meltfront::reference_fem::cut
          "Euler; "
          "predictor and trapezoid for the front",
          ""},
-        {"cells crossed in a step, at most", fmt::format("{:g}", options.step_factor),
-         "1"},
+        {"cells crossed in a step, at most", fmt::format("{:g}", options.cfl), "1"},
         {"longest time step", fmt::format("{:.6g}", result.time_step), "s"},
         {"solves per step", fmt::format("{}", options.solves), "1"},
         {"linear solver", "sparse Cholesky (Eigen, LDL')", ""}};

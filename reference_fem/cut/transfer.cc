@@ -113,7 +113,7 @@ namespace meltfront::reference_fem::cut
          && to.place[target] == Place::inside)
         add_change(before, after, cell, target, whole_cell(from.cells[cell]), result);
     }
-    for(const RimCell &rim : to.rim_cells)
+    for(const CurvedBoundaryCell &rim : to.curved_boundary_cells)
     {
       const unsigned int old = from.cell_at(middle(to.cells[rim.cell]));
       if(CutGeometry::is(geometry.location[rim.cell], phase)

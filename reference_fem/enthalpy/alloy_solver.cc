@@ -51,7 +51,7 @@ namespace meltfront::reference_fem
   }
 
   AlloySolver::AlloySolver(const cases::Scene &scene, const cases::EffectSet &effects,
-                           const Discretization &mesh, const std::vector<char> &free,
+                           const Discretisation &mesh, const std::vector<char> &free,
                            const LinearSolverMaker &make_linear_solver)
     : scene(scene)
     , mesh(mesh)

@@ -31,7 +31,7 @@ namespace meltfront::reference_fem
     /** @throws cases::Refusal for what is not simulated, cases::InputError for
      * concentrations outside of 0 <= C < 1 */
     AlloySolver(const cases::Scene &scene, const cases::EffectSet &effects,
-                const Discretization &mesh, const std::vector<char> &free,
+                const Discretisation &mesh, const std::vector<char> &free,
                 const LinearSolverMaker &make_linear_solver);
 
     /** Largest change by a pass (of conductivities over themselves, of solute
@@ -137,7 +137,7 @@ namespace meltfront::reference_fem
     double mass_of(const Substance &substance) const;
 
     const cases::Scene &scene;
-    const Discretization &mesh;
+    const Discretisation &mesh;
     const std::vector<char> &free;
     MushGraph graph;
     double density;

@@ -41,7 +41,7 @@ namespace meltfront::reference_fem
                              Effect::phase_heat_capacity, Effect::heat_sources,
                              Effect::wall_temperature, Effect::wall_flux, Effect::solute,
                              Effect::solute_diffusion, Effect::eutectic,
-                             Effect::heat_release, Effect::inclusion},
+                             Effect::volumetric_source, Effect::inclusion},
                  .shapes = {{DomainShape::slab, {1}, walls},
                             {DomainShape::box, {2, 3}, of_box},
                             {DomainShape::ball, {2, 3}, walls},

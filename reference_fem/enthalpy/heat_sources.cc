@@ -7,15 +7,15 @@
 namespace meltfront::reference_fem
 {
   HeatSources::HeatSources(const cases::Scene &scene, const Mesh &mesh,
-                           const Discretization &discretization)
+                           const Discretisation &discretisation)
   {
     const cases::ScopedTimer timer(effect_cost.seconds);
     for(const cases::PointSource &source : scene.sources)
     {
-      if(scene.domain.shape == cases::DomainShape::slab && discretization.dimension > 1)
+      if(scene.domain.shape == cases::DomainShape::slab && discretisation.dimension > 1)
         throw cases::Refusal(
             "fem-enthalpy simulates the sources of a slab in one dimension only");
-      if(discretization.measure != cases::Symmetry::none)
+      if(discretisation.measure != cases::Symmetry::none)
         for(const double x : source.position)
           if(std::abs(x) > 1e-12 * scene.domain.radius)
             throw cases::Refusal("a source away from the centre is not symmetric: "

@@ -23,11 +23,11 @@ namespace meltfront::reference_fem
   {
   public:
     /**
-     * @throws cases::Refusal where the discretization's symmetry does not allow for the
+     * @throws cases::Refusal where the discretisation's symmetry does not allow for the
      * source: away from the centre of a radial mesh, in a slab meshed in 2D or 3D
      */
     HeatSources(const cases::Scene &scene, const Mesh &mesh,
-                const Discretization &discretization);
+                const Discretisation &discretisation);
 
     /** Add the heat of a step to the load vector (J). */
     void add_load(const StepFormula &step, std::vector<double> &load);

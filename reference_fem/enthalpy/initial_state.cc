@@ -102,14 +102,14 @@ namespace meltfront::reference_fem
     /** The same where the scene has none, but its temperature passes the melting one
      * between two nodes; what is at it must be one phase. */
     std::optional<cases::Field> temperature_front(const cases::Scene &scene,
-                                                  const Discretization &discretization)
+                                                  const Discretisation &discretisation)
     {
       const double at_melting = scene.initial.solid_fraction_at_melting;
       if(!scene.changes_phase() || scene.alloy || (at_melting > 0 && at_melting < 1))
         return {};
       cases::Field level = cases::initial_level(scene);
       bool solid = false, liquid = false;
-      for(const Position &p : discretization.positions)
+      for(const Position &p : discretisation.positions)
         (level(p, scene.start_time) < 0 ? solid : liquid) = true;
       if(!solid || !liquid)
         return {};
@@ -117,11 +117,11 @@ namespace meltfront::reference_fem
     }
 
     std::vector<double> averages(const cases::Scene &scene, const Start &start,
-                                 const Mesh &mesh, const Discretization &discretization)
+                                 const Mesh &mesh, const Discretisation &discretisation)
     {
-      const std::size_t n = discretization.volume.size();
-      const Symmetry measure = discretization.measure;
-      const double length = scene.domain.side(), half = discretization.spacing / 2;
+      const std::size_t n = discretisation.volume.size();
+      const Symmetry measure = discretisation.measure;
+      const double length = scene.domain.side(), half = discretisation.spacing / 2;
       if(measure == Symmetry::none && scene.domain.shape != cases::DomainShape::slab)
         return mesh.node_averages(start);
       std::vector<double> result(n);
@@ -130,13 +130,13 @@ namespace meltfront::reference_fem
       for(std::size_t i = 0; i < n; ++i)
         if(measure == Symmetry::none)
         {
-          const double x = discretization.positions[i][0];
+          const double x = discretisation.positions[i][0];
           result[i] = start.average(Symmetry::planar, std::max(x - half, 0.),
                                     std::min(x + half, length));
         }
         else
         {
-          volume += discretization.volume[i];
+          volume += discretisation.volume[i];
           const double upper = cases::enclosing_coordinate(measure, volume);
           result[i] = start.average(measure, lower, upper);
           lower = upper;
@@ -146,20 +146,20 @@ namespace meltfront::reference_fem
   } // namespace
 
   std::vector<double> initial_enthalpy(const cases::Scene &scene, const Mesh &mesh,
-                                       const Discretization &discretization,
+                                       const Discretisation &discretisation,
                                        const std::vector<char> &free)
   {
-    const std::size_t n = discretization.volume.size();
+    const std::size_t n = discretisation.volume.size();
     std::optional<cases::Field> front = initial_front(scene);
     if(!front && !scene.initial.exact)
-      front = temperature_front(scene, discretization);
+      front = temperature_front(scene, discretisation);
     std::vector<double> result
-        = front ? averages(scene, Start(scene, *front), mesh, discretization)
+        = front ? averages(scene, Start(scene, *front), mesh, discretisation)
                 : std::vector<double>(n);
     for(std::size_t i = 0; i < n; ++i)
       if(!front || !free[i])
       {
-        const Position &p = discretization.positions[i];
+        const Position &p = discretisation.positions[i];
         const double solid = front ? double((*front)(p, scene.start_time) < 0)
                                    : scene.initial.solid_fraction_at_melting;
         result[i] = scene.material.solid.density

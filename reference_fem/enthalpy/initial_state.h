@@ -19,7 +19,7 @@ namespace meltfront::reference_fem
    * taken.
    */
   std::vector<double> initial_enthalpy(const cases::Scene &scene, const Mesh &mesh,
-                                       const Discretization &discretization,
+                                       const Discretisation &discretisation,
                                        const std::vector<char> &free);
 } // namespace meltfront::reference_fem
 

@@ -44,7 +44,7 @@ namespace meltfront::reference_fem
     public:
       DealMesh(const cases::Scene &scene, int n);
 
-      Discretization discretize() const override;
+      Discretisation discretise() const override;
       std::vector<std::pair<unsigned int, double>>
       shares(const Position &point) const override;
       std::vector<double> node_averages(
@@ -59,13 +59,13 @@ namespace meltfront::reference_fem
 
       std::vector<unsigned int>
       sites(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
-      void integrate_cells(Discretization &result) const;
+      void integrate_cells(Discretisation &result) const;
 
       /** Conductivity of a cell over that outside of the inclusion. */
       double relative_conductivity(
           const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
-      void integrate_walls(Discretization &result) const;
-      void place_sites(Discretization &result) const;
+      void integrate_walls(Discretisation &result) const;
+      void place_sites(Discretisation &result) const;
 
       const cases::Scene &scene;
       ShapedTriangulation<dim> shape;
@@ -151,9 +151,9 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    Discretization DealMesh<dim>::discretize() const
+    Discretisation DealMesh<dim>::discretise() const
     {
-      Discretization result;
+      Discretisation result;
       result.dimension = dim;
       result.spacing = shape.spacing;
       result.measure = shape.measure;
@@ -180,7 +180,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void DealMesh<dim>::integrate_cells(Discretization &result) const
+    void DealMesh<dim>::integrate_cells(Discretisation &result) const
     {
       const dealii::Quadrature<dim> quadrature
           = shape.cartesian
@@ -238,7 +238,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void DealMesh<dim>::integrate_walls(Discretization &result) const
+    void DealMesh<dim>::integrate_walls(Discretisation &result) const
     {
       const dealii::QGauss<dim - 1> quadrature(3);
       dealii::FEFaceValues<dim> values(mapping, element, quadrature,
@@ -275,7 +275,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    void DealMesh<dim>::place_sites(Discretization &result) const
+    void DealMesh<dim>::place_sites(Discretisation &result) const
     {
       const std::size_t n_sites = node_of_site.size();
       for(int d = 0; d < dim; ++d)

@@ -29,7 +29,7 @@ namespace meltfront::reference_fem
    * A *site* is a vertex of the mesh, a *node* an unknown: on periodic sides several
    * sites share a node.
    */
-  struct Discretization
+  struct Discretisation
   {
     int dimension = 1;
     double spacing = 0; ///< cell size along the domain's side (m)
@@ -52,7 +52,7 @@ namespace meltfront::reference_fem
   public:
     virtual ~Mesh() = default;
 
-    virtual Discretization discretize() const = 0;
+    virtual Discretisation discretise() const = 0;
 
     /**
      * The nodes among which a point shares a load, with the values of their shape

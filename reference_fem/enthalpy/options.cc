@@ -42,8 +42,8 @@ namespace meltfront::reference_fem
   void RunOptions::bind(cases::OptionBinder &options)
   {
     options.add("time_scheme", bdf2,
-                "Time scheme: bdf2 (second order) or backward_euler (first order).",
-                {{"bdf2", true}, {"backward_euler", false}});
+                "Time scheme: bdf2 (second order) or backward-euler (first order).",
+                {{"bdf2", true}, {"backward-euler", false}});
     options.add(
         "steps_per_cell", steps_per_cell,
         "Time steps over the run per cell along the domain's side; at least 50 in "
@@ -62,7 +62,8 @@ namespace meltfront::reference_fem
                 "Nonlinear iterations after which a step is halved and tried again.", 1,
                 1e6);
     options.add("preconditioner", preconditioner,
-                "Of conjugate gradients in 2D and 3D: ssor, amg (Trilinos ML) or "
+                "Preconditioner of the conjugate gradients in 2D and 3D: ssor, amg "
+                "(Trilinos ML) or "
                 "automatic.",
                 {{"automatic", Preconditioner::automatic},
                  {"ssor", Preconditioner::ssor},

@@ -40,7 +40,7 @@ namespace meltfront::reference_fem
   {
     const std::unique_ptr<Mesh> geometry
         = make_mesh(scene, options.dimension, resolution.n);
-    mesh = geometry->discretize();
+    mesh = geometry->discretise();
     obeys_maximum_principle = mesh.conduction.is_monotone();
     slack = obeys_maximum_principle
                 ? cases::overshoot_of_round_off
@@ -49,7 +49,7 @@ namespace meltfront::reference_fem
     free.assign(n, 1);
     if(effects.contains(Effect::heat_sources))
       sources.emplace(scene, *geometry, mesh);
-    if(effects.contains(Effect::heat_release))
+    if(effects.contains(Effect::volumetric_source))
       release.emplace(scene, mesh);
     if(effects.contains(Effect::wall_flux))
       flux.emplace(scene, mesh);

@@ -4,12 +4,12 @@
 #include <cases/run.h>
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/alloy_solver.h>
-#include <reference_fem/enthalpy/heat_release.h>
 #include <reference_fem/enthalpy/heat_sources.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/options.h>
 #include <reference_fem/enthalpy/time_scheme.h>
 #include <reference_fem/enthalpy/truncated_newton.h>
+#include <reference_fem/enthalpy/volumetric_source.h>
 #include <reference_fem/enthalpy/wall_flux.h>
 #include <reference_fem/enthalpy/wall_temperature.h>
 
@@ -84,13 +84,13 @@ namespace meltfront::reference_fem
     const cases::Resolution &resolution;
     RunOptions options;
 
-    Discretization mesh;
+    Discretisation mesh;
     std::vector<char> free;
     std::unique_ptr<NonlinearSolver> solver;
     AlloySolver *alloy = nullptr; ///< the solver, where there is solute
     std::string linear_solver_in_words;
     std::optional<HeatSources> sources;
-    std::optional<HeatRelease> release;
+    std::optional<VolumetricSource> release;
     std::optional<WallTemperature> walls;
     std::optional<WallFlux> flux;
     cases::TemperatureBounds bounds;

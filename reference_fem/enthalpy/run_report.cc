@@ -152,7 +152,7 @@ namespace meltfront::reference_fem
       case cases::Effect::heat_sources:
         result.push_back(sources->cost());
         break;
-      case cases::Effect::heat_release:
+      case cases::Effect::volumetric_source:
         result.push_back(release->cost());
         break;
       case cases::Effect::inclusion:

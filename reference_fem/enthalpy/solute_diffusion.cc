@@ -14,7 +14,7 @@ namespace meltfront::reference_fem
     }
   } // namespace
 
-  SoluteDiffusion::SoluteDiffusion(const Discretization &mesh, double density,
+  SoluteDiffusion::SoluteDiffusion(const Discretisation &mesh, double density,
                                    const LinearSolverMaker &make_linear_solver)
     : mesh(mesh)
     , density(density)

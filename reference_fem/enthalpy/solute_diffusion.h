@@ -34,7 +34,7 @@ namespace meltfront::reference_fem
   class SoluteDiffusion
   {
   public:
-    SoluteDiffusion(const Discretization &mesh, double density,
+    SoluteDiffusion(const Discretisation &mesh, double density,
                     const LinearSolverMaker &make_linear_solver);
 
     /** State f by node, zero where there is no liquid. */
@@ -60,7 +60,7 @@ namespace meltfront::reference_fem
     }
 
   private:
-    const Discretization &mesh;
+    const Discretisation &mesh;
     double density;
     ConductionMatrix network; ///< f rho g_ij
     std::unique_ptr<LinearSolver> linear_solver;

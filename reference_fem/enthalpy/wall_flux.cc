@@ -4,7 +4,7 @@
 
 namespace meltfront::reference_fem
 {
-  WallFlux::WallFlux(const cases::Scene &scene, const Discretization &discretization)
+  WallFlux::WallFlux(const cases::Scene &scene, const Discretisation &discretisation)
   {
     const cases::ScopedTimer timer(effect_cost.seconds);
     for(const cases::Side side : scene.sides())
@@ -13,7 +13,7 @@ namespace meltfront::reference_fem
       if(boundary.kind != cases::BoundaryKind::flux)
         continue;
       const std::vector<WallNode> &nodes
-          = discretization.walls[static_cast<std::size_t>(side)];
+          = discretisation.walls[static_cast<std::size_t>(side)];
       std::vector<cases::Position> positions;
       for(const WallNode &node : nodes)
         positions.push_back(node.position);

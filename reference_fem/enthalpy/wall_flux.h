@@ -16,7 +16,7 @@ namespace meltfront::reference_fem
   class WallFlux
   {
   public:
-    WallFlux(const cases::Scene &scene, const Discretization &discretization);
+    WallFlux(const cases::Scene &scene, const Discretisation &discretisation);
 
     /** Add the heat of a step to the load vector; returns the sum of what is added (J).
      */

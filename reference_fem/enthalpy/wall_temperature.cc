@@ -7,17 +7,17 @@
 namespace meltfront::reference_fem
 {
   WallTemperature::WallTemperature(const cases::Scene &scene,
-                                   const Discretization &discretization)
+                                   const Discretisation &discretisation)
     : melting_temperature(scene.material.melting_temperature)
   {
     const cases::ScopedTimer timer(effect_cost.seconds);
-    std::vector<char> taken(discretization.volume.size());
+    std::vector<char> taken(discretisation.volume.size());
     for(const cases::Side side : scene.sides())
     {
       const cases::Boundary &boundary = scene.boundary(side);
       if(boundary.kind != cases::BoundaryKind::fixed_temperature)
         continue;
-      for(const WallNode &place : discretization.walls[static_cast<std::size_t>(side)])
+      for(const WallNode &place : discretisation.walls[static_cast<std::size_t>(side)])
         if(!taken[place.node])
         {
           taken[place.node] = 1;

@@ -23,7 +23,7 @@ namespace meltfront::reference_fem
   class WallTemperature
   {
   public:
-    WallTemperature(const cases::Scene &scene, const Discretization &discretization);
+    WallTemperature(const cases::Scene &scene, const Discretisation &discretisation);
 
     /** Clear the mark of the nodes that are prescribed. */
     void mark(std::vector<char> &free) const;

@@ -114,7 +114,7 @@ namespace meltfront::reference_fem::fitted
       {
         const Metered meter(*this, wall.boundary->kind == BoundaryKind::flux
                                        ? cases::Effect::wall_flux
-                                       : cases::Effect::wall_transfer);
+                                       : cases::Effect::robin_wall);
         add_flux(wall, clock, u, flow, matrices);
       }
       if(wall.first_account != RayMesh::none)
@@ -235,7 +235,7 @@ namespace meltfront::reference_fem::fitted
     assemble(clock, u, rate, mass, flow, nullptr);
   }
 
-  void FittedProblem::linearize(double clock, const Vector<double> &u,
+  void FittedProblem::linearise(double clock, const Vector<double> &u,
                                 const Vector<double> &rate, Vector<double> &mass,
                                 Vector<double> &flow, dealii::SparseMatrix<double> &by_u,
                                 dealii::SparseMatrix<double> &flow_by_u,

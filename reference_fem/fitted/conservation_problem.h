@@ -43,7 +43,7 @@ namespace meltfront::reference_fem::fitted
 
     /** dM/du, dF/du and dF/drate, and the values of evaluate() with them. The matrices
      * have been initialised with sparsity(). */
-    virtual void linearize(double clock, const dealii::Vector<double> &u,
+    virtual void linearise(double clock, const dealii::Vector<double> &u,
                            const dealii::Vector<double> &rate,
                            dealii::Vector<double> &mass, dealii::Vector<double> &flow,
                            dealii::SparseMatrix<double> &mass_jacobian,
@@ -55,7 +55,7 @@ namespace meltfront::reference_fem::fitted
 
     /** Empty for a state on which the equations have a meaning; else what is wrong with
      * it: a front outside the domain, an inverted element. */
-    virtual std::string objection(const dealii::Vector<double> &u) const = 0;
+    virtual std::string reason_invalid(const dealii::Vector<double> &u) const = 0;
   };
 } // namespace meltfront::reference_fem::fitted
 

@@ -23,11 +23,10 @@ namespace meltfront::reference_fem
       return {.form = "along a line",
               .needs_symmetry = true,
               .problems = {cases::ProblemKind::stefan},
-              .effects
-              = {Effect::phase_change, Effect::phase_conductivity,
-                 Effect::phase_heat_capacity, Effect::heat_sources,
-                 Effect::wall_temperature, Effect::wall_flux, Effect::wall_transfer,
-                 Effect::liquid_motion, Effect::metastable_phase},
+              .effects = {Effect::phase_change, Effect::phase_conductivity,
+                          Effect::phase_heat_capacity, Effect::heat_sources,
+                          Effect::wall_temperature, Effect::wall_flux, Effect::robin_wall,
+                          Effect::liquid_motion, Effect::metastable_phase},
               .shapes = {{DomainShape::slab, {1}, walls},
                          {DomainShape::ball, {2, 3}, walls},
                          {DomainShape::shell, {2, 3}, walls}},
@@ -46,8 +45,8 @@ namespace meltfront::reference_fem
               .problems = {cases::ProblemKind::stefan},
               .effects = {Effect::phase_change, Effect::phase_conductivity,
                           Effect::phase_heat_capacity, Effect::heat_sources,
-                          Effect::wall_temperature, Effect::wall_flux,
-                          Effect::wall_transfer, Effect::metastable_phase},
+                          Effect::wall_temperature, Effect::wall_flux, Effect::robin_wall,
+                          Effect::metastable_phase},
               .shapes = {{DomainShape::box, {2, 3}, of_box},
                          {DomainShape::ball, {2, 3}, walls},
                          {DomainShape::shell, {2, 3}, walls}},
@@ -95,7 +94,7 @@ namespace meltfront::reference_fem
         const bool line = fitted::options_for(scene, resolution).dimension == 1;
         const cases::Capabilities form = line ? along_line() : in_more_dimensions();
         if(const std::string reason
-           = cases::objection(form, scene, effects, resolution.threads);
+           = cases::reason_unsupported(form, scene, effects, resolution.threads);
            !reason.empty())
           throw cases::Refusal(fmt::format("{}: {} it {}", name(), form.form, reason));
         return std::make_unique<fitted::FittedRun>(scene, effects, resolution);

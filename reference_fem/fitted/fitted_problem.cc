@@ -218,7 +218,7 @@ namespace meltfront::reference_fem::fitted
           rows.push_back(wall.first_account + ray);
       break;
     case cases::Effect::wall_flux:
-    case cases::Effect::wall_transfer:
+    case cases::Effect::robin_wall:
       rows.push_back(flux_account);
       break;
     case cases::Effect::heat_sources:
@@ -269,7 +269,7 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  std::string FittedProblem::objection(const Vector<double> &u) const
+  std::string FittedProblem::reason_invalid(const Vector<double> &u) const
   {
     for(const double value : u)
       if(!std::isfinite(value))

@@ -44,14 +44,14 @@ namespace meltfront::reference_fem::fitted
     void evaluate(double clock, const dealii::Vector<double> &u,
                   const dealii::Vector<double> &rate, dealii::Vector<double> &mass,
                   dealii::Vector<double> &flow) const override;
-    void linearize(double clock, const dealii::Vector<double> &u,
+    void linearise(double clock, const dealii::Vector<double> &u,
                    const dealii::Vector<double> &rate, dealii::Vector<double> &mass,
                    dealii::Vector<double> &flow,
                    dealii::SparseMatrix<double> &mass_jacobian,
                    dealii::SparseMatrix<double> &flow_jacobian,
                    dealii::SparseMatrix<double> &rate_jacobian) const override;
     dealii::Vector<double> scale(const dealii::Vector<double> &u) const override;
-    std::string objection(const dealii::Vector<double> &u) const override;
+    std::string reason_invalid(const dealii::Vector<double> &u) const override;
 
     /**
      * The unknowns of a temperature at a time, by values at the nodes; accounts at zero.

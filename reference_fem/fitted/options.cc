@@ -114,7 +114,7 @@ namespace meltfront::reference_fem::fitted
                 "Dimension in which a symmetric scene is simulated; 0: the lowest.", 0,
                 3);
     options.add(
-        "scheme", scheme_name,
+        "time_scheme", scheme_name,
         "Time scheme: backward differentiation (bdf2, bdf3, bdf4) or Radau IIA of "
         "order 3 or 5 (radau3, radau5).",
         cases::themselves({"bdf2", "bdf3", "bdf4", "radau3", "radau5"}));
@@ -135,9 +135,9 @@ namespace meltfront::reference_fem::fitted
                 "alone.",
                 0, 1e5);
     options.add("clock", clock,
-                "Steps are equal in t or in sqrt(t); auto: sqrt(t) for a scene that "
+                "Steps are equal in t or in sqrt(t); automatic: sqrt(t) for a scene that "
                 "starts from an exact solution some time after that began, else t.",
-                cases::themselves({"auto", "t", "sqrt(t)"}));
+                cases::themselves({"automatic", "t", "sqrt(t)"}));
     options.add("tolerance", tolerance,
                 "Error of a time step, relative, that the steps are chosen for (Radau); "
                 "0: equal steps.",

@@ -36,9 +36,9 @@ namespace meltfront::reference_fem::fitted
     std::string scheme_name = "radau5";
     int steps = 0; ///< 0: by the cells
     Refine refine = Refine::both;
-    int cells = 32;             ///< along the domain's side
-    int cells_around = 0;       ///< a round front; 0: by the cells
-    std::string clock = "auto"; ///< auto, t or sqrt(t)
+    int cells = 32;                  ///< along the domain's side
+    int cells_around = 0;            ///< a round front; 0: by the cells
+    std::string clock = "automatic"; ///< automatic, t or sqrt(t)
     double tolerance = 0;
     double grading = 1;
     Scheme scheme{};

@@ -33,9 +33,9 @@ namespace meltfront::reference_fem::fitted
       if(options.dimension > 1)
         throw cases::Refusal("fem-fitted needs a front to start from in more than one "
                              "dimension; this scene starts in one phase");
-      const Stretch stretch = one_phase_stretch({scene, effects, options, rays});
-      problem = stretch.problem;
-      initial_state = stretch.state;
+      const RunSegment segment = one_phase_stretch({scene, effects, options, rays});
+      problem = segment.problem;
+      initial_state = segment.state;
       refuse_start_at_melting_wall();
     }
     else
@@ -48,10 +48,10 @@ namespace meltfront::reference_fem::fitted
                            [&](const cases::Position &p)
                            { return scene.initial.temperature(p, scene.start_time); });
     }
-    const std::string objection = problem->objection(initial_state);
-    if(!objection.empty())
+    const std::string reason_invalid = problem->reason_invalid(initial_state);
+    if(!reason_invalid.empty())
       throw cases::NumericalError(method_name, 0, scene.start_time, "the initial state",
-                                  "is impossible: " + objection);
+                                  "is impossible: " + reason_invalid);
     const HeatContent heat = problem->heat(scene.start_time, initial_state);
     initial_heat = heat.sensible + heat.latent;
     sites = std::make_unique<Sites>(*problem);
@@ -141,17 +141,17 @@ namespace meltfront::reference_fem::fitted
                                  scene.domain));
   }
 
-  void FittedRun::enter(const Stretch &stretch)
+  void FittedRun::enter(const RunSegment &segment)
   {
-    if(problem != stretch.problem)
+    if(problem != segment.problem)
       add_effect_costs();
-    if(!stretch.event.text.empty())
+    if(!segment.event.text.empty())
     {
       ++events;
-      note(stretch.event.time, stretch.event.text);
+      note(segment.event.time, segment.event.text);
     }
-    problem = stretch.problem;
-    before = stretch.before;
+    problem = segment.problem;
+    before = segment.before;
     sites = std::make_unique<Sites>(*problem);
     most_unknowns = std::max<long>(most_unknowns, problem->size());
   }
@@ -161,15 +161,15 @@ namespace meltfront::reference_fem::fitted
     check_temperatures(0, scene.start_time, initial_state);
     most_unknowns = problem->size();
     const Clock &clock = problem->physics().clock;
-    Stretch first{problem,
-                  initial_state,
-                  scene.start_time,
-                  {},
-                  {{clock.clock(scene.end_time), clock_step()}},
-                  {}};
+    RunSegment first{problem,
+                     initial_state,
+                     scene.start_time,
+                     {},
+                     {{clock.clock(scene.end_time), clock_step()}},
+                     {}};
     Timeline timeline({scene, effects, options, rays_of(scene, options)},
                       integration_options(),
-                      {[&](const Stretch &stretch) { enter(stretch); },
+                      {[&](const RunSegment &segment) { enter(segment); },
                        [&](long step, double time, const dealii::Vector<double> &u, bool)
                        {
                          check_temperatures(step, time, u);

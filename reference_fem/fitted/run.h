@@ -30,7 +30,7 @@ namespace meltfront::reference_fem::fitted
     cases::Snapshot snapshot(long step, double time) override; // in run_report.cc
     void refuse_start_at_melting_wall() const;
     IntegrationOptions integration_options() const;
-    void enter(const Stretch &stretch);
+    void enter(const RunSegment &segment);
     double clock_step() const;
     void check_temperatures(long step, double time, const dealii::Vector<double> &u);
     /** Add what the present problem counted of each effect. */

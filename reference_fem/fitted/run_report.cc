@@ -81,7 +81,7 @@ namespace meltfront::reference_fem::fitted
     std::map<std::string, double> result{
         {"events that changed the mesh", static_cast<double>(events)},
         {"steps divided in two", static_cast<double>(integration.halved)},
-        {"factorizations", static_cast<double>(integration.factorizations)}};
+        {"factorisations", static_cast<double>(integration.factorisations)}};
     if(options.tolerance > 0)
       result["steps repeated by the step control"]
           = static_cast<double>(integration.repeated);

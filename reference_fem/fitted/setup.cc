@@ -160,7 +160,7 @@ namespace meltfront::reference_fem::fitted
       const double origin
           = scene.initial.exact ? scene.initial.exact->start_time() : scene.start_time;
       const bool similar = scene.initial.exact && scene.start_time > origin;
-      return {word == "sqrt(t)" || (word == "auto" && similar),
+      return {word == "sqrt(t)" || (word == "automatic" && similar),
               std::min(origin, scene.start_time)};
     }
   } // namespace

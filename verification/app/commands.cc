@@ -96,7 +96,8 @@ namespace meltfront::verification
         check(fmt::format("criterion '{}'", criterion.text),
               [&]
               {
-                check_label(criterion.method, method_named);
+                if(criterion.method != cases::any_method)
+                  check_label(criterion.method, method_named);
                 if(criterion.statistic != cases::Statistic::failure)
                   require_quantity(criterion.quantity);
               });

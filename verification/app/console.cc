@@ -130,9 +130,9 @@ namespace meltfront::verification
                          criterion.passed ? "PASS" : "FAIL", criterion.case_name,
                          criterion.method, criterion.quantity, criterion.value,
                          bound_text(criterion),
-                         criterion.known_shortfall.empty()
+                         criterion.expected_failure.empty()
                              ? ""
-                             : "; known shortfall: " + criterion.known_shortfall);
+                             : "; expected failure: " + criterion.expected_failure);
     }
 
     std::string findings_text(const MatrixResult &result)

@@ -62,9 +62,10 @@ namespace
   void add_memory_option(CLI::App *command, double &memory)
   {
     command
-        ->add_option("--memory", memory,
-                     "GB that a run may take; what is estimated to take more is refused "
-                     "(what the machine has)")
+        ->add_option(
+            "--memory", memory,
+            "memory limit of a run in GB; runs estimated to exceed it are refused "
+            "(default: the machine's memory)")
         ->check(CLI::PositiveNumber);
   }
 
@@ -73,7 +74,9 @@ namespace
     const auto add_options = [this](CLI::App *command)
     {
       command->add_option("--out", verify_arguments.output, "directory (results/MATRIX)");
-      command->add_option("--jobs", verify_arguments.jobs, "runs at once (one per core)")
+      command
+          ->add_option("--jobs", verify_arguments.jobs,
+                       "number of concurrent runs (one per core)")
           ->check(CLI::Range(0, 1024));
       add_memory_option(command, verify_arguments.memory);
     };
@@ -85,7 +88,8 @@ namespace
     verify_command->callback([this]
                              { action = [this] { return verify(verify_arguments); }; });
 
-    auto *stability = app.add_subcommand("stability", "the hard cases: verify stability");
+    auto *stability = app.add_subcommand(
+        "stability", "run the matrix of hard cases (verify stability)");
     add_options(stability);
     stability->callback(
         [this]
@@ -97,7 +101,8 @@ namespace
 
   void CommandLine::declare_run()
   {
-    auto *command = app.add_subcommand("run", "one run, with fields for ParaView");
+    auto *command = app.add_subcommand(
+        "run", "run one method on a case; writes fields for ParaView");
     RunArguments &a = run_arguments;
     command->add_option("case", a.case_name, "case of the library, or a case file")
         ->required();
@@ -105,24 +110,25 @@ namespace
     command->add_option("--n", a.n, "particles or cells along the domain's side (40)")
         ->check(CLI::Range(2, 1000000));
     command->add_option("--out", a.output, "directory (results/run-CASE-METHOD-N)");
-    command->add_option("--set", a.settings, "METHOD.KEY=VALUE, an option of the method")
+    command->add_option("--set", a.settings, "option of the method, METHOD.KEY=VALUE")
         ->take_all();
-    command->add_option("--seed", a.seed, "of random arrangements (1)");
-    command->add_option("--threads", a.threads, "threads (1)")
+    command->add_option("--seed", a.seed, "seed of random arrangements (1)");
+    command->add_option("--threads", a.threads, "number of threads (1)")
         ->check(CLI::Range(1, 1024));
-    command->add_option("--frames", a.frames, "fields for ParaView over the run (20)")
+    command->add_option("--frames", a.frames, "number of output times for ParaView (20)")
         ->check(CLI::Range(1, 10000));
     add_memory_option(command, a.memory);
     command
         ->add_option("--time-limit", a.time_limit,
-                     "seconds after which the run is ended; 0: none (3600)")
+                     "time limit of the run in seconds; 0: none (3600)")
         ->check(CLI::NonNegativeNumber);
     command->callback([this] { action = [this] { return run(run_arguments); }; });
   }
 
   void CommandLine::declare_compare()
   {
-    auto *command = app.add_subcommand("compare", "every method that can, side by side");
+    auto *command = app.add_subcommand(
+        "compare", "run all methods that support a case and compare them");
     CompareArguments &a = compare_arguments;
     command->add_option("case", a.case_name, "case of the library, or a case file")
         ->required();
@@ -130,7 +136,7 @@ namespace
         ->delimiter(',')
         ->check(CLI::Range(2, 1000000));
     command->add_option("--out", a.output, "directory (results/compare-CASE)");
-    command->add_option("--jobs", a.jobs, "runs at once (one per core)")
+    command->add_option("--jobs", a.jobs, "number of concurrent runs (one per core)")
         ->check(CLI::Range(0, 1024));
     add_memory_option(command, a.memory);
     command->callback([this] { action = [this] { return compare(compare_arguments); }; });
@@ -139,23 +145,23 @@ namespace
   void CommandLine::declare_crosscheck()
   {
     auto *command = app.add_subcommand(
-        "crosscheck", "random scenes: does any method contradict the others?");
+        "crosscheck", "run random scenes and report methods that contradict the others");
     CrosscheckArguments &a = crosscheck_arguments;
-    command->add_option("--scenes", a.scenes, "how many (20)")
+    command->add_option("--scenes", a.scenes, "number of scenes (20)")
         ->check(CLI::Range(1, 1000000));
-    command->add_option("--seed", a.seed, "of the scenes (1)");
-    command->add_option("--dimension", a.dimension, "1, 2 or 3 (any)")
+    command->add_option("--seed", a.seed, "seed of the scenes (1)");
+    command
+        ->add_option("--dimension", a.dimension,
+                     "dimension of the scenes: 1, 2 or 3 (any)")
         ->check(CLI::Range(1, 3));
     command->add_option("--out", a.output, "directory (results/crosscheck-SEED)");
-    command->add_option("--jobs", a.jobs, "runs at once (one per core)")
+    command->add_option("--jobs", a.jobs, "number of concurrent runs (one per core)")
         ->check(CLI::Range(0, 1024));
-    command
-        ->add_option("--within", a.within,
-                     "longest processor time of a run in seconds (20)")
+    command->add_option("--within", a.within, "CPU time limit of a run in seconds (20)")
         ->check(CLI::PositiveNumber);
     command
         ->add_option("--methods", a.methods,
-                     "separated by commas (all but those as published)")
+                     "methods, separated by commas (all but those as published)")
         ->delimiter(',');
     command->callback([this]
                       { action = [this] { return crosscheck(crosscheck_arguments); }; });
@@ -164,21 +170,22 @@ namespace
   void CommandLine::declare_calibrate()
   {
     auto *command = app.add_subcommand(
-        "calibrate", "the continuum's properties of a particle solid, as a material");
+        "calibrate",
+        "measure the continuum properties of a particle solid; writes a material");
     CalibrateArguments &a = calibrate_arguments;
     command->add_option("what", a.what, "greenspan")
         ->required()
         ->check(CLI::IsMember({"greenspan"}));
     command->add_option("--substance", a.substance, "triangle or rectangle (triangle)")
         ->check(CLI::IsMember({"triangle", "rectangle"}));
-    command->add_flag("--full", a.full, "minutes instead of one: smaller errors");
+    command->add_flag("--full", a.full, "longer runs with smaller errors (minutes)");
     command->add_option("--pressure", a.pressure, "force per length")
         ->check(CLI::Range(0., 1000.));
     command->add_option("--hot", a.hot, "temperature of the wall that melts (60)");
     command->add_option("--cold", a.cold, "temperature of the solid (30)");
-    command->add_option("--seeds", a.seeds, "independent runs of everything")
+    command->add_option("--seeds", a.seeds, "number of independent runs")
         ->check(CLI::Range(2, 1000));
-    command->add_option("--jobs", a.jobs, "seeds at once (one per core)")
+    command->add_option("--jobs", a.jobs, "number of concurrent seeds (one per core)")
         ->check(CLI::Range(0, 1024));
     command->add_option("--out", a.output, "file (results/calibration-SUBSTANCE.prm)");
     command->callback([this]
@@ -187,7 +194,9 @@ namespace
 
   void CommandLine::declare_others()
   {
-    auto *list_command = app.add_subcommand("list", "what there is");
+    auto *list_command = app.add_subcommand(
+        "list",
+        "list cases, methods, effects, matrices, quantities, keys or capabilities");
     list_command
         ->add_option(
             "what", list_what,
@@ -212,9 +221,10 @@ namespace
           };
         });
 
-    auto *report_command
-        = app.add_subcommand("report", "tables and plots again from finished runs");
-    report_command->add_option("directory", report_directory, "of a matrix that ran")
+    auto *report_command = app.add_subcommand(
+        "report", "write tables, plots and report anew from finished runs");
+    report_command
+        ->add_option("directory", report_directory, "directory of a finished matrix")
         ->required();
     report_command->callback([this]
                              { action = [this] { return report(report_directory); }; });

@@ -1,12 +1,13 @@
 #include <cases/error.h>
-#include <particles/alloy/alloy.h>
-#include <particles/front_tracking/rkpm_tracked.h>
 #include <particles/greenspan/greenspan.h>
 #include <particles/level_set/front_methods.h>
-#include <particles/relaxation/voronoi_fv.h>
-#include <particles/rkpm/moab_integral.h>
+#include <particles/moab_integral/moab_integral.h>
 #include <particles/rkpm/rkpm.h>
+#include <particles/rkpm_tracked/rkpm_tracked.h>
 #include <particles/sph/sph.h>
+#include <particles/sph_mixture/sph_mixture.h>
+#include <particles/sph_two_population/sph_two_population.h>
+#include <particles/voronoi_fv/voronoi_fv.h>
 #include <reference_fem/cut/cut.h>
 #include <reference_fem/enthalpy/enthalpy.h>
 #include <reference_fem/fitted/fitted.h>

@@ -142,6 +142,41 @@ namespace meltfront::verification
       }
     }
 
+    /** Whether a label has been refused everywhere, or measures no such quantity at all:
+     * then a criterion on any method does not concern it. */
+    bool nothing_to_judge(const Runs &runs, const std::string &quantity)
+    {
+      return std::ranges::all_of(runs,
+                                 [&quantity](const RunRecord *run)
+                                 {
+                                   return run->status == RunStatus::refused
+                                          || (run->status == RunStatus::finished
+                                              && std::isnan(table_value(*run, quantity)));
+                                 });
+    }
+
+    /** A criterion on any method as one on each label of the case that it concerns. */
+    std::vector<cases::Criterion> criteria_on_labels(const MatrixResult &result,
+                                                     const StoredCase &record,
+                                                     const cases::Criterion &criterion)
+    {
+      if(criterion.method != cases::any_method)
+        return {criterion};
+      std::vector<cases::Criterion> list;
+      for(const RunRecord &run : result.runs)
+      {
+        if(run.case_name != record.name()
+           || std::ranges::find(list, run.label, &cases::Criterion::method) != list.end())
+          continue;
+        cases::Criterion on_label = criterion;
+        on_label.method = run.label;
+        if(why_not_judged(result, record, on_label).empty()
+           && !nothing_to_judge(runs_of(result, record, on_label), criterion.quantity))
+          list.push_back(on_label);
+      }
+      return list.empty() ? std::vector{criterion} : list;
+    }
+
     std::string omission(const RunRecord &run)
     {
       return fmt::format("{}, {}, n = {}{}: {}: {}", run.case_name, run.label, run.n,
@@ -210,6 +245,29 @@ namespace meltfront::verification
     return found == all.end() ? nan : found->second;
   }
 
+  namespace
+  {
+    /** Hold a criterion on a label against the runs of a case. */
+    void judge_on_label(MatrixResult &result, const StoredCase &record,
+                        const cases::Criterion &criterion)
+    {
+      const std::string reason = why_not_judged(result, record, criterion);
+      if(!reason.empty())
+      {
+        result.omissions.push_back(fmt::format("{}, {}: {}: not judged: {}",
+                                               record.name(), criterion.method,
+                                               quantity_text(criterion), reason));
+        return;
+      }
+      const double value = criterion_value(result, record, criterion);
+      const bool passed = value >= criterion.lower && value <= criterion.upper;
+      result.criteria.push_back({record.name(), criterion.method,
+                                 quantity_text(criterion), value, criterion.lower,
+                                 criterion.upper, passed, criterion.expected_failure});
+      result.passed = result.passed && passed;
+    }
+  } // namespace
+
   void evaluate(MatrixResult &result)
   {
     result.criteria.clear();
@@ -227,23 +285,10 @@ namespace meltfront::verification
               && (run.status == RunStatus::refused || known_to_fail(result, run));
       }
     for(const StoredCase &record : result.cases)
-      for(const cases::Criterion &criterion : record.criteria)
-      {
-        const std::string reason = why_not_judged(result, record, criterion);
-        if(!reason.empty())
-        {
-          result.omissions.push_back(fmt::format("{}, {}: {}: not judged: {}",
-                                                 record.name(), criterion.method,
-                                                 quantity_text(criterion), reason));
-          continue;
-        }
-        const double value = criterion_value(result, record, criterion);
-        const bool passed = value >= criterion.lower && value <= criterion.upper;
-        result.criteria.push_back({record.name(), criterion.method,
-                                   quantity_text(criterion), value, criterion.lower,
-                                   criterion.upper, passed, criterion.known_shortfall});
-        result.passed = result.passed && passed;
-      }
+      for(const cases::Criterion &written : record.criteria)
+        for(const cases::Criterion &criterion :
+            criteria_on_labels(result, record, written))
+          judge_on_label(result, record, criterion);
     result.findings = judge_findings(result, result.claims);
     result.passed
         = result.passed && std::ranges::all_of(result.findings, &FindingResult::holds);

@@ -33,7 +33,9 @@ namespace meltfront::verification
    * `criteria`, `findings` and `passed`, and appends to `omissions`.
    *
    * A criterion concerns the runs whose label is its method, options in brackets in any
-   * order; without brackets, those with no option set by the matrix. Orders are over h,
+   * order; without brackets, those with no option set by the matrix. One on
+   * cases::any_method is judged for each label of the case by itself, but for those that
+   * are refused or do not measure its quantity. Orders are over h,
    * or over dt where the runs refine that (Refinement), without levels at round-off
    * (round_off_floor()). Runs of several seeds count with their mean (`median`:
    * that, `worst`: the largest). Refused runs are no part of an order or a worst value,

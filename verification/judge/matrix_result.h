@@ -21,7 +21,7 @@ namespace meltfront::verification
     double value = 0; ///< NaN where the run is missing or failed
     double lower = 0, upper = 0;
     bool passed = false;
-    std::string known_shortfall;
+    std::string expected_failure;
   };
 
   /** How a run of a hard case is judged (verification/studies/stability). */

@@ -25,7 +25,7 @@ namespace meltfront::verification
     }
 
     /** Why a finished run does not count as held; empty if it does. */
-    std::string objection(const RunRecord &run, const StoredCase &record)
+    std::string reason_not_held(const RunRecord &run, const StoredCase &record)
     {
       if(beyond_limit(run))
         return "a step beyond the stability limit was returned as a result";
@@ -55,7 +55,7 @@ namespace meltfront::verification
       verdict.reason = run.message;
       if(run.status == RunStatus::finished)
       {
-        verdict.reason = objection(run, record);
+        verdict.reason = reason_not_held(run, record);
         if(!verdict.reason.empty())
           verdict.verdict = "failed";
       }

@@ -114,6 +114,14 @@ namespace meltfront::verification
       return result;
     }
 
+    bool runs_at(const MatrixBlock &block, const PlannedCase &planned)
+    {
+      return std::ranges::find(block.cases, planned.base) != block.cases.end()
+             && std::ranges::any_of(planned_cases(block, planned.base),
+                                    [&planned](const PlannedCase &of_block)
+                                    { return of_block.settings == planned.settings; });
+    }
+
     void add_runs(const MatrixBlock &block, const std::string &case_name,
                   const MethodLookup &methods, std::vector<PlannedRun> &runs)
     {
@@ -181,6 +189,20 @@ namespace meltfront::verification
     return result;
   }
 
+  std::map<std::string, std::set<int>> planned_labels(const Matrix &matrix,
+                                                      const PlannedCase &planned)
+  {
+    std::map<std::string, std::set<int>> labels;
+    for(const MatrixBlock &block : matrix.blocks)
+      if(runs_at(block, planned))
+        for(const std::string &method : block.methods)
+          for(const OptionValues &values : combinations(block, method))
+            for(const int threads : block.threads)
+              labels[run_label(method, values, threads)].insert(block.resolutions.begin(),
+                                                                block.resolutions.end());
+    return labels;
+  }
+
   std::vector<PlannedRun> plan_runs(const Matrix &matrix, const MethodLookup &methods)
   {
     for(const MatrixBlock &block : matrix.blocks)
@@ -188,10 +210,7 @@ namespace meltfront::verification
     std::vector<PlannedRun> runs;
     for(const PlannedCase &planned : planned_cases(matrix))
       for(const MatrixBlock &block : matrix.blocks)
-        if(std::ranges::find(block.cases, planned.base) != block.cases.end()
-           && std::ranges::any_of(planned_cases(block, planned.base),
-                                  [&planned](const PlannedCase &of_block)
-                                  { return of_block.settings == planned.settings; }))
+        if(runs_at(block, planned))
           add_runs(block, planned.name, methods, runs);
     std::set<std::string> known;
     std::erase_if(runs, [&](const PlannedRun &run)

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,14 @@ namespace meltfront::verification
     std::vector<CaseAxis> variations{}; ///< empty: the cases as they are written
   };
 
+  /** A bound on what the matrix runs, beside those that its cases bring. */
+  struct MatrixCriterion
+  {
+    std::string case_name; ///< of a PlannedCase
+    cases::Criterion criterion;
+    std::string place; ///< `FILE:LINE: key 'criterion 1' in subsection '...'`
+  };
+
   /** Cases x methods x resolutions: what is to be run. */
   struct Matrix
   {
@@ -53,6 +62,7 @@ namespace meltfront::verification
     bool hard_cases = false; ///< the report shows the table held / refused / failed
     double time_limit = 600; ///< of one run (wall s)
     std::vector<MatrixBlock> blocks;
+    std::vector<MatrixCriterion> criteria{};
     std::vector<Finding> findings{}; ///< what the runs are claimed to show
     std::vector<Picture> pictures{}; ///< what its report draws
   };
@@ -93,6 +103,10 @@ namespace meltfront::verification
   /** The cases of a matrix with what it varies in them, each once, in the same order.
    * @throws InputError for a key that is varied without any value. */
   std::vector<PlannedCase> planned_cases(const Matrix &matrix);
+
+  /** The labels that a matrix runs at a case, a PlannedCase, each with its n. */
+  std::map<std::string, std::set<int>> planned_labels(const Matrix &matrix,
+                                                      const PlannedCase &planned);
 
   /**
    * The runs of a matrix, each once: by case as planned_cases() orders them, then by

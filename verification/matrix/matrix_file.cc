@@ -1,6 +1,7 @@
 #include <cases/case_file/prm_file.h>
 #include <cases/error.h>
 #include <verification/judge/finding_reader.h>
+#include <verification/matrix/criteria_reader.h>
 #include <verification/matrix/matrix_file.h>
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ namespace meltfront::verification
 
     PrmFile matrix_keys()
     {
-      PrmFile prm;
+      PrmFile prm(library_folder);
       prm.declare("", {"title", PrmKind::text, "", "", "One line."});
       prm.declare("", {"description", PrmKind::text, "", "", "What the matrix shows."});
       prm.declare("", {"hard cases", PrmKind::boolean, "false", "",
@@ -52,6 +53,7 @@ namespace meltfront::verification
                 "Seeds of random arrangements, with commas; 1..200 for all between.");
         declare("threads", "1", "Threads of a run; several numbers with commas.");
       }
+      declare_criteria(prm);
       declare_findings(prm);
       return prm;
     }
@@ -203,6 +205,7 @@ namespace meltfront::verification
             fmt::format("{}: the matrix has no subsection 'Block 1', so "
                         "that there is nothing to run",
                         file));
+      matrix.criteria = read_criteria(prm, matrix);
       return matrix;
     }
   } // namespace

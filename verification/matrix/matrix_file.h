@@ -19,6 +19,7 @@ namespace meltfront::verification
    *       set options     = sph.step_factor = 0.5 | 0.9; sph.jitter = 0.2
    *     end
    *
+   * `Acceptance` is read by read_criteria().
    * A block's `variations = Scene/Material/latent heat = 7 | 70` give values to keys of
    * its cases; `Finding i` and `Picture i` are read by read_findings() and
    * read_pictures().

@@ -1,3 +1,4 @@
+#include <cases/case_file/criterion_parser.h>
 #include <cases/error.h>
 #include <verification/judge/criteria.h>
 #include <verification/judge/reference.h>
@@ -32,6 +33,15 @@ namespace meltfront::verification
       return std::isinf(criterion.upper) ? ">=" : "in";
     }
 
+    /** A criterion of the matrix joins those that the case itself brings. */
+    void add_criterion(MatrixResult &result, const std::string &case_name,
+                       const std::string &text)
+    {
+      for(StoredCase &record : result.cases)
+        if(record.name() == case_name)
+          record.criteria.push_back(cases::parse_criterion(text));
+    }
+
     /** The record of a planned run, or one that says that it is missing. */
     RunRecord read_run(const std::string &directory, const json &planned)
     {
@@ -54,12 +64,14 @@ namespace meltfront::verification
                   const std::vector<StoredCase> &cases,
                   const std::vector<PlannedRun> &runs, const std::string &program_version)
   {
-    json names = json::array(), list = json::array();
+    json names = json::array(), list = json::array(), criteria = json::array();
     for(const StoredCase &record : cases)
     {
       write_json(fmt::format("{}/cases/{}.json", directory, record.name()), record);
       names.push_back(record.name());
     }
+    for(const MatrixCriterion &one : matrix.criteria)
+      criteria.push_back({{"case", one.case_name}, {"text", one.criterion.text}});
     for(const PlannedRun &run : runs)
       list.push_back({{"case", run.case_name},
                       {"method", run.method},
@@ -75,6 +87,7 @@ namespace meltfront::verification
                                             {"date", current_date()},
                                             {"program_version", program_version},
                                             {"cases", names},
+                                            {"criteria", criteria},
                                             {"findings", matrix.findings},
                                             {"pictures", matrix.pictures},
                                             {"runs", list}});
@@ -91,7 +104,7 @@ namespace meltfront::verification
                           {"bound", bound_of(criterion)},
                           {"relation", relation_of(criterion)},
                           {"passed", criterion.passed},
-                          {"known_shortfall", criterion.known_shortfall}});
+                          {"expected_failure", criterion.expected_failure}});
     json findings = json::array();
     for(const FindingResult &finding : result.findings)
       findings.push_back({{"claim", claim_text(finding)}, {"holds", finding.holds()}});
@@ -126,6 +139,9 @@ namespace meltfront::verification
         result.cases.push_back(
             read_json(fmt::format("{}/cases/{}.json", directory, name.get<std::string>()))
                 .get<StoredCase>());
+      if(matrix.contains("criteria")) // older plans leave them to the cases
+        for(const auto &criterion : matrix.at("criteria"))
+          add_criterion(result, criterion.at("case"), criterion.at("text"));
       for(const auto &run : matrix.at("runs"))
         result.runs.push_back(read_run(directory, run));
       compare_with_references(result);

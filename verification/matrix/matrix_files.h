@@ -10,9 +10,9 @@
 namespace meltfront::verification
 {
   /**
-   * Write what is known before the first run: DIR/matrix.json (title, date, version and
-   * the list of runs) and DIR/cases/CASE.json. With it, load_matrix_result() can read a
-   * matrix that is still running or was killed.
+   * Write what is known before the first run: DIR/matrix.json (title, date, version,
+   * the list of runs, criteria, findings and pictures) and DIR/cases/CASE.json. With it,
+   * load_matrix_result() can read a matrix that is still running or was killed.
    */
   void write_plan(const std::string &directory, const Matrix &matrix,
                   const std::vector<StoredCase> &cases,
@@ -21,7 +21,7 @@ namespace meltfront::verification
 
   /**
    * Write DIR/summary.json: `passed`, `criteria` (each with `case`, `method`, `quantity`,
-   * `value`, `bound`, `passed`, `known_shortfall`; `bound` is a number where one side is
+   * `value`, `bound`, `passed`, `expected_failure`; `bound` is a number where one side is
    * bounded, which one says `relation`, `<=` or `>=`; and [lower, upper] with `in`),
    * `findings` (each with `claim` and `holds`), `omissions`.
    */

@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <verification/matrix/criteria_reader.h>
 #include <verification/matrix/directory_lock.h>
 #include <verification/matrix/matrix_files.h>
 #include <verification/matrix/progress.h>
@@ -247,6 +248,19 @@ namespace meltfront::verification
       }
       return planned_ones;
     }
+
+    /** @throws InputError for a bound that a case and the matrix both set. */
+    void check_criteria(const Matrix &matrix,
+                        const std::map<std::string, cases::Case> &cases_by_name)
+    {
+      for(const MatrixCriterion &one : matrix.criteria)
+        for(const cases::Criterion &written : cases_by_name.at(one.case_name).criteria)
+          if(bound_the_same(one.criterion, written))
+            throw cases::InputError(fmt::format(
+                "{} sets a bound that the case sets itself, '{}'; it belongs to one of "
+                "them",
+                one.place, written.text));
+    }
   } // namespace
 
   MatrixResult run_matrix(const Matrix &matrix, const RunnerOptions &given,
@@ -256,6 +270,7 @@ namespace meltfront::verification
     check_findings(matrix, methods);
     const std::map<std::string, cases::Case> cases_by_name
         = load_cases(matrix, load_case);
+    check_criteria(matrix, cases_by_name);
     const RunnerOptions options = completed(given);
     const DirectoryLock lock(options.directory);
 

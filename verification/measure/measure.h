@@ -86,10 +86,11 @@ namespace meltfront::verification
   struct Sighting
   {
     const cases::Snapshot &snapshot;
-    std::vector<int> marks{};  ///< of Measurement::marks that it reaches, from 1
-    bool at_end = false;       ///< of the run
-    bool in_series = false;    ///< one of the equidistant samples
-    bool front_counts = false; ///< in averages of the front's error over time
+    std::vector<int> intermediate_times{}; ///< of Measurement::intermediate_times that it
+                                           ///< reaches, from 1
+    bool at_end = false;                   ///< of the run
+    bool in_series = false;                ///< one of the equidistant samples
+    bool front_counts = false;             ///< in averages of the front's error over time
     const std::vector<double> *coordinates = nullptr; ///< of the sites (x or r, m)
     FrontReading front{};
     double exact_front = 0;            ///< m
@@ -97,7 +98,7 @@ namespace meltfront::verification
     double lowest = 0, highest = 0;    ///< temperatures of the sites
     cases::TemperatureBounds bounds{}; ///< of the maximum principle
 
-    /** `_1` for each mark that it reaches, and the given one at the end. */
+    /** `_1` for each intermediate time that it reaches, and the given one at the end. */
     std::vector<std::string> suffixes(const std::string &end) const;
   };
 
@@ -126,7 +127,7 @@ namespace meltfront::verification
     {
     }
 
-    /** A sample, or a state near a mark or at the end. */
+    /** A sample, or a state near an intermediate time or at the end. */
     virtual void observe(const Sighting &sighting) = 0;
 
     /** What is known so far. */

@@ -10,8 +10,8 @@ namespace meltfront::verification
     /**
      * MushError at the end (K, mass fractions, relative), between
      * Measurement::temperature_from and temperature_to; the same with _1 to _8 at the
-     * marks, each in the first snapshot at or after it, against the exact state of the
-     * snapshot's own time.
+     * intermediate times, each in the first snapshot at or after it, against the exact
+     * state of the snapshot's own time.
      */
     class Mush : public Measure
     {
@@ -48,18 +48,19 @@ namespace meltfront::verification
     using enum Shown;
     std::vector<Quantity> list{
         error_quantity("temperature_rms", "temperature, RMS", "K", when_asked),
-        error_quantity("temperature_rms_1", "temperature, RMS, mark 1", "K", when_asked),
+        error_quantity("temperature_rms_1", "temperature, RMS, time 1", "K", when_asked),
         error_quantity("solid_fraction_rms", "solid fraction, RMS", ""),
-        error_quantity("solid_fraction_rms_1", "solid fraction, RMS, mark 1", "",
+        error_quantity("solid_fraction_rms_1", "solid fraction, RMS, time 1", "",
                        when_asked),
         error_quantity("concentration_rms", "concentration, RMS", ""),
         error_quantity("ice_error", "solid, end", "relative"),
-        error_quantity("ice_error_1", "solid, mark 1", "relative", when_asked),
+        error_quantity("ice_error_1", "solid, time 1", "relative", when_asked),
         hidden_quantity("concentration_rms_1")};
-    for(int mark = 2; mark <= cases::most_marks; ++mark)
+    for(int intermediate = 2; intermediate <= cases::most_intermediate_times;
+        ++intermediate)
       for(const char *name :
           {"temperature_rms", "solid_fraction_rms", "concentration_rms", "ice_error"})
-        list.push_back(hidden_quantity(fmt::format("{}_{}", name, mark)));
+        list.push_back(hidden_quantity(fmt::format("{}_{}", name, intermediate)));
     return {list, MeasuredScenes::with_heat, start<Mush>};
   }
 } // namespace meltfront::verification

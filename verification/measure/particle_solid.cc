@@ -1,4 +1,4 @@
-#include <cases/outcomes.h>
+#include <cases/reported_scalars.h>
 #include <verification/measure/measure.h>
 
 #include <fmt/format.h>
@@ -7,7 +7,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    /** Particles that are solid at the marks and at the end. */
+    /** Particles that are solid at the intermediate times and at the end. */
     class ParticleSolid : public Measure
     {
     public:
@@ -30,10 +30,12 @@ namespace meltfront::verification
   MeasureKind particle_solid()
   {
     std::vector<Quantity> list{hidden_quantity("solid_end")};
-    for(const cases::Outcome &outcome : cases::outcomes()) // the method counts them
-      list.push_back(hidden_quantity(outcome.name));
-    for(int mark = 1; mark <= cases::most_marks; ++mark)
-      list.push_back(hidden_quantity(fmt::format("solid_{}", mark)));
+    for(const cases::ReportedScalar &scalar :
+        cases::reported_scalars()) // the method counts them
+      list.push_back(hidden_quantity(scalar.name));
+    for(int intermediate = 1; intermediate <= cases::most_intermediate_times;
+        ++intermediate)
+      list.push_back(hidden_quantity(fmt::format("solid_{}", intermediate)));
     return {list, MeasuredScenes::in_motion, start<ParticleSolid>};
   }
 } // namespace meltfront::verification

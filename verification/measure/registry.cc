@@ -10,19 +10,27 @@ namespace meltfront::verification
 {
   MeasureKind run_size(), front_error(), tracked_points(), solid_volume_over_time(),
       front_square(), front_mode(), front_backsteps(), front_row(), timed_events(),
-      mirror_asymmetry(), carried_front(), particle_solid(), temperature(), mush(),
+      mirror_asymmetry(), advected_interface(), particle_solid(), temperature(), mush(),
       budgets(), entropy_fall(), run_cost();
 
   const std::vector<MeasureKind> &measures()
   {
-    static const std::vector<MeasureKind> all{run_size(),        front_error(),
-                                              tracked_points(),  solid_volume_over_time(),
-                                              front_square(),    front_mode(),
-                                              front_backsteps(), front_row(),
-                                              timed_events(),    mirror_asymmetry(),
-                                              carried_front(),   particle_solid(),
-                                              temperature(),     mush(),
-                                              budgets(),         entropy_fall(),
+    static const std::vector<MeasureKind> all{run_size(),
+                                              front_error(),
+                                              tracked_points(),
+                                              solid_volume_over_time(),
+                                              front_square(),
+                                              front_mode(),
+                                              front_backsteps(),
+                                              front_row(),
+                                              timed_events(),
+                                              mirror_asymmetry(),
+                                              advected_interface(),
+                                              particle_solid(),
+                                              temperature(),
+                                              mush(),
+                                              budgets(),
+                                              entropy_fall(),
                                               run_cost()};
     return all;
   }
@@ -110,8 +118,8 @@ namespace meltfront::verification
   std::vector<std::string> Sighting::suffixes(const std::string &end) const
   {
     std::vector<std::string> list;
-    for(const int mark : marks)
-      list.push_back(fmt::format("_{}", mark));
+    for(const int intermediate : intermediate_times)
+      list.push_back(fmt::format("_{}", intermediate));
     if(at_end)
       list.push_back(end);
     return list;

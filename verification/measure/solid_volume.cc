@@ -9,8 +9,8 @@ namespace meltfront::verification
 {
   namespace
   {
-    /** The volume that is solid at the end and at the marks, there interpolated between
-     * steps; the farthest that it fell back, over its net change. */
+    /** The volume that is solid at the end and at the intermediate times, there
+     * interpolated between steps; the farthest that it fell back, over its net change. */
     class SolidVolume : public Measure
     {
     public:
@@ -29,11 +29,12 @@ namespace meltfront::verification
       Results results() const override
       {
         Results all = values;
-        const std::vector<double> &marks = run.the_case.measurement.marks;
+        const std::vector<double> &intermediate_times
+            = run.the_case.measurement.intermediate_times;
         const double tolerance = 1e-9 * (run.scene.end_time - run.scene.start_time);
-        for(std::size_t i = 0; i < marks.size(); ++i)
+        for(std::size_t i = 0; i < intermediate_times.size(); ++i)
           all[fmt::format("solid_volume_{}", i + 1)]
-              = interpolated(times, volumes, marks[i], tolerance);
+              = interpolated(times, volumes, intermediate_times[i], tolerance);
         const double net = course.net_advance();
         if(net != 0)
           all["solid_volume_backsteps"]
@@ -62,12 +63,14 @@ namespace meltfront::verification
     list[1] = difference("solid_volume_end_error", "end");
     list[2].heading = "the same in error bars";
     list[2].shown = Shown::always;
-    for(int mark = 1; mark <= cases::most_marks; ++mark)
+    for(int intermediate = 1; intermediate <= cases::most_intermediate_times;
+        ++intermediate)
     {
-      auto at_mark
-          = with_differences(hidden_quantity(fmt::format("solid_volume_{}", mark)));
-      at_mark[1] = difference(at_mark[1].name, fmt::format("mark {}", mark));
-      list.insert(list.end(), at_mark.begin(), at_mark.end());
+      auto at_intermediate_time = with_differences(
+          hidden_quantity(fmt::format("solid_volume_{}", intermediate)));
+      at_intermediate_time[1] = difference(at_intermediate_time[1].name,
+                                           fmt::format("time {}", intermediate));
+      list.insert(list.end(), at_intermediate_time.begin(), at_intermediate_time.end());
     }
     list.push_back(difference("solid_volume_rms_error", "RMS"));
     list.push_back(value_quantity("solid_volume_backsteps", "solid's backsteps",

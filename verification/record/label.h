@@ -22,7 +22,8 @@ namespace meltfront::verification
 
   /**
    * The same label as run_label() writes it, options sorted by their keys and without
-   * blanks: `fem-fitted[degree=2,scheme=bdf3]` for `fem-fitted [ scheme = bdf3, degree=2
+   * blanks: `fem-fitted[degree=2,time_scheme=bdf3]` for `fem-fitted [ scheme = bdf3,
+   * degree=2
    * ]`. Labels mean the same runs if these are equal.
    */
   std::string canonical_label(const std::string &label);

@@ -162,7 +162,7 @@ namespace meltfront::verification
     visit("quantities", record.quantities);
     visit("series", record.series);
     visit("profile", record.profile);
-    visit("mark_profiles", record.mark_profiles, since_later);
+    visit("intermediate_profiles", record.intermediate_profiles, since_later);
     visit("frames", record.frames, since_later);
     visit("particle_frames", record.particle_frames, if_any);
     visit("animation", record.animation, if_any);

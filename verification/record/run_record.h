@@ -112,10 +112,12 @@ namespace meltfront::verification
 
     RunSeries series;
     RunProfile profile;
-    std::vector<RunProfile> mark_profiles;      ///< at Measurement::marks or some
-    std::vector<FrontFrame> frames;             ///< at Measurement::marks and at the end
-    std::vector<ParticleFrame> particle_frames; ///< at the start, the marks and the end
-    std::vector<ParticleFrame> animation;       ///< of the first seed: throughout the run
+    std::vector<RunProfile>
+        intermediate_profiles;      ///< at Measurement::intermediate_times or some
+    std::vector<FrontFrame> frames; ///< at Measurement::intermediate_times and at the end
+    std::vector<ParticleFrame>
+        particle_frames; ///< at the start, the intermediate times and the end
+    std::vector<ParticleFrame> animation; ///< of the first seed: throughout the run
     std::vector<RunEvent> events;
     std::vector<Check> checks;
     /** Checks that could not be made, with the reason. */

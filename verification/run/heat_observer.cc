@@ -23,7 +23,7 @@ namespace meltfront::verification
     : RunObserver(c, simulated, method, second)
     , exact(c.exact.get())
     , capabilities(capabilities)
-    , marks(c.measurement.marks)
+    , intermediate_times(c.measurement.intermediate_times)
   {
     if(!(scene.end_time > scene.start_time))
       throw cases::InputError(fmt::format(
@@ -47,9 +47,9 @@ namespace meltfront::verification
 
   bool HeatObserver::asks_for(long step, double time)
   {
-    marks.pass(step, time);
+    intermediate_times.pass(step, time);
     return the_case.measurement.samples == 0 || sample_is_due(step, time)
-           || marks.near_mark();
+           || intermediate_times.near_one();
   }
 
   double HeatObserver::exact_front(double time) const
@@ -72,7 +72,7 @@ namespace meltfront::verification
         = changes_phase ? reader->read(snapshot) : FrontReading{nan, nan, nan, nan};
     sighting.coordinates = &reader->coordinates(snapshot);
     sighting.exact_front = exact_front(snapshot.time);
-    // Steps that are wanted for a mark only would weigh its neighbourhood.
+    // Steps that are wanted for an intermediate time only would weigh its neighbourhood.
     sighting.front_counts = (sighting.in_series || the_case.measurement.samples == 0)
                             && !std::isnan(sighting.exact_front)
                             && !(snapshot.step == 0 && sighting.exact_front == 0);
@@ -103,10 +103,10 @@ namespace meltfront::verification
                               description.spacing);
     };
     // Marks before the first snapshot with points are not drawn late.
-    if(!sighting.marks.empty())
+    if(!sighting.intermediate_times.empty())
       keep_front(snapshot);
-    for(const int mark : sighting.marks)
-      if(scene.alloy || mark == the_case.measurement.picture_mark)
+    for(const int intermediate : sighting.intermediate_times)
+      if(scene.alloy || intermediate == the_case.measurement.picture_time)
         profiles.push_back(profile());
     if(!sighting.at_end)
       return;
@@ -128,7 +128,7 @@ namespace meltfront::verification
   {
     RunObserver::keep_results(record);
     record.profile = end_profile;
-    record.mark_profiles = profiles;
+    record.intermediate_profiles = profiles;
   }
 
   Results HeatObserver::quantities() const

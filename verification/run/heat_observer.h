@@ -13,8 +13,8 @@ namespace meltfront::verification
    * Observes a run that conducts heat: judges each snapshot by SnapshotChecks, where a
    * breach ends the run, reads the front once for all measures, keeps profiles.
    *
-   * It asks for the steps around each of Measurement::marks too. Where no phase changes
-   * there is no front and no volume that is solid: these are NaN.
+   * It asks for the steps around each of Measurement::intermediate_times too. Where no
+   * phase changes there is no front and no volume that is solid: these are NaN.
    */
   class HeatObserver : public RunObserver
   {
@@ -48,10 +48,10 @@ namespace meltfront::verification
     cases::Capabilities capabilities;
     std::optional<SnapshotChecks> checks;
     std::optional<FrontReader> reader;
-    MarkWatch marks;
+    SnapshotTimes intermediate_times;
     RunProfile end_profile;
-    /** States of an alloy at the marks; of a pure substance at the one of which a picture
-     * is kept. */
+    /** States of an alloy at the intermediate times; of a pure substance at the one of
+     * which a picture is kept. */
     std::vector<RunProfile> profiles;
   };
 } // namespace meltfront::verification

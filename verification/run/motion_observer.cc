@@ -9,7 +9,7 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr int pictures_before_mark = 12, most_pictures = 60;
+    constexpr int pictures_before_intermediate = 12, most_pictures = 60;
     constexpr std::size_t most_animated = 2000;
 
     /** Values for pictures: five digits of the largest, so that records stay small. */
@@ -43,15 +43,17 @@ namespace meltfront::verification
               {snapshot.solid_fraction.begin(), snapshot.solid_fraction.end()}};
     }
 
-    /** Equidistant from the start to the first mark, and from there to the end. */
+    /** Equidistant from the start to the first intermediate time, and from there to the
+     * end. */
     std::vector<double> times_of_pictures(const cases::Scene &scene,
-                                          const std::vector<double> &marks)
+                                          const std::vector<double> &intermediate_times)
     {
       std::vector<double> times;
-      const bool marked = !marks.empty() && marks.front() > scene.start_time
-                          && marks.front() < scene.end_time;
-      const double turn = marked ? marks.front() : scene.start_time;
-      const int before = marked ? pictures_before_mark : 0;
+      const bool marked = !intermediate_times.empty()
+                          && intermediate_times.front() > scene.start_time
+                          && intermediate_times.front() < scene.end_time;
+      const double turn = marked ? intermediate_times.front() : scene.start_time;
+      const int before = marked ? pictures_before_intermediate : 0;
       for(int i = 0; i < before; ++i)
         times.push_back(scene.start_time + (turn - scene.start_time) * i / before);
       const int after = most_pictures - before;
@@ -67,7 +69,7 @@ namespace meltfront::verification
     : RunObserver(c, simulated, method, second)
   {
     if(animated && simulated.particle_solid)
-      picture_times = times_of_pictures(simulated, c.measurement.marks);
+      picture_times = times_of_pictures(simulated, c.measurement.intermediate_times);
   }
 
   void MotionObserver::start()
@@ -85,7 +87,7 @@ namespace meltfront::verification
 
   bool MotionObserver::asks_for(long step, double time)
   {
-    return sample_is_due(step, time) || mark_is_due(time) || picture_is_due(time);
+    return sample_is_due(step, time) || intermediate_is_due(time) || picture_is_due(time);
   }
 
   void MotionObserver::look(const cases::Snapshot &snapshot)
@@ -118,7 +120,7 @@ namespace meltfront::verification
       run_series.solid_volume.push_back(sighting.solid_volume);
     }
     observe_with_all(sighting);
-    if(snapshot.step == 0 || !sighting.marks.empty())
+    if(snapshot.step == 0 || !sighting.intermediate_times.empty())
       keep_frame(snapshot);
     keep_picture(snapshot);
     if(sighting.at_end)
@@ -136,7 +138,7 @@ namespace meltfront::verification
     if(snapshot.dimension != 2)
       return;
     if(!particle_frames.empty() && particle_frames.back().step == snapshot.step)
-      return; // a mark at the end
+      return; // an intermediate time at the end
     particle_frames.push_back(frame_of(snapshot));
   }
 
@@ -150,11 +152,11 @@ namespace meltfront::verification
       animation.push_back(frame_of(snapshot));
   }
 
-  void MotionObserver::outcome(const std::string &name, double value)
+  void MotionObserver::report(const std::string &name, double value)
   {
     told[name] = value;
     if(second)
-      second->outcome(name, value);
+      second->report(name, value);
   }
 
   void MotionObserver::keep_results(RunRecord &record) const

@@ -11,10 +11,11 @@ namespace meltfront::verification
    * Observes a run in which things move and no heat is conducted: particles of a solid,
    * or a front that a velocity carries along.
    *
-   * It asks for the first step at or after each of Measurement::marks too. A state that
-   * is not finite ends the run with a NumericalError. If it is animated, up to 61 frames
-   * of at most 2000 particles are kept: 12 of them before the first mark, where there is
-   * one, since marks stand where things happen.
+   * It asks for the first step at or after each of Measurement::intermediate_times too. A
+   * state that is not finite ends the run with a NumericalError. If it is animated, up to
+   * 61 frames of at most 2000 particles are kept: 12 of them before the first
+   * intermediate time, where there is one, since intermediate times stand where things
+   * happen.
    */
   class MotionObserver : public RunObserver
   {
@@ -24,7 +25,7 @@ namespace meltfront::verification
                    const std::string &method, cases::Observer *second = nullptr,
                    bool animated = false);
 
-    void outcome(const std::string &name, double value) override;
+    void report(const std::string &name, double value) override;
     void keep_results(RunRecord &record) const override;
     Results quantities() const override;
 

@@ -56,10 +56,12 @@ namespace meltfront::verification
     return step == 0 || samples * (clock(time) + time_tolerance) >= next_sample;
   }
 
-  bool RunObserver::mark_is_due(double time) const
+  bool RunObserver::intermediate_is_due(double time) const
   {
-    const std::vector<double> &marks = the_case.measurement.marks;
-    return next_mark < marks.size() && time >= marks[next_mark] - tolerance;
+    const std::vector<double> &intermediate_times
+        = the_case.measurement.intermediate_times;
+    return next_intermediate < intermediate_times.size()
+           && time >= intermediate_times[next_intermediate] - tolerance;
   }
 
   bool RunObserver::wants(long step, double time)
@@ -83,8 +85,8 @@ namespace meltfront::verification
     {
       Sighting sighting{.snapshot = snapshot, .at_end = at_end};
       sighting.in_series = at_end || sample_is_due(snapshot.step, snapshot.time);
-      while(mark_is_due(snapshot.time))
-        sighting.marks.push_back(static_cast<int>(++next_mark));
+      while(intermediate_is_due(snapshot.time))
+        sighting.intermediate_times.push_back(static_cast<int>(++next_intermediate));
       if(sighting.in_series)
         next_sample
             = static_cast<int>(samples * (clock(snapshot.time) + time_tolerance)) + 1;

@@ -39,7 +39,7 @@ namespace meltfront::verification
 
     const RunSeries &series() const;
 
-    /** Tracked points on the front at the marks and at the end. */
+    /** Tracked points on the front at the intermediate times and at the end. */
     const std::vector<FrontFrame> &frames() const;
 
     /** What the measures know, by name; where heat is conducted NaN for what they do not
@@ -72,7 +72,7 @@ namespace meltfront::verification
 
     void start_measures(MeasuredScenes scenes, const InterfaceComparison *carried);
     bool sample_is_due(long step, double time) const;
-    bool mark_is_due(double time) const;
+    bool intermediate_is_due(double time) const;
     void observe_with_all(const Sighting &sighting);
     void keep_front(const cases::Snapshot &snapshot);
 
@@ -91,8 +91,8 @@ namespace meltfront::verification
     double clock(double time) const;
 
     std::vector<std::unique_ptr<Measure>> started;
-    int next_sample = 0;       ///< index of the next of the samples
-    std::size_t next_mark = 0; ///< of Measurement::marks
+    int next_sample = 0;               ///< index of the next of the samples
+    std::size_t next_intermediate = 0; ///< of Measurement::intermediate_times
     bool ended = false;
     long last_step = -1;
     double last_time;

@@ -25,7 +25,7 @@ subsection Scene
       set conductivity = 2
     end
   end
-  subsection Heat release
+  subsection Volumetric source
     set power density = 4 * pi^2 * sin(pi*x) * sin(pi*y)
   end
   subsection Walls
@@ -83,8 +83,8 @@ TEST(ConductionCase, ASteadySceneAndItsFormula)
   EXPECT_EQ(scene.start_time, 0);
   EXPECT_EQ(scene.end_time, 1);
   EXPECT_EQ(scene.conductivity_at({0.5, 0.5, 0}), 2);
-  ASSERT_TRUE(scene.heat_release.has_value());
-  EXPECT_NEAR((*scene.heat_release)({0.5, 0.5, 0}, 0), 4 * M_PI * M_PI, 1e-12);
+  ASSERT_TRUE(scene.volumetric_source.has_value());
+  EXPECT_NEAR((*scene.volumetric_source)({0.5, 0.5, 0}, 0), 4 * M_PI * M_PI, 1e-12);
   const Boundary &exchange = scene.boundary(Side::x_min);
   EXPECT_EQ(exchange.kind, BoundaryKind::heat_transfer);
   EXPECT_EQ(exchange.heat_transfer_coefficient, 1);
@@ -92,7 +92,7 @@ TEST(ConductionCase, ASteadySceneAndItsFormula)
   EXPECT_FALSE(c.exact->has_front());
   EXPECT_NEAR(c.exact->temperature(Position{0.5, 0.25, 0}, 1), std::sqrt(0.5), 1e-15);
   const EffectSet effects = effects_called_for(scene);
-  for(const Effect effect : {Effect::heat_release, Effect::wall_transfer,
+  for(const Effect effect : {Effect::volumetric_source, Effect::robin_wall,
                              Effect::wall_flux, Effect::wall_temperature})
     EXPECT_TRUE(effects.contains(effect)) << to_string(effect);
   EXPECT_FALSE(effects.contains(Effect::inclusion));
@@ -102,10 +102,10 @@ TEST(ConductionCase, ASteadySceneAndItsFormula)
 TEST(ConductionCase, WhatIsTakenOutIsGone)
 {
   Case c = read_case_text(steady, "a.prm");
-  for(const Effect effect : {Effect::heat_release, Effect::wall_transfer})
+  for(const Effect effect : {Effect::volumetric_source, Effect::robin_wall})
     c.scene.effect_choices[effect] = EffectChoice::off;
   const Scene scene = simulated_scene(c.scene, effects_called_for(c.scene));
-  EXPECT_FALSE(scene.heat_release.has_value());
+  EXPECT_FALSE(scene.volumetric_source.has_value());
   EXPECT_EQ(scene.boundary(Side::x_min).kind, BoundaryKind::insulated);
 }
 

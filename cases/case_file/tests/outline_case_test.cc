@@ -120,11 +120,11 @@ namespace meltfront::cases::test
     const Case c
         = read(with(square, "subsection Measure\n  set events = half_frozen, all_frozen\n"
                             "  set mirror = y\n"
-                            "  set marks = 1, 2, 3, 4, 5, 6, 7, 8\nend\n"));
+                            "  set intermediate times = 1, 2, 3, 4, 5, 6, 7, 8\nend\n"));
     EXPECT_EQ(c.measurement.events,
               (std::vector{TimedEvent::half_frozen, TimedEvent::all_frozen}));
     EXPECT_EQ(c.measurement.mirror, 1);
-    EXPECT_EQ(c.measurement.marks.size(), 8u);
+    EXPECT_EQ(c.measurement.intermediate_times.size(), 8u);
     EXPECT_TRUE(read(square).measurement.events.empty());
     EXPECT_FALSE(read(square).measurement.mirror);
   }
@@ -136,7 +136,7 @@ namespace meltfront::cases::test
     expect_complaint(measured("events = half_frozn"), "the nearest is 'half_frozen'");
     expect_complaint(measured("events = first_contact"), "the scene has 1");
     expect_complaint(measured("mirror = z"), "a scene of 2 dimensions lacks");
-    expect_complaint(measured("marks = 1, 2, 3, 4, 5, 6, 7, 8, 9"),
+    expect_complaint(measured("intermediate times = 1, 2, 3, 4, 5, 6, 7, 8, 9"),
                      "one to eight numbers");
   }
 } // namespace meltfront::cases::test

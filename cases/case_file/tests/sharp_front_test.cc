@@ -165,31 +165,34 @@ TEST(SharpFront, WhatIsMeasuredAndHeldAgainst)
 {
   const Case c = read(annulus
                       + "subsection Measure\n  set front mode = 4\n"
-                        "  set marks = 0.05, 0.1, 0.15, 0.19\nend\n"
+                        "  set intermediate times = 0.05, 0.1, 0.15, 0.19\nend\n"
                         "subsection Reference\n  set method = fem-fitted[degree=3]\n"
                         "  set n = 64\nend\n");
   EXPECT_EQ(c.measurement.front_mode, 4);
-  EXPECT_EQ(c.measurement.marks, (std::vector{0.05, 0.1, 0.15, 0.19}));
+  EXPECT_EQ(c.measurement.intermediate_times, (std::vector{0.05, 0.1, 0.15, 0.19}));
   ASSERT_TRUE(c.reference.has_value());
   EXPECT_EQ(c.reference->label, "fem-fitted[degree=3]");
   EXPECT_EQ(c.reference->n, 64);
   EXPECT_FALSE(read(annulus).reference.has_value());
   EXPECT_EQ(read(annulus).measurement.front_mode, 0);
-  EXPECT_TRUE(read(annulus).measurement.marks.empty());
+  EXPECT_TRUE(read(annulus).measurement.intermediate_times.empty());
 }
 
 TEST(SharpFront, MeasuresAndReferencesThatCannotBe)
 {
   const auto measure = [](const std::string &text, const std::string &keys)
   { return complaint(text + "subsection Measure\n" + keys + "\nend\n"); };
-  EXPECT_EQ(measure(annulus, "set marks = 0.1, 0.05"),
-            "a.prm:35: key 'marks' in subsection 'Measure' must ascend between the "
+  EXPECT_EQ(measure(annulus, "set intermediate times = 0.1, 0.05"),
+            "a.prm:35: key 'intermediate times' in subsection 'Measure' must ascend "
+            "between the "
             "scene's start (0) and its end (0.2), which 0.05 does not");
-  EXPECT_EQ(measure(annulus, "set marks = 0.2"),
-            "a.prm:35: key 'marks' in subsection 'Measure' must ascend between the "
+  EXPECT_EQ(measure(annulus, "set intermediate times = 0.2"),
+            "a.prm:35: key 'intermediate times' in subsection 'Measure' must ascend "
+            "between the "
             "scene's start (0) and its end (0.2), which 0.2 does not");
-  EXPECT_EQ(measure(annulus, "set marks = 1, 2, 3, 4, 5, 6, 7, 8, 9"),
-            "a.prm:35: key 'marks' in subsection 'Measure' needs one to eight numbers "
+  EXPECT_EQ(measure(annulus, "set intermediate times = 1, 2, 3, 4, 5, 6, 7, 8, 9"),
+            "a.prm:35: key 'intermediate times' in subsection 'Measure' needs one to "
+            "eight numbers "
             "separated by commas, not '1, 2, 3, 4, 5, 6, 7, 8, 9'");
   EXPECT_EQ(measure(slab, "set front mode = 2"),
             "a.prm:35: key 'front mode' in subsection 'Measure' has no meaning here: "

@@ -31,7 +31,8 @@ namespace
   {
     LatticeProblem waves = problem(intervals);
     waves.wall_temperature = wave;
-    waves.heat_release = [](const Position &p) { return 2 * 1.25 * pi * pi * wave(p); };
+    waves.volumetric_source
+        = [](const Position &p) { return 2 * 1.25 * pi * pi * wave(p); };
     const LatticeReference reference(waves);
     double largest = 0;
     for(double x = -0.5; x <= 1.5; x += 0.0711)
@@ -48,7 +49,7 @@ TEST(LatticeReference, CubicsInEachDirectionAreExact)
   { return p[0] * p[0] * p[0] - 3 * p[0] * p[1] * p[1] + p[0] * p[1] + 0.5; };
   LatticeProblem harmonic = problem(12);
   harmonic.wall_temperature = cubic;
-  harmonic.heat_release = [](const Position &) { return 0.; };
+  harmonic.volumetric_source = [](const Position &) { return 0.; };
   const LatticeReference reference(harmonic);
   for(const Position p :
       {Position{-0.5, 1, 0}, {0.123, 1.01, 0}, {1.49, 2.2, 0}, {1.5, 3, 0}})

@@ -3,8 +3,9 @@
 
 #include <cases/tests/support/course.h>
 #include <cases/tests/support/scenes.h>
-#include <particles/alloy/alloy.h>
 #include <particles/alloy/tests/mushy_similarity.h>
+#include <particles/sph_mixture/sph_mixture.h>
+#include <particles/sph_two_population/sph_two_population.h>
 
 #include <vector>
 

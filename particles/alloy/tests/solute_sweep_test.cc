@@ -1,7 +1,7 @@
-#include <particles/alloy/mixture_conduction.h>
 #include <particles/alloy/solute_diffusion.h>
 #include <particles/alloy/tests/alloy_scenes.h>
 #include <particles/sph/tests/scenes.h>
+#include <particles/sph_mixture/mixture_conduction.h>
 
 #include <gtest/gtest.h>
 

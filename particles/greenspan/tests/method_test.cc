@@ -42,7 +42,7 @@ namespace meltfront::particles::greenspan
         time = snapshot.time;
       }
 
-      void outcome(const std::string &name, double value) override
+      void report(const std::string &name, double value) override
       {
         outcomes[name] = value;
       }

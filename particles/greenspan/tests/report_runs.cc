@@ -1,6 +1,6 @@
+#include <particles/greenspan/diagnostics.h>
 #include <particles/greenspan/tables.h>
 #include <particles/greenspan/tests/report_runs.h>
-#include <particles/greenspan/witness.h>
 
 #include <algorithm>
 #include <exception>
@@ -104,15 +104,15 @@ namespace meltfront::particles::greenspan
   RunRecord run(const Experiment &experiment)
   {
     Motion motion(experiment.parameters, experiment.start);
-    Witness witness(experiment);
+    Diagnostics diagnostics(experiment);
     ParticleState state = motion.state();
-    witness.look(state);
+    diagnostics.look(state);
     while(motion.step() < experiment.steps)
     {
       motion.advance(std::min(experiment.interval, experiment.steps - motion.step()));
-      witness.look(motion.state());
+      diagnostics.look(motion.state());
     }
-    return witness.record();
+    return diagnostics.record();
   }
 
   std::vector<RunRecord> run_ensemble(const Experiment &experiment, int members,

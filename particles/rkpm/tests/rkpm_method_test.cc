@@ -26,17 +26,12 @@ namespace
     throw std::logic_error(name);
   }
 
-  cases::Boundary held(const Formula &formula)
-  {
-    return {cases::BoundaryKind::fixed_temperature, {"", formula}};
-  }
-
   /** A steady unit box whose walls hold the formula. */
   cases::Scene box(int dimension, const Formula &formula, const Formula &release)
   {
     cases::Scene scene = steady_box(dimension, {"", formula});
     scene.initial.temperature = {"", formula};
-    scene.heat_release = cases::Field{"", release};
+    scene.volumetric_source = cases::Field{"", release};
     return scene;
   }
 
@@ -46,7 +41,7 @@ namespace
     const cases::Method &method = method_named(name);
     Course course;
     solve(method, scene, resolution_of(method, n, options, 1, seed), course);
-    EXPECT_FALSE(course.heat.booked);
+    EXPECT_FALSE(course.heat.conservative);
     EXPECT_FALSE(course.obeys_maximum_principle);
     return course;
   }
@@ -175,7 +170,7 @@ TEST(RkpmMethods, HeatThatDecaysIsOfSecondOrder)
   { return std::sin(pi * p[0]) * std::exp(-pi * pi * t); };
   cases::Scene scene = box(1, wave, [](const cases::Position &, double) { return 0.; });
   scene.problem = cases::ProblemKind::stefan;
-  scene.heat_release.reset();
+  scene.volumetric_source.reset();
   scene.end_time = 0.1;
   for(const char *unknowns : {"nodal", "reconstructed"})
   {

@@ -25,7 +25,7 @@ namespace
     result.domain.upper = {1, 0, 0};
     result.boundaries[0] = cases::Boundary{cases::BoundaryKind::flux, pulse()};
     result.boundaries[1] = cases::Boundary();
-    result.heat_release = pulse();
+    result.volumetric_source = pulse();
     return result;
   }
 

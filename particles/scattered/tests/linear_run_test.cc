@@ -163,7 +163,7 @@ TEST(LinearRun, HeatIsBooked)
     slab.release = 3;
     slab.slope = 5;
     slab.scene.end_time = 0.3;
-    slab.scene.heat_release = cases::Field::uniform(3);
+    slab.scene.volumetric_source = cases::Field::uniform(3);
     slab.scene.boundaries[1] = cases::Boundary(); // no bound on the temperature matters
     const Course course = slab.run(scheme, 37);
     EXPECT_LT(course.worst_budget_defect(), 1e-13) << scheme;

@@ -92,7 +92,7 @@ namespace meltfront::particles::testing
             scene.material = unit_material(100);
             scene.initial.temperature = cases::Field::uniform(1);
             scene.boundaries[static_cast<int>(cases::Side::outer)] = flux_wall(0.25);
-            scene.heat_release = cases::Field::uniform(0.7);
+            scene.volumetric_source = cases::Field::uniform(0.7);
             scene.end_time = 0.3;
             const Outcome outcome = run(*method, problem, n, {{"time_scheme", scheme}});
             double volume = 0, heat = 0;

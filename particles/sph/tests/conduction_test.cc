@@ -58,13 +58,13 @@ namespace meltfront::particles::testing
       return fitted_order(spacing, errors);
     }
 
-    TEST(Conduction, HeatReleasedThroughoutTheDomain)
+    TEST(Conduction, VolumetricSourceThroughoutTheDomain)
     {
       Problem problem
           = slab_with([](const cases::Position &p, double t)
                       { return std::sin(pi * p[0]) * (1 - std::exp(-4 * t)); },
                       0.5);
-      problem.scene.heat_release = cases::Field{
+      problem.scene.volumetric_source = cases::Field{
           "", [](const cases::Position &p, double t)
           {
             return std::sin(pi * p[0])
@@ -128,8 +128,9 @@ namespace meltfront::particles::testing
         EXPECT_LE(outcome.largest_defect, 1e-12);
         return std::max(outcome.highest - 2, -outcome.lowest);
       };
-      EXPECT_LE(spread({{"arrangement", "lennard-jones"}, {"smoothing", "1.3"}}), 1e-9);
-      EXPECT_LE(spread({{"arrangement", "random"}, {"smoothing", "1.3"}}), 1e-9);
+      EXPECT_LE(spread({{"arrangement", "lennard-jones"}, {"smoothing_length", "1.3"}}),
+                1e-9);
+      EXPECT_LE(spread({{"arrangement", "random"}, {"smoothing_length", "1.3"}}), 1e-9);
       EXPECT_THROW(run(*method, line_sink_in_disk(), 20, {{"arrangement", "random"}}),
                    cases::Refusal);
       EXPECT_THROW(

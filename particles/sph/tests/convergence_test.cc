@@ -134,7 +134,7 @@ namespace meltfront::particles::testing
         EXPECT_LE(sink.largest_defect, 1e-12);
       }
       // Plane N = 80 with h = 1.3 dp in two dimensions: 1.9e-3 and 2.6e-3 were known.
-      const OptionTexts options{{"dimension", "2"}, {"smoothing", "1.3"}};
+      const OptionTexts options{{"dimension", "2"}, {"smoothing_length", "1.3"}};
       for(const auto &[amount, bound] :
           {std::pair{"0.1", 1.9e-3}, std::pair{"0.2", 2.6e-3}})
       {
@@ -147,7 +147,7 @@ namespace meltfront::particles::testing
     // Errors that an independent code had on jittered particles bound those on relaxed.
     TEST(Convergence, RelaxedParticles)
     {
-      const OptionTexts common{{"smoothing", "1.3"}, {"arrangement", "relaxed"}};
+      const OptionTexts common{{"smoothing_length", "1.3"}, {"arrangement", "relaxed"}};
       for(const char *amount : {"0.1", "0.3"})
       {
         OptionTexts options = common;

@@ -113,7 +113,7 @@ namespace meltfront::particles::testing
     // with a margin of 30 per cent above them; below them is better.
     TEST(Implicit, PlaneFreezingWithLongSteps)
     {
-      const OptionTexts options{{"smoothing", "1.3"}, {"front", "partner"}};
+      const OptionTexts options{{"smoothing_length", "1.3"}, {"front", "partner"}};
       for(const auto &[scheme, factor, known] :
           {std::tuple{"backward-euler", 4., 1.642e-3},
            std::tuple{"backward-euler", 16., 1.833e-3},
@@ -245,7 +245,7 @@ namespace meltfront::particles::testing
       {
         return run(*method, problem, n,
                    {{"refine", "time"},
-                    {"particles", "40"},
+                    {"cells", "40"},
                     {"time_scheme", scheme},
                     {"stages", stages}});
       };

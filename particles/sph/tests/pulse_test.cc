@@ -68,7 +68,7 @@ namespace meltfront::particles::testing
         for(const auto &[begin, end] : spans)
         {
           Problem problem = without_latent_heat();
-          problem.scene.heat_release = pulse(begin, end);
+          problem.scene.volumetric_source = pulse(begin, end);
           const Outcome outcome = run(*method, problem, 10, options);
           expect_one(outcome, outcome.heat.sources);
           for(const double temperature : outcome.temperature)

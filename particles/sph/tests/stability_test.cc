@@ -23,10 +23,10 @@ namespace meltfront::particles::testing
       Discretisation dis;
       ConductionRows rows;
 
-      PeriodicRows(KernelShape kernel, double smoothing, double jitter,
+      PeriodicRows(KernelShape kernel, double smoothing_length, double jitter,
                    bool moment_correction = false)
         : scene(unit_box(2, unit_material(), 0, 1))
-        , parameters(make_parameters(kernel, smoothing, jitter))
+        , parameters(make_parameters(kernel, smoothing_length, jitter))
         , dis(make_periodic(scene), parameters)
         , rows(dis, moment_correction)
       {
@@ -39,7 +39,7 @@ namespace meltfront::particles::testing
         return scene;
       }
 
-      static SphParameters make_parameters(KernelShape kernel, double smoothing,
+      static SphParameters make_parameters(KernelShape kernel, double smoothing_length,
                                            double jitter)
       {
         SphParameters p;
@@ -47,7 +47,7 @@ namespace meltfront::particles::testing
         p.front = FrontRule::sub_particle;
         p.dimension = 2;
         p.kernel = kernel;
-        p.smoothing = smoothing;
+        p.smoothing_length = smoothing_length;
         p.layout = LatticeLayout::cell_centred;
         p.jitter = jitter;
         p.seed = 3;
@@ -97,9 +97,10 @@ namespace meltfront::particles::testing
     TEST(Stability, LimitsOfTheSquareLattice)
     {
       const auto cubic = KernelShape::cubic_spline;
-      for(const auto &[smoothing, limit] :
+      for(const auto &[smoothing_length, limit] :
           {std::pair{1.0, 0.3667}, {1.2, 0.3473}, {1.3, 0.3473}, {1.5, 0.3512}})
-        EXPECT_NEAR(PeriodicRows(cubic, smoothing, 0).euler_limit(), limit, 0.02 * limit);
+        EXPECT_NEAR(PeriodicRows(cubic, smoothing_length, 0).euler_limit(), limit,
+                    0.02 * limit);
       EXPECT_NEAR(PeriodicRows(KernelShape::wendland_c2, 1.3, 0).euler_limit(), 0.318,
                   0.02 * 0.318);
       EXPECT_NEAR(PeriodicRows(KernelShape::quintic_spline, 1.3, 0).euler_limit(), 0.517,
@@ -221,12 +222,13 @@ namespace meltfront::particles::testing
       return freezing_slab(material, 0.2, 1.2, 1, 0.05 / solid_conductivity);
     }
 
-    const std::vector<OptionTexts> variants{{},
-                                            {{"time_scheme", "euler"}},
-                                            {{"front", "partner"}},
-                                            {{"dimension", "2"}, {"smoothing", "1.3"}},
-                                            {{"layout", "edge"}},
-                                            {{"dimension", "2"}, {"jitter", "0.3"}}};
+    const std::vector<OptionTexts> variants{
+        {},
+        {{"time_scheme", "euler"}},
+        {{"front", "partner"}},
+        {{"dimension", "2"}, {"smoothing_length", "1.3"}},
+        {{"layout", "edge"}},
+        {{"dimension", "2"}, {"jitter", "0.3"}}};
 
     TEST(Stability, SmallAndLargeStefanNumbers)
     {

@@ -123,14 +123,14 @@ namespace meltfront::reference_fem::cut
     double poisson_error(int n, int degree)
     {
       const Circle circle(n, degree);
-      Stabilization stabilization;
+      Stabilisation stabilisation;
       PhaseEquation equation;
       equation.mass = 1;
       equation.conductivity = 1;
       equation.source = wave;
       equation.front_value = wave;
       PhaseProblem problem(circle.mesh, circle.geometry, circle.level_set, Phase::solid,
-                           stabilization);
+                           stabilisation);
       const Values solution = problem.solve(equation);
       double error = 0;
       const auto add = [&](unsigned int number, const std::vector<VolumePoint> &points)
@@ -170,13 +170,13 @@ namespace meltfront::reference_fem::cut
         Values level_set = signed_distance_to_zeros(
             mesh, [&](const Point &point) { return point[0] - 0.25 - shift / 8; });
         const CutGeometry geometry(mesh, level_set);
-        const Stabilization stabilization;
+        const Stabilisation stabilisation;
         PhaseEquation equation;
         equation.mass = 1;
         equation.conductivity = 1;
         equation.source = [](const Point &) { return 3.; };
         equation.front_value = [](const Point &) { return 3.; };
-        PhaseProblem problem(mesh, geometry, level_set, Phase::liquid, stabilization);
+        PhaseProblem problem(mesh, geometry, level_set, Phase::liquid, stabilisation);
         const Values solution = problem.solve(equation);
         for(const double value : solution)
           EXPECT_NEAR(value, 3, 1e-9) << "shift " << shift;

@@ -123,7 +123,7 @@ namespace meltfront::reference_fem::cut
         const auto mesh = mesh_about(square(), front, degree);
         const Values level_set = signed_distance_to_zeros(*mesh, front);
         const CutGeometry geometry(*mesh, level_set);
-        const Stabilization stabilization;
+        const Stabilisation stabilisation;
         PhaseEquation equation;
         equation.conductivity = 2;
         equation.front_value = plane;
@@ -132,7 +132,7 @@ namespace meltfront::reference_fem::cut
         };
         for(const Phase phase : phases)
         {
-          PhaseProblem problem(*mesh, geometry, level_set, phase, stabilization);
+          PhaseProblem problem(*mesh, geometry, level_set, phase, stabilisation);
           const Values solution = problem.solve(equation);
           for(std::size_t dof = 0; dof < solution.size(); ++dof)
             EXPECT_NEAR(solution[dof], plane(mesh->positions[dof]), 1e-10);
@@ -180,8 +180,8 @@ namespace meltfront::reference_fem::cut
       for(const cases::Scene &scene : {square(), disk()})
         for(const int degree : {1, 2})
         {
-          const Stabilization stabilization;
-          HeatProblem heat(scene, 2. / cells, stabilization, 0.25);
+          const Stabilisation stabilisation;
+          HeatProblem heat(scene, 2. / cells, stabilisation, 0.25);
           const double moved = 1.5 * 2. / cells;
           const State before = state_on(mesh_about(scene, circle(0.45 - moved), degree),
                                         circle(0.45), heat, wavy);

@@ -113,8 +113,7 @@ namespace meltfront::reference_fem::tests
                                      return r < 0 ? 0. : std::min(5 * r, 1.);
                                    },
                                    false};
-      const Course course
-          = run_cut(scene, 24, {{"fewest_steps", "60"}, {"step_factor", "0.5"}});
+      const Course course = run_cut(scene, 24, {{"fewest_steps", "60"}, {"cfl", "0.5"}});
       EXPECT_EQ(course.solid.back(), 0);
       EXPECT_LE(course.budget_defect.back(), 0.02);
     }

@@ -123,7 +123,7 @@ namespace meltfront::reference_fem::tests
       const auto [temperature, concentration] = orders("bdf2");
       EXPECT_GE(temperature, 1.8);
       EXPECT_GE(concentration, 1.8);
-      const auto [first, first_concentration] = orders("backward_euler");
+      const auto [first, first_concentration] = orders("backward-euler");
       EXPECT_NEAR(first, 1, 0.2);
       EXPECT_NEAR(first_concentration, 1, 0.2);
     }
@@ -135,7 +135,7 @@ namespace meltfront::reference_fem::tests
       scene.alloy->solutes[0].diffusivity = diffusivity;
       scene.initial.concentration
           = {along_x([](double x) { return x < 0.01 ? 0.02 : 0.3; })};
-      for(const char *scheme : {"bdf2", "backward_euler"})
+      for(const char *scheme : {"bdf2", "backward-euler"})
       {
         const RunRecord record = run(scene, 64, {{"time_scheme", scheme}});
         expect_closed(record);

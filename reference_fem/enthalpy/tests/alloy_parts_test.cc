@@ -181,8 +181,8 @@ namespace meltfront::reference_fem
     {
       const int n = 20;
       const double h = 1. / n, density = 1097, d = 0.3, c = 0.2, pi = std::numbers::pi;
-      const Discretization mesh
-          = make_mesh(slab(solvent(), 1, 300, 0, 1), 1, n)->discretize();
+      const Discretisation mesh
+          = make_mesh(slab(solvent(), 1, 300, 0, 1), 1, n)->discretise();
       SoluteDiffusion diffusion(mesh, density, make_tridiagonal_solver);
       for(const double fraction : {1., 0.4})
       {
@@ -203,8 +203,8 @@ namespace meltfront::reference_fem
     TEST(SoluteDiffusion, DoesNotPassSolidAndLosesNothing)
     {
       const int n = 20;
-      const Discretization mesh
-          = make_mesh(slab(solvent(), 1, 300, 0, 1), 2, n)->discretize();
+      const Discretisation mesh
+          = make_mesh(slab(solvent(), 1, 300, 0, 1), 2, n)->discretise();
       const std::size_t nodes = mesh.volume.size();
       SoluteDiffusion diffusion(mesh, 1,
                                 [](const ConductionMatrix &matrix) {

@@ -85,7 +85,7 @@ namespace meltfront::reference_fem::tests
       // The mode is one of the semi-discrete problem too, so that space adds no error.
       const double rate = 4. * cells * cells * std::pow(std::sin(pi / (2 * cells)), 2);
       for(const auto &[scheme, order] :
-          {std::pair{"backward_euler", 1.}, std::pair{"bdf2", 2.}})
+          {std::pair{"backward-euler", 1.}, std::pair{"bdf2", 2.}})
       {
         const std::vector<int> steps{20, 40, 80, 160, 320};
         std::vector<double> errors;

@@ -62,7 +62,7 @@ namespace meltfront::reference_fem::tests
       return scene;
     }
 
-    double area(const Discretization &mesh)
+    double area(const Discretisation &mesh)
     {
       return std::accumulate(mesh.volume.begin(), mesh.volume.end(), 0.);
     }
@@ -83,8 +83,8 @@ namespace meltfront::reference_fem::tests
         std::vector<double> areas, perimeters;
         for(const int cells : n)
         {
-          const Discretization mesh
-              = make_mesh(scene_of(outline, 10, 1), 2, cells)->discretize();
+          const Discretisation mesh
+              = make_mesh(scene_of(outline, 10, 1), 2, cells)->discretise();
           areas.push_back(std::abs(area(mesh) - outline->area()));
           double perimeter = 0;
           for(const WallNode &node : mesh.walls[static_cast<std::size_t>(Side::outer)])
@@ -104,8 +104,8 @@ namespace meltfront::reference_fem::tests
     {
       for(const auto &outline : {polygon(square), polygon(angle_iron), polygon(triangle)})
       {
-        const Discretization mesh
-            = make_mesh(scene_of(outline, 10, 1), 2, 40)->discretize();
+        const Discretisation mesh
+            = make_mesh(scene_of(outline, 10, 1), 2, 40)->discretise();
         EXPECT_NEAR(area(mesh), outline->area(), 1e-13);
       }
     }
@@ -149,7 +149,7 @@ namespace meltfront::reference_fem::tests
       EXPECT_LT(solid, 0.1);
     }
 
-    // Conduction alone to a held wall: the first mode of a square decays as
+    // Conduction alone to a Dirichlet wall: the first mode of a square decays as
     // exp(-2 pi^2 a t).
     TEST(OutlineRun, HeldWallCoolsASquare)
     {

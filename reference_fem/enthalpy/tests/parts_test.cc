@@ -133,7 +133,7 @@ namespace meltfront::reference_fem
       std::uniform_real_distribution<double> uniform(0.1, 1);
       for(const int dimension : {1, 2, 3})
       {
-        const Discretization mesh = make_mesh(scene, dimension, 16)->discretize();
+        const Discretisation mesh = make_mesh(scene, dimension, 16)->discretise();
         const std::size_t n = mesh.volume.size();
         std::vector<double> capacity(n), right(n), x(n);
         std::vector<char> active(n);
@@ -163,7 +163,7 @@ namespace meltfront::reference_fem
     {
       const auto total = [](const std::vector<double> &values)
       { return std::accumulate(values.begin(), values.end(), 0.); };
-      const auto wall = [](const Discretization &mesh, Side side)
+      const auto wall = [](const Discretisation &mesh, Side side)
       {
         double area = 0;
         for(const WallNode &node : mesh.walls[static_cast<std::size_t>(side)])
@@ -173,7 +173,7 @@ namespace meltfront::reference_fem
       const cases::Scene plane = slab(water(), 2.5, 1, 0, 1);
       for(const int dimension : {1, 2, 3})
       {
-        const Discretization mesh = make_mesh(plane, dimension, 10)->discretize();
+        const Discretisation mesh = make_mesh(plane, dimension, 10)->discretise();
         EXPECT_NEAR(total(mesh.volume), 2.5, 1e-13);
         EXPECT_NEAR(total(mesh.site_weights), 2.5, 1e-13);
         EXPECT_NEAR(wall(mesh, Side::x_min), 1, 1e-14);
@@ -189,17 +189,17 @@ namespace meltfront::reference_fem
         const double volume
             = dimension == 2 ? pi * radius * radius : 4. / 3. * pi * std::pow(radius, 3);
         const double area = dimension == 2 ? 2 * pi * radius : 4 * pi * radius * radius;
-        const Discretization radial = make_mesh(round, 1, 9)->discretize();
+        const Discretisation radial = make_mesh(round, 1, 9)->discretise();
         EXPECT_NEAR(total(radial.volume), volume, 1e-13);
         EXPECT_NEAR(wall(radial, Side::outer), area, 1e-13);
         EXPECT_NEAR(radial.spacing, radius / 5, 1e-15);
-        const Discretization full = make_mesh(round, dimension, 16)->discretize();
+        const Discretisation full = make_mesh(round, dimension, 16)->discretise();
         EXPECT_NEAR(total(full.volume), volume, 1e-5 * volume);
         EXPECT_NEAR(wall(full, Side::outer), area, 1e-5 * area);
       }
-      const Discretization block
+      const Discretisation block
           = make_mesh(box(water(), 3, {-1, 0, 2}, {1, 1.3, 2.5}, 1, 1), 3, 8)
-                ->discretize();
+                ->discretise();
       EXPECT_NEAR(total(block.volume), 2 * 1.3 * 0.5, 1e-12);
       EXPECT_NEAR(wall(block, Side::z_max), 2.6, 1e-12);
       EXPECT_TRUE(block.conduction.is_monotone());
@@ -208,7 +208,7 @@ namespace meltfront::reference_fem
     TEST(Mesh, SharesOfASourceReproduceItsPosition)
     {
       const auto mesh = make_mesh(box(water(), 2, {-1, 0, 0}, {1, 1, 0}, 1, 1), 2, 8);
-      const Discretization plain = mesh->discretize();
+      const Discretisation plain = mesh->discretise();
       for(const cases::Position point :
           {cases::Position{0.113, 0.771, 0}, {0, 0.5, 0}, {1, 1, 0}})
       {

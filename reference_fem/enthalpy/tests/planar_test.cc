@@ -84,7 +84,7 @@ namespace meltfront::reference_fem::tests
     TEST(PlanarFreezing, BackwardEulerIsOfFirstOrder)
     {
       const Study result = study(normalised(true), {64, 128, 256, 512, 1024},
-                                 {{"time_scheme", "backward_euler"}});
+                                 {{"time_scheme", "backward-euler"}});
       EXPECT_LE(result.front[4], 3e-4);
       EXPECT_GE(fitted_order(result.n, result.front), 0.9);
       const Study second = study(normalised(true), {1024});

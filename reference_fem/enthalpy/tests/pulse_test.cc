@@ -33,7 +33,7 @@ namespace meltfront::reference_fem::tests
                                                        {0.09996, 0.10006}};
     const std::vector<OptionTexts> schemes{
         {{"steps", "200"}, {"time_scheme", "bdf2"}},
-        {{"steps", "200"}, {"time_scheme", "backward_euler"}}};
+        {{"steps", "200"}, {"time_scheme", "backward-euler"}}};
 
     TEST(Pulse, OfFluxBringsItsEnergy)
     {
@@ -64,7 +64,7 @@ namespace meltfront::reference_fem::tests
         for(const auto &[begin, end] : spans)
         {
           Scene scene = slab(without_latent_heat(), 1, 0, 0, 0.2);
-          scene.heat_release = pulse(begin, end);
+          scene.volumetric_source = pulse(begin, end);
           const RunRecord record = run(scene, 20, options);
           EXPECT_NEAR(record.heat.sources, 1, 1e-9);
           for(const double temperature : record.temperature)

@@ -46,12 +46,12 @@ namespace meltfront::reference_fem::tests
       return fitted_order(cells, errors);
     }
 
-    TEST(HeatRelease, WarmsASlabToSecondOrder)
+    TEST(VolumetricSource, WarmsASlabToSecondOrder)
     {
       const Formula formula = [](const Position &p, double t)
       { return std::sin(pi * p[0]) * (1 - std::exp(-4 * t)); };
       Scene scene = cold_slab(formula, 0.5);
-      scene.heat_release
+      scene.volumetric_source
           = Field{"", [](const Position &p, double t)
                   {
                     return std::sin(pi * p[0])

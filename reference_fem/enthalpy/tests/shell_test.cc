@@ -20,7 +20,7 @@ namespace meltfront::reference_fem::tests
 
     constexpr double inner = 0.05, outer = 0.5, pi = std::numbers::pi;
 
-    /** A shell with held walls. */
+    /** A shell with Dirichlet walls. */
     Scene shell(int dimension)
     {
       Scene scene = ball(water(), dimension, outer, 10, 475000);
@@ -45,7 +45,7 @@ namespace meltfront::reference_fem::tests
       return std::accumulate(values.begin(), values.end(), 0.);
     }
 
-    double area(const Discretization &mesh, Side side)
+    double area(const Discretisation &mesh, Side side)
     {
       double result = 0;
       for(const WallNode &node : mesh.walls[static_cast<std::size_t>(side)])
@@ -69,7 +69,7 @@ namespace meltfront::reference_fem::tests
       for(const int dimension : {1, d})
       {
         const double tolerance = dimension == 1 ? 1e-13 : 1e-4;
-        const Discretization mesh = make_mesh(scene, dimension, 32)->discretize();
+        const Discretisation mesh = make_mesh(scene, dimension, 32)->discretise();
         EXPECT_NEAR(sum(mesh.volume), volume, tolerance * volume);
         EXPECT_NEAR(area(mesh, Side::outer), sphere(outer), tolerance * sphere(outer));
         EXPECT_NEAR(area(mesh, Side::inner), sphere(inner), tolerance * sphere(inner));

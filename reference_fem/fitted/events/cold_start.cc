@@ -47,7 +47,7 @@ namespace meltfront::reference_fem::fitted
     /** A wall this close to the melting temperature is at it. */
     constexpr double rounding = 1e-13;
 
-    /** Fewest steps of a stretch that begins during the run. */
+    /** Fewest steps of a segment that begins during the run. */
     constexpr int fewest_steps = 20;
 
     double temperature_at_end(const EventScene &setting, const OnePhase &state,
@@ -212,8 +212,8 @@ namespace meltfront::reference_fem::fitted
     return std::nullopt;
   }
 
-  Stretch seeded_stretch(const EventScene &setting, const SuddenStart &start,
-                         const OnePhase &state)
+  RunSegment seeded_stretch(const EventScene &setting, const SuddenStart &start,
+                            const OnePhase &state)
   {
     const cases::Scene &scene = setting.scene;
     const RayScene &rays = setting.rays;
@@ -235,7 +235,7 @@ namespace meltfront::reference_fem::fitted
     if(setting.options.clock != "t")
       physics.clock = {true, state.time};
 
-    Stretch result;
+    RunSegment result;
     result.problem = std::make_shared<FittedProblem>(
         seed_mesh(rays, inner, layer, far_jump != 0 ? thermal_layer : 0), physics);
     result.time = state.time + since;

@@ -1,7 +1,7 @@
 #ifndef meltfront_reference_fem_fitted_events_cold_start_h
 #define meltfront_reference_fem_fitted_events_cold_start_h
 
-#include <reference_fem/fitted/events/stretch.h>
+#include <reference_fem/fitted/events/segment.h>
 #include <reference_fem/fitted/setup.h>
 
 #include <cases/exact_solution.h>
@@ -70,8 +70,8 @@ namespace meltfront::reference_fem::fitted
    * Heat that came in through the wall before is by definition what the seed holds more
    * than the state did, less what sources gave.
    */
-  Stretch seeded_stretch(const EventScene &setting, const SuddenStart &start,
-                         const OnePhase &state);
+  RunSegment seeded_stretch(const EventScene &setting, const SuddenStart &start,
+                            const OnePhase &state);
 } // namespace meltfront::reference_fem::fitted
 
 #endif

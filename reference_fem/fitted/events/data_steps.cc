@@ -96,7 +96,7 @@ namespace meltfront::reference_fem::fitted
       }
 
       /** Clocks right before the breakpoints within the steps. */
-      std::vector<double> marks() const
+      std::vector<double> planned_ends() const
       {
         const double first = clock.time(begin), last = clock.time(planned.back().end);
         std::vector<double> result;
@@ -128,10 +128,10 @@ namespace meltfront::reference_fem::fitted
 
       std::vector<StepRange> cut_at_breakpoints() const
       {
-        const std::vector<double> cuts = marks();
+        const std::vector<double> cuts = planned_ends();
         std::vector<StepRange> result;
         double from = begin;
-        auto mark = cuts.begin();
+        auto cut = cuts.begin();
         bool after_jump = false;
         const auto add = [&](double end, double step)
         {
@@ -154,10 +154,10 @@ namespace meltfront::reference_fem::fitted
         for(std::size_t i = 0; i < planned.size(); ++i)
         {
           const StepRange &range = planned[i];
-          for(; mark != cuts.end() && *mark < range.end; ++mark)
+          for(; cut != cuts.end() && *cut < range.end; ++cut)
           {
-            add(*mark, range.step);
-            const double time = clock.time(*mark);
+            add(*cut, range.step);
+            const double time = clock.time(*cut);
             after_jump = jumps(
                 time, 2 * before_break
                           * std::max(std::abs(time),

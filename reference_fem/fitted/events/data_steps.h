@@ -1,7 +1,7 @@
 #ifndef meltfront_reference_fem_fitted_events_data_steps_h
 #define meltfront_reference_fem_fitted_events_data_steps_h
 
-#include <reference_fem/fitted/events/stretch.h>
+#include <reference_fem/fitted/events/segment.h>
 
 #include <functional>
 #include <vector>

@@ -119,8 +119,8 @@ namespace meltfront::reference_fem::fitted
                                     domain.side() / setting.options.cells, domain);
   }
 
-  bool PhaseCheck::is_held_beyond(const FittedProblem &problem, bool inner,
-                                  double time) const
+  bool PhaseCheck::is_dirichlet_beyond(const FittedProblem &problem, bool inner,
+                                       double time) const
   {
     const cases::Boundary &wall = wall_of(problem, inner);
     if(wall.kind != BoundaryKind::fixed_temperature)
@@ -149,7 +149,7 @@ namespace meltfront::reference_fem::fitted
       for(int k = 1; k < looks && varies && !at; ++k)
       {
         const double there = from + (to - from) * k / looks;
-        if(is_held_beyond(problem, inner, clock.time(there)))
+        if(is_dirichlet_beyond(problem, inner, clock.time(there)))
           at = there;
       }
       for(unsigned int ray = 0; ray < mesh.surface.n_rays() && !at; ++ray)

@@ -72,7 +72,7 @@ namespace meltfront::reference_fem::fitted
 
     bool has_passed(const FittedProblem &problem, bool inner, unsigned int ray,
                     double time, const dealii::Vector<double> &u) const;
-    bool is_held_beyond(const FittedProblem &problem, bool inner, double time) const;
+    bool is_dirichlet_beyond(const FittedProblem &problem, bool inner, double time) const;
     void check_source(const FittedProblem &problem, double time) const;
     void check_nodes(const FittedProblem &problem, long step, double time,
                      const dealii::Vector<double> &u) const;

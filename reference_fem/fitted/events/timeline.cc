@@ -36,7 +36,7 @@ namespace meltfront::reference_fem::fitted
     /** More steps of an approach mean that the front never arrives. */
     constexpr int longest_approach = 1000;
 
-    /** A wall that passes the melting temperature within so many steps of a stretch does
+    /** A wall that passes the melting temperature within so many steps of a segment does
      * so while steps and cells do not resolve how it gets there. */
     constexpr int early_steps = 4;
 
@@ -114,7 +114,7 @@ namespace meltfront::reference_fem::fitted
       total.starts += cost.starts;
       total.iterations += cost.iterations;
       total.most_iterations = std::max(total.most_iterations, cost.most_iterations);
-      total.factorizations += cost.factorizations;
+      total.factorisations += cost.factorisations;
       total.work += cost.work;
     }
   } // namespace
@@ -127,103 +127,103 @@ namespace meltfront::reference_fem::fitted
   {
   }
 
-  void Timeline::run(Stretch first)
+  void Timeline::run(RunSegment first)
   {
     const HeatContent heat = first.problem->heat(first.time, first.state);
-    std::optional<Stretch> stretch = std::move(first);
-    begin(*stretch);
-    phases.start(*stretch->problem, stretch->time, stretch->state);
-    const bool one_phase = !stretch->problem->mesh().has_front();
+    std::optional<RunSegment> segment = std::move(first);
+    begin(*segment);
+    phases.start(*segment->problem, segment->time, segment->state);
+    const bool one_phase = !segment->problem->mesh().has_front();
     if(!one_phase)
-      phases.check(*stretch->problem, 0, stretch->time, stretch->state);
-    listener.step(0, stretch->time, stretch->state, false);
+      phases.check(*segment->problem, 0, segment->time, segment->state);
+    listener.step(0, segment->time, segment->state, false);
     if(one_phase)
     {
       const OnePhase initial = initial_phase(setting, heat.sensible + heat.latent);
       if(const auto start = sudden_start(setting, initial))
       {
-        stretch = seeded_stretch(setting, *start, initial);
-        begin(*stretch);
+        segment = seeded_stretch(setting, *start, initial);
+        begin(*segment);
       }
     }
-    while((stretch = integrate(*stretch)))
-      begin(*stretch);
+    while((segment = integrate(*segment)))
+      begin(*segment);
     total.steps = steps;
   }
 
-  void Timeline::begin(const Stretch &stretch)
+  void Timeline::begin(const RunSegment &segment)
   {
-    if(!stretch.event.text.empty())
-      happened.push_back(stretch.event);
-    listener.begin(stretch);
+    if(!segment.event.text.empty())
+      happened.push_back(segment.event);
+    listener.begin(segment);
   }
 
-  IntegrationOptions Timeline::options_for(const Stretch &stretch) const
+  IntegrationOptions Timeline::options_for(const RunSegment &segment) const
   {
     IntegrationOptions result = options;
-    result.time = [clock = stretch.problem->physics().clock](const double value)
+    result.time = [clock = segment.problem->physics().clock](const double value)
     { return clock.time(value); };
     return result;
   }
 
-  void Timeline::accept(const Stretch &stretch, const AcceptedStep &step)
+  void Timeline::accept(const RunSegment &segment, const AcceptedStep &step)
   {
-    const Clock &clock = stretch.problem->physics().clock;
+    const Clock &clock = segment.problem->physics().clock;
     const double end = setting.scene.end_time;
     const bool last = step.clock == clock.clock(end);
     const double time = last ? end : clock.time(step.clock);
-    phases.check(*stretch.problem, ++steps, time, step.u);
+    phases.check(*segment.problem, ++steps, time, step.u);
     listener.step(steps, time, step.u, last);
   }
 
-  std::optional<Stretch> Timeline::integrate(const Stretch &stretch)
+  std::optional<RunSegment> Timeline::integrate(const RunSegment &segment)
   {
-    const FittedProblem &problem = *stretch.problem;
+    const FittedProblem &problem = *segment.problem;
     const Clock &clock = problem.physics().clock;
-    const double from = clock.clock(stretch.time);
+    const double from = clock.clock(segment.time);
     const std::vector<StepRange> ranges
-        = fit_to_data(stretch.steps, from, clock, data_of(problem, stretch.state),
+        = fit_to_data(segment.steps, from, clock, data_of(problem, segment.state),
                       options.tolerance > 0);
     const bool has_front = problem.mesh().has_front();
     if(!has_front)
-      if(auto next = refined(stretch, ranges))
+      if(auto next = refined(segment, ranges))
         return next;
-    Integrator integrator(problem, options_for(stretch));
-    integrator.start(from, stretch.state);
-    std::optional<Stretch> next = has_front
-                                      ? integrate_front(stretch, ranges, integrator)
-                                      : integrate_phase(stretch, ranges, integrator);
+    Integrator integrator(problem, options_for(segment));
+    integrator.start(from, segment.state);
+    std::optional<RunSegment> next = has_front
+                                         ? integrate_front(segment, ranges, integrator)
+                                         : integrate_phase(segment, ranges, integrator);
     add(integrator.cost(), total);
     return next;
   }
 
-  std::optional<Stretch> Timeline::integrate_phase(const Stretch &stretch,
-                                                   const std::vector<StepRange> &ranges,
-                                                   Integrator &integrator)
+  std::optional<RunSegment>
+  Timeline::integrate_phase(const RunSegment &segment,
+                            const std::vector<StepRange> &ranges, Integrator &integrator)
   {
-    Point before{integrator.clock(), stretch.state, 0};
+    Point before{integrator.clock(), segment.state, 0};
     std::optional<WallCrossing> crossing;
     const auto after_step = [&](const AcceptedStep &step)
     {
-      crossing = phases.wall_crossing(*stretch.problem, before.clock, step.clock, step.u);
+      crossing = phases.wall_crossing(*segment.problem, before.clock, step.clock, step.u);
       if(crossing)
         return false;
-      accept(stretch, step);
+      accept(segment, step);
       before = {step.clock, step.u, 0};
       return true;
     };
     advance(integrator, ranges, after_step);
-    return crossing ? cross_wall(stretch, integrator, before, *crossing) : std::nullopt;
+    return crossing ? cross_wall(segment, integrator, before, *crossing) : std::nullopt;
   }
 
-  std::optional<Stretch> Timeline::integrate_front(const Stretch &stretch,
-                                                   const std::vector<StepRange> &ranges,
-                                                   Integrator &integrator)
+  std::optional<RunSegment>
+  Timeline::integrate_front(const RunSegment &segment,
+                            const std::vector<StepRange> &ranges, Integrator &integrator)
   {
-    const FittedProblem &problem = *stretch.problem;
+    const FittedProblem &problem = *segment.problem;
     const unsigned int front = problem.mesh().front_node(0);
     const bool followed = setting.options.dimension == 1;
-    Point last{integrator.clock(), stretch.state, 0};
+    Point last{integrator.clock(), segment.state, 0};
     bool arrives = false;
     const auto after_step = [&](const AcceptedStep &step)
     {
@@ -239,7 +239,7 @@ namespace meltfront::reference_fem::fitted
       if(crossing)
         phases.refuse(problem, crossing->inner,
                       problem.physics().clock.time(crossing->clock));
-      accept(stretch, step);
+      accept(segment, step);
       last = {step.clock, step.u, step.rate[front]};
       if(!followed && touches_end(problem, step))
         throw cases::Refusal(fmt::format(
@@ -254,17 +254,17 @@ namespace meltfront::reference_fem::fitted
     advance(integrator, ranges, after_step);
     if(!arrives || !(last.clock < problem.physics().clock.clock(setting.scene.end_time)))
       return std::nullopt;
-    return approach_end(stretch, ranges, integrator, last);
+    return approach_end(segment, ranges, integrator, last);
   }
 
-  std::optional<Stretch> Timeline::refined(const Stretch &stretch,
-                                           const std::vector<StepRange> &given)
+  std::optional<RunSegment> Timeline::refined(const RunSegment &segment,
+                                              const std::vector<StepRange> &given)
   {
-    std::optional<Stretch> finer;
+    std::optional<RunSegment> finer;
     std::vector<StepRange> ranges = given;
     for(int k = 0; k < most_refinements; ++k)
     {
-      const Stretch &present = finer ? *finer : stretch;
+      const RunSegment &present = finer ? *finer : segment;
       const FittedProblem &problem = *present.problem;
       const Clock &clock = problem.physics().clock;
       Integrator trial(problem, options_for(present));
@@ -290,14 +290,15 @@ namespace meltfront::reference_fem::fitted
     throw cases::Refusal(fmt::format(
         "fem-fitted cannot start a front at a wall that is at the melting temperature "
         "already and is led beyond it (t = {:.6g})",
-        stretch.time));
+        segment.time));
   }
 
-  std::optional<Stretch> Timeline::cross_wall(const Stretch &stretch,
-                                              Integrator &integrator, const Point &before,
-                                              const WallCrossing &crossing)
+  std::optional<RunSegment> Timeline::cross_wall(const RunSegment &segment,
+                                                 Integrator &integrator,
+                                                 const Point &before,
+                                                 const WallCrossing &crossing)
   {
-    const FittedProblem &problem = *stretch.problem;
+    const FittedProblem &problem = *segment.problem;
     const Clock &clock = problem.physics().clock;
     const bool inner = crossing.inner;
     const auto excess_at = [&](const double end)
@@ -321,26 +322,26 @@ namespace meltfront::reference_fem::fitted
           boost::math::tools::eps_tolerance<double>(50), iterations);
     }
     const double time = clock.time(0.5 * (lower + upper));
-    if(has_jumped(stretch, time, inner))
+    if(has_jumped(segment, time, inner))
     {
       excess_at(lower);
-      return after_jump(stretch, clock.time(upper), integrator.state(), inner);
+      return after_jump(segment, clock.time(upper), integrator.state(), inner);
     }
     excess_at(0.5 * (lower + upper));
-    return late_stretch(setting, stretch, time, integrator.state(), inner,
-                        options_for(stretch));
+    return late_stretch(setting, segment, time, integrator.state(), inner,
+                        options_for(segment));
   }
 
-  bool Timeline::has_jumped(const Stretch &stretch, const double time,
+  bool Timeline::has_jumped(const RunSegment &segment, const double time,
                             const bool inner) const
   {
-    const FittedProblem &problem = *stretch.problem;
+    const FittedProblem &problem = *segment.problem;
     const Physics &physics = problem.physics();
     const cases::Boundary &wall = inner ? physics.inner_wall : physics.outer_wall;
     if(wall.kind != cases::BoundaryKind::fixed_temperature)
       return false;
     const RayMesh &mesh = problem.mesh();
-    const double since = time_of_seed(setting, stretch, time);
+    const double since = time_of_seed(setting, segment, time);
     const auto excess_after = [&](const double share)
     {
       return std::abs(wall.value(mesh.position(0, inner ? mesh.inner : mesh.outer),
@@ -350,10 +351,12 @@ namespace meltfront::reference_fem::fitted
     return excess_after(shortly) > already * excess_after(1);
   }
 
-  std::optional<Stretch> Timeline::after_jump(const Stretch &stretch, const double time,
-                                              const Vector<double> &u, const bool inner)
+  std::optional<RunSegment> Timeline::after_jump(const RunSegment &segment,
+                                                 const double time,
+                                                 const Vector<double> &u,
+                                                 const bool inner)
   {
-    const FittedProblem &problem = *stretch.problem;
+    const FittedProblem &problem = *segment.problem;
     const Profile profile(problem, u);
     const HeatContent heat = problem.heat(time, u);
     OnePhase state;
@@ -362,7 +365,7 @@ namespace meltfront::reference_fem::fitted
     { return problem.physics().melting_temperature + profile.value(r); };
     state.solid = problem.physics().phases[0].solid;
     state.heat = heat.sensible + heat.latent;
-    state.before = stretch.before;
+    state.before = segment.before;
     state.before.walls += heat.walls;
     state.before.sources += heat.sources;
     const auto start = start_at_wall(setting, state, inner);
@@ -374,11 +377,11 @@ namespace meltfront::reference_fem::fitted
     return seeded_stretch(setting, *start, state);
   }
 
-  std::optional<Stretch> Timeline::approach_end(const Stretch &stretch,
-                                                const std::vector<StepRange> &ranges,
-                                                Integrator &integrator, Point last)
+  std::optional<RunSegment> Timeline::approach_end(const RunSegment &segment,
+                                                   const std::vector<StepRange> &ranges,
+                                                   Integrator &integrator, Point last)
   {
-    const FittedProblem &problem = *stretch.problem;
+    const FittedProblem &problem = *segment.problem;
     const RayMesh &mesh = problem.mesh();
     const Clock &clock = problem.physics().clock;
     const double end = clock.clock(setting.scene.end_time);
@@ -394,12 +397,12 @@ namespace meltfront::reference_fem::fitted
          = phases.wall_crossing(problem, last.clock, accepted.clock, accepted.u))
       {
         too_long = crossing->inner == state.to_inner
-                   && accepted.size > shortest * (end - clock.clock(stretch.time));
+                   && accepted.size > shortest * (end - clock.clock(segment.time));
         if(too_long)
           return false;
         phases.refuse(problem, crossing->inner, clock.time(crossing->clock));
       }
-      accept(stretch, accepted);
+      accept(segment, accepted);
       last = {accepted.clock, accepted.u, accepted.rate[mesh.front_node(0)]};
       state = approach_of(problem, last.u, last.front_rate);
       return false;
@@ -419,7 +422,7 @@ namespace meltfront::reference_fem::fitted
       }
       if(state.distance
          < thinnest_share(mesh, state.to_inner) * (mesh.outer - mesh.inner))
-        return remaining_stretch(setting, stretch, clock.time(last.clock), last.u,
+        return remaining_stretch(setting, segment, clock.time(last.clock), last.u,
                                  state.to_inner);
       step = std::min({approach * state.remaining, 2 * step, range->step});
     }

@@ -24,18 +24,18 @@ namespace meltfront::reference_fem::fitted
   class Timeline
   {
   public:
-    /** Called when a stretch begins, and after each step of it: number of the step, time
+    /** Called when a segment begins, and after each step of it: number of the step, time
      * (s), state, and whether it is the last one. */
     struct Listener
     {
-      std::function<void(const Stretch &)> begin;
+      std::function<void(const RunSegment &)> begin;
       std::function<void(long, double, const dealii::Vector<double> &, bool)> step;
     };
 
     Timeline(EventScene setting, IntegrationOptions options, Listener listener);
 
-    /** Run from a stretch to the end of the scene. */
-    void run(Stretch first);
+    /** Run from a segment to the end of the scene. */
+    void run(RunSegment first);
 
     /** What has happened, in the order of time. */
     const std::vector<Event> &events() const
@@ -57,37 +57,38 @@ namespace meltfront::reference_fem::fitted
       double front_rate = 0; ///< of the front on the first ray
     };
 
-    /** Integrate a stretch; the one that follows it, if an event ends it. */
-    std::optional<Stretch> integrate(const Stretch &stretch);
+    /** Integrate a segment; the one that follows it, if an event ends it. */
+    std::optional<RunSegment> integrate(const RunSegment &segment);
 
     /** One phase until a wall passes the melting temperature. */
-    std::optional<Stretch> integrate_phase(const Stretch &stretch,
-                                           const std::vector<StepRange> &steps,
-                                           Integrator &integrator);
+    std::optional<RunSegment> integrate_phase(const RunSegment &segment,
+                                              const std::vector<StepRange> &steps,
+                                              Integrator &integrator);
 
     /** A front until it reaches an end. */
-    std::optional<Stretch> integrate_front(const Stretch &stretch,
-                                           const std::vector<StepRange> &steps,
-                                           Integrator &integrator);
+    std::optional<RunSegment> integrate_front(const RunSegment &segment,
+                                              const std::vector<StepRange> &steps,
+                                              Integrator &integrator);
 
-    /** The stretch anew with finer cells and steps if a wall passes the melting
+    /** The segment anew with finer cells and steps if a wall passes the melting
      * temperature within the first of its steps. */
-    std::optional<Stretch> refined(const Stretch &stretch,
-                                   const std::vector<StepRange> &steps);
-    std::optional<Stretch> cross_wall(const Stretch &stretch, Integrator &integrator,
-                                      const Point &before, const WallCrossing &crossing);
+    std::optional<RunSegment> refined(const RunSegment &segment,
+                                      const std::vector<StepRange> &steps);
+    std::optional<RunSegment> cross_wall(const RunSegment &segment,
+                                         Integrator &integrator, const Point &before,
+                                         const WallCrossing &crossing);
 
     /** Whether a wall of fixed temperature jumped when it passed the melting
      * temperature, and the front that it starts then. */
-    bool has_jumped(const Stretch &stretch, double time, bool inner) const;
-    std::optional<Stretch> after_jump(const Stretch &stretch, double time,
-                                      const dealii::Vector<double> &u, bool inner);
-    std::optional<Stretch> approach_end(const Stretch &stretch,
-                                        const std::vector<StepRange> &steps,
-                                        Integrator &integrator, Point last);
-    IntegrationOptions options_for(const Stretch &stretch) const;
-    void begin(const Stretch &stretch);
-    void accept(const Stretch &stretch, const AcceptedStep &step);
+    bool has_jumped(const RunSegment &segment, double time, bool inner) const;
+    std::optional<RunSegment> after_jump(const RunSegment &segment, double time,
+                                         const dealii::Vector<double> &u, bool inner);
+    std::optional<RunSegment> approach_end(const RunSegment &segment,
+                                           const std::vector<StepRange> &steps,
+                                           Integrator &integrator, Point last);
+    IntegrationOptions options_for(const RunSegment &segment) const;
+    void begin(const RunSegment &segment);
+    void accept(const RunSegment &segment, const AcceptedStep &step);
 
     EventScene setting;
     IntegrationOptions options;

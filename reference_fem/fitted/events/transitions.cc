@@ -59,7 +59,7 @@ namespace meltfront::reference_fem::fitted
     }
   } // namespace
 
-  Stretch one_phase_stretch(const EventScene &setting)
+  RunSegment one_phase_stretch(const EventScene &setting)
   {
     const cases::Scene &scene = setting.scene;
     const RayScene &rays = setting.rays;
@@ -69,7 +69,7 @@ namespace meltfront::reference_fem::fitted
     physics.clock = {};
     // A sink makes a front at once: this is the state before it is switched on.
     physics.power = {};
-    Stretch result;
+    RunSegment result;
     result.problem = std::make_shared<FittedProblem>(mesh, physics);
     result.time = scene.start_time;
     result.state
@@ -82,10 +82,10 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  Stretch refined_stretch(const EventScene &setting, const Stretch &stretch,
-                          const bool inner, const double soon)
+  RunSegment refined_stretch(const EventScene &setting, const RunSegment &segment,
+                             const bool inner, const double soon)
   {
-    const FittedProblem &old = *stretch.problem;
+    const FittedProblem &old = *segment.problem;
     const RayMesh &mesh = old.mesh();
     const Phase &phase = old.physics().phases[0];
     const double length = mesh.outer - mesh.inner;
@@ -104,14 +104,14 @@ namespace meltfront::reference_fem::fitted
       std::ranges::reverse(shares);
 
     Physics physics = old.physics();
-    physics.clock = {true, stretch.time};
-    Stretch result;
+    physics.clock = {true, segment.time};
+    RunSegment result;
     result.problem = std::make_shared<FittedProblem>(
         RayMesh(mesh.surface, mesh.inner, mesh.outer, shares), physics);
-    result.time = stretch.time;
-    const Profile profile(old, stretch.state);
+    result.time = segment.time;
+    const Profile profile(old, segment.state);
     result.state
-        = result.problem->state(stretch.time, {},
+        = result.problem->state(segment.time, {},
                                 [&](const cases::Position &p)
                                 {
                                   const double r = setting.scene.domain.round()
@@ -119,24 +119,24 @@ namespace meltfront::reference_fem::fitted
                                                        : p[0];
                                   return physics.melting_temperature + profile.value(r);
                                 });
-    const HeatContent before = old.heat(stretch.time, stretch.state);
-    result.before = sum_of(stretch.before, {0, 0, before.walls, before.sources});
-    const double early = std::min(physics.clock.clock(stretch.time + 2 * soon),
+    const HeatContent before = old.heat(segment.time, segment.state);
+    result.before = sum_of(segment.before, {0, 0, before.walls, before.sources});
+    const double early = std::min(physics.clock.clock(segment.time + 2 * soon),
                                   physics.clock.clock(setting.scene.end_time));
     const double end = physics.clock.clock(setting.scene.end_time);
-    const int steps = steps_for(setting, stretch.time);
+    const int steps = steps_for(setting, segment.time);
     result.steps = {{early, early / std::max(steps_to_passing, steps / 2)}};
     if(early < end)
       for(const StepRange &range : lengthening_steps(early, end, steps, growth_of_steps))
         result.steps.push_back(range);
     result.event
-        = {stretch.time, fmt::format("cells and steps are drawn to the wall {}, which is "
+        = {segment.time, fmt::format("cells and steps are drawn to the wall {}, which is "
                                      "about to pass the melting temperature",
                                      to_string(side_at(setting.scene, inner)))};
     return result;
   }
 
-  double time_of_seed(const EventScene &setting, const Stretch &past,
+  double time_of_seed(const EventScene &setting, const RunSegment &past,
                       const double crossing)
   {
     return std::min({late_share * (setting.scene.end_time - crossing),
@@ -144,9 +144,9 @@ namespace meltfront::reference_fem::fitted
                      0.5 * time_to_breakpoint(setting.scene, crossing)});
   }
 
-  Stretch late_stretch(const EventScene &setting, const Stretch &past,
-                       const double crossing, const Vector<double> &u, const bool inner,
-                       const IntegrationOptions &integration)
+  RunSegment late_stretch(const EventScene &setting, const RunSegment &past,
+                          const double crossing, const Vector<double> &u,
+                          const bool inner, const IntegrationOptions &integration)
   {
     const cases::Scene &scene = setting.scene;
     const RayScene &rays = setting.rays;
@@ -174,13 +174,13 @@ namespace meltfront::reference_fem::fitted
     Physics physics
         = physics_of(scene, setting.effects, setting.options, inner == new_is_solid);
     physics.clock = {true, crossing};
-    const Phase &fresh = physics.phases[inner ? 0 : 1];
+    const Phase &new_phase = physics.phases[inner ? 0 : 1];
     const double latent
         = scene.material.latent_heat
           * (new_is_solid ? scene.material.solid.density : scene.material.liquid.density);
     const double diffusivity = phase.conductivity / phase.capacity;
     const double layer = 2 * std::sqrt(diffusivity * since);
-    Stretch result;
+    RunSegment result;
     result.problem
         = std::make_shared<FittedProblem>(seed_mesh(rays, inner, layer, 0), physics);
     result.time = time;
@@ -195,7 +195,8 @@ namespace meltfront::reference_fem::fitted
                    / (latent * std::sqrt(std::numbers::pi * diffusivity));
     if(held)
       width = since
-              * (std::sqrt(std::pow(outflow, 2) + 4 * latent * fresh.conductivity * rate)
+              * (std::sqrt(std::pow(outflow, 2)
+                           + 4 * latent * new_phase.conductivity * rate)
                  - direction * outflow)
               / (2 * latent);
     const RayMesh &mesh = result.problem->mesh();
@@ -203,7 +204,7 @@ namespace meltfront::reference_fem::fitted
                                  : -flux_through(wall_law, mesh.position(0, wall), time,
                                                  scene.material.melting_temperature)
                                            .value
-                                       / fresh.conductivity;
+                                       / new_phase.conductivity;
     const auto state_with = [&](const double front)
     {
       return result.problem->state(
@@ -252,9 +253,9 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  Stretch remaining_stretch(const EventScene &setting, const Stretch &past,
-                            const double time, const Vector<double> &u,
-                            const bool inner_vanishes)
+  RunSegment remaining_stretch(const EventScene &setting, const RunSegment &past,
+                               const double time, const Vector<double> &u,
+                               const bool inner_vanishes)
   {
     const RayScene &rays = setting.rays;
     const FittedProblem &old = *past.problem;
@@ -277,7 +278,7 @@ namespace meltfront::reference_fem::fitted
     if(setting.options.clock != "t")
       physics.clock = {true, time};
 
-    Stretch result;
+    RunSegment result;
     result.problem = std::make_shared<FittedProblem>(
         RayMesh(rays.surface, rays.inner, rays.outer, shares), physics);
     result.time = time;

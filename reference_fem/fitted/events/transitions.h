@@ -7,22 +7,22 @@
 namespace meltfront::reference_fem::fitted
 {
   /** The scene's initial state on a mesh without a front; its steps are equal in time. */
-  Stretch one_phase_stretch(const EventScene &setting);
+  RunSegment one_phase_stretch(const EventScene &setting);
 
   /**
-   * A one-phase stretch anew from a state, for a wall that passes the melting temperature
+   * A one-phase segment anew from a state, for a wall that passes the melting temperature
    * @p soon (s) afterwards: cells halved towards that wall down to the thermal layer's
    * width, so that they hold the same state, and steps equal in the root of time of
    * which twenty or more lead to the passing.
    */
-  Stretch refined_stretch(const EventScene &setting, const Stretch &stretch, bool inner,
-                          double soon);
+  RunSegment refined_stretch(const EventScene &setting, const RunSegment &segment,
+                             bool inner, double soon);
 
   /** How long after a wall has passed the melting temperature a front is seeded (s). */
-  double time_of_seed(const EventScene &setting, const Stretch &past, double crossing);
+  double time_of_seed(const EventScene &setting, const RunSegment &past, double crossing);
 
   /**
-   * The run from the moment at which a wall of a one-phase stretch has passed the melting
+   * The run from the moment at which a wall of a one-phase segment has passed the melting
    * temperature.
    *
    * The one-phase solution, continued for a time tau beyond that moment, has a wall that
@@ -35,16 +35,17 @@ namespace meltfront::reference_fem::fitted
    *
    * @param crossing  time at which the wall is at the melting temperature (s)
    */
-  Stretch late_stretch(const EventScene &setting, const Stretch &past, double crossing,
-                       const dealii::Vector<double> &u, bool inner,
-                       const IntegrationOptions &integration);
+  RunSegment late_stretch(const EventScene &setting, const RunSegment &past,
+                          double crossing, const dealii::Vector<double> &u, bool inner,
+                          const IntegrationOptions &integration);
 
   /**
    * The run from the moment at which the front is so close to an end of the ray that the
-   * phase there is dropped. What heat it still held is kept in Stretch::before.
+   * phase there is dropped. What heat it still held is kept in RunSegment::before.
    */
-  Stretch remaining_stretch(const EventScene &setting, const Stretch &past, double time,
-                            const dealii::Vector<double> &u, bool inner_vanishes);
+  RunSegment remaining_stretch(const EventScene &setting, const RunSegment &past,
+                               double time, const dealii::Vector<double> &u,
+                               bool inner_vanishes);
 } // namespace meltfront::reference_fem::fitted
 
 #endif

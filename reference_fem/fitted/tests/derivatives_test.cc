@@ -59,7 +59,7 @@ namespace meltfront::reference_fem::fitted
           by_rate(problem.sparsity());
       const double clock = 0.7, step = 1e-5;
       Values at(n), upper(n), lower(n);
-      problem.linearize(clock, u, rate, at.mass, at.flow, mass, flow, by_rate);
+      problem.linearise(clock, u, rate, at.mass, at.flow, mass, flow, by_rate);
 
       double worst = 0;
       const auto compare = [&](const SparseMatrix<double> &matrix,
@@ -94,7 +94,7 @@ namespace meltfront::reference_fem::fitted
       const FittedProblem problem(RayMesh(surface, inner, 1.1, {0, 0.4, 1}, {0, 0.5, 1}),
                                   laws);
       const Vector<double> u = random_state(problem, 0.6, wave);
-      EXPECT_EQ(problem.objection(u), "");
+      EXPECT_EQ(problem.reason_invalid(u), "");
       return worst_difference(problem, u);
     }
 

@@ -253,7 +253,7 @@ namespace meltfront::reference_fem::fitted::tests
                                     : std::vector<double>{}));
           // No heat leaves through the other wall.
           set_boundary(scene, Side::x_min, {});
-          const Record record = run(scene, 16, {{"scheme", scheme}});
+          const Record record = run(scene, 16, {{"time_scheme", scheme}});
           EXPECT_NEAR(record.heat.boundary, 0.01, told ? 1e-10 : 1e-6) << scheme;
           EXPECT_LT(record.worst_budget_defect(), 1e-12);
         }
@@ -273,8 +273,8 @@ namespace meltfront::reference_fem::fitted::tests
     {
       const auto counts = [](const OptionTexts &options)
       { return run(two_phases(0.4, 0.1), 8, options).cost.evidence; };
-      EXPECT_EQ(counts({{"scheme", "bdf3"}}).at("steps of Radau that start BDF"), 2);
-      EXPECT_EQ(counts({{"scheme", "bdf2"}}).at("steps that fell back to Radau"), 0);
+      EXPECT_EQ(counts({{"time_scheme", "bdf3"}}).at("steps of Radau that start BDF"), 2);
+      EXPECT_EQ(counts({{"time_scheme", "bdf2"}}).at("steps that fell back to Radau"), 0);
       EXPECT_EQ(
           counts({{"tolerance", "1e-9"}}).count("steps repeated by the step control"),
           1u);
@@ -289,7 +289,7 @@ namespace meltfront::reference_fem::fitted::tests
       {
         const bool own = cost.effect == cases::Effect::phase_change
                          || cost.effect == cases::Effect::wall_temperature
-                         || cost.effect == cases::Effect::wall_transfer;
+                         || cost.effect == cases::Effect::robin_wall;
         EXPECT_EQ(cost.bytes > 0, own) << to_string(cost.effect);
         EXPECT_GT(cost.calls, 0) << to_string(cost.effect);
         EXPECT_EQ(cost.seconds > 0, own) << to_string(cost.effect);

@@ -56,9 +56,10 @@ namespace meltfront::reference_fem::fitted::tests
       {
         std::vector<double> errors;
         for(const int n : levels)
-          errors.push_back(run(started_slab(), n,
-                               {{"scheme", scheme}, {"refine", "time"}, {"cells", "64"}})
-                               .final_front_error());
+          errors.push_back(
+              run(started_slab(), n,
+                  {{"time_scheme", scheme}, {"refine", "time"}, {"cells", "64"}})
+                  .final_front_error());
         EXPECT_GT(fitted_order(levels, errors), order - 0.2) << scheme;
       }
     }

@@ -53,7 +53,7 @@ namespace meltfront::reference_fem::fitted
   } // namespace
 
   template <typename Number>
-  bool Factorization<Number>::factorize(const CompressedRows<Number> &new_matrix)
+  bool Factorisation<Number>::factorise(const CompressedRows<Number> &new_matrix)
   {
     free_numeric();
     matrix = &new_matrix;
@@ -80,7 +80,7 @@ namespace meltfront::reference_fem::fitted
   }
 
   template <typename Number>
-  void Factorization<Number>::solve(const std::vector<Number> &b,
+  void Factorisation<Number>::solve(const std::vector<Number> &b,
                                     std::vector<Number> &x) const
   {
     x.resize(b.size());
@@ -106,7 +106,7 @@ namespace meltfront::reference_fem::fitted
   }
 
   template <typename Number>
-  void Factorization<Number>::free_numeric()
+  void Factorisation<Number>::free_numeric()
   {
     if(numeric == nullptr)
       return;
@@ -117,7 +117,7 @@ namespace meltfront::reference_fem::fitted
   }
 
   template <typename Number>
-  Factorization<Number>::~Factorization()
+  Factorisation<Number>::~Factorisation()
   {
     free_numeric();
     if(symbolic == nullptr)
@@ -128,6 +128,6 @@ namespace meltfront::reference_fem::fitted
       umfpack_zi_free_symbolic(&symbolic);
   }
 
-  template class Factorization<double>;
-  template class Factorization<std::complex<double>>;
+  template class Factorisation<double>;
+  template class Factorisation<std::complex<double>>;
 } // namespace meltfront::reference_fem::fitted

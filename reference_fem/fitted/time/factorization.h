@@ -25,18 +25,18 @@ namespace meltfront::reference_fem::fitted
    * rows once and factorises any number of times.
    */
   template <typename Number>
-  class Factorization
+  class Factorisation
   {
   public:
-    Factorization() = default;
-    Factorization(const Factorization &) = delete;
-    Factorization &operator=(const Factorization &) = delete;
-    ~Factorization();
+    Factorisation() = default;
+    Factorisation(const Factorisation &) = delete;
+    Factorisation &operator=(const Factorisation &) = delete;
+    ~Factorisation();
 
     /** Factorise. False where the matrix is singular or holds a value that is not
      * finite. The matrix must stay as it is while it is solved with.
      * @throws std::bad_alloc where the factors do not fit into memory. */
-    bool factorize(const CompressedRows<Number> &matrix);
+    bool factorise(const CompressedRows<Number> &matrix);
 
     /** x = matrix^-1 b. */
     void solve(const std::vector<Number> &b, std::vector<Number> &x) const;

@@ -50,7 +50,7 @@ namespace meltfront::reference_fem::fitted
     , order(bdf_order(options.scheme))
     , newton(problem, options, cost)
     , pattern(problem.sparsity())
-    , linearization(problem)
+    , linearisation(problem)
   {
     if(options.tolerance > 0 && order > 0)
       throw cases::InputError("step control needs a one-step scheme: radau3 or radau5");
@@ -60,9 +60,9 @@ namespace meltfront::reference_fem::fitted
   {
     clock = new_clock;
     u = new_u;
-    const std::string objection = problem.objection(u);
-    if(!objection.empty())
-      fail("cannot start from this state: " + objection);
+    const std::string reason_invalid = problem.reason_invalid(u);
+    if(!reason_invalid.empty())
+      fail("cannot start from this state: " + reason_invalid);
     mass = mass_of(u, clock);
     scale = problem.scale(u);
     history.clear();

@@ -64,7 +64,7 @@ namespace meltfront::reference_fem::fitted
     long starts = 0;          ///< steps that Radau took because BDF had no past
     long iterations = 0;      ///< of Newton's method, those of rejected steps too
     long most_iterations = 0; ///< of an accepted step
-    long factorizations = 0;
+    long factorisations = 0;
     long work = 0; ///< entries of matrices that were filled, factorised or solved with
   };
 

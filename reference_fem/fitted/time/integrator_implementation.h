@@ -82,9 +82,9 @@ namespace meltfront::reference_fem::fitted
     unsigned int order; ///< of BDF, 0 for Radau
     StageNewton newton;
     SortedPattern pattern;
-    Linearization linearization;
+    Linearisation linearisation;
     CompressedRows<double> estimate_matrix;
-    Factorization<double> estimate_factors;
+    Factorisation<double> estimate_factors;
 
     Vector mass, scale;
     std::deque<Past> history;        ///< for BDF, the latest first

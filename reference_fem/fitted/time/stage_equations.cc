@@ -4,7 +4,7 @@
 
 namespace meltfront::reference_fem::fitted
 {
-  Linearization::Linearization(const ConservationProblem &problem)
+  Linearisation::Linearisation(const ConservationProblem &problem)
     : mass(problem.size())
     , flow(problem.size())
     , mass_jacobian(problem.sparsity())
@@ -52,13 +52,13 @@ namespace meltfront::reference_fem::fitted
     }
   }
 
-  void StageEquations::linearize(const unsigned int stage, const Stages &u,
-                                 Linearization &result) const
+  void StageEquations::linearise(const unsigned int stage, const Stages &u,
+                                 Linearisation &result) const
   {
     result.mass_jacobian = 0.;
     result.flow_jacobian = 0.;
     result.rate_jacobian = 0.;
-    conservation.linearize(clocks[stage], u[stage], rate(stage, u), result.mass,
+    conservation.linearise(clocks[stage], u[stage], rate(stage, u), result.mass,
                            result.flow, result.mass_jacobian, result.flow_jacobian,
                            result.rate_jacobian);
   }

@@ -13,10 +13,10 @@ namespace meltfront::reference_fem::fitted
   using Stages = std::vector<dealii::Vector<double>>;
 
   /** M, F and their derivatives at one state. */
-  struct Linearization
+  struct Linearisation
   {
     /** Matrices of zeros. */
-    explicit Linearization(const ConservationProblem &problem);
+    explicit Linearisation(const ConservationProblem &problem);
 
     dealii::Vector<double> mass, flow;
     dealii::SparseMatrix<double> mass_jacobian, flow_jacobian, rate_jacobian;
@@ -50,7 +50,7 @@ namespace meltfront::reference_fem::fitted
     void evaluate(const Stages &u, Stages &residual);
 
     /** M, F and derivatives at the state of one stage. */
-    void linearize(unsigned int stage, const Stages &u, Linearization &result) const;
+    void linearise(unsigned int stage, const Stages &u, Linearisation &result) const;
 
     const ConservationProblem &problem() const
     {

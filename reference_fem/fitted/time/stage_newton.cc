@@ -114,12 +114,12 @@ namespace meltfront::reference_fem::fitted
   bool StageNewton::prepare_for(const StageEquations &equations, const Stages &u)
   {
     // The exact Jacobian belongs to a state, a frozen one to a step and a scheme.
-    fresh = exact || !factors_serve || equations.n_stages() != factorized_stages
-            || std::abs(equations.step() / factorized_step - 1) > 1e-6;
-    if(!fresh)
+    current = exact || !factors_serve || equations.n_stages() != factorised_stages
+            || std::abs(equations.step() / factorised_step - 1) > 1e-6;
+    if(!current)
       return true;
-    factorized_step = equations.step();
-    factorized_stages = equations.n_stages();
+    factorised_step = equations.step();
+    factorised_stages = equations.n_stages();
     factors_serve = false;
     return solver->prepare(equations, u);
   }
@@ -134,9 +134,9 @@ namespace meltfront::reference_fem::fitted
       return true;
     const unsigned int left = std::max(aimed_iterations, iteration) - iteration;
     const bool slow = size * std::pow(contraction, left) > options.solver_tolerance;
-    if(fresh ? contraction < 0.5 : !slow)
+    if(current ? contraction < 0.5 : !slow)
       return true;
-    fresh = true;
+    current = true;
     past_corrections.clear();
     return solver->prepare(equations, u);
   }
@@ -163,12 +163,12 @@ namespace meltfront::reference_fem::fitted
 
   std::string StageNewton::apply(const Stages &correction, Stages &u)
   {
-    const auto objection = [&](const Stages &states)
+    const auto reason_invalid = [&](const Stages &states)
     {
       std::string first;
       for(const auto &stage : states)
         if(first.empty())
-          first = problem.objection(stage);
+          first = problem.reason_invalid(stage);
       return first;
     };
     std::string full;
@@ -176,7 +176,7 @@ namespace meltfront::reference_fem::fitted
     {
       Stages trial = u;
       add(share, correction, trial);
-      const std::string complaint = objection(trial);
+      const std::string complaint = reason_invalid(trial);
       if(complaint.empty())
       {
         u = std::move(trial);

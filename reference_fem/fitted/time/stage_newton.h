@@ -44,8 +44,8 @@ namespace meltfront::reference_fem::fitted
     /** Turn a correction by frozen factors into that of Broyden's method. */
     void learn(const dealii::Vector<double> &scale, Stages &correction);
 
-    /** Add the correction, or as much of it as the problem has no objection to; returns
-     * the objection to all of it that remains. */
+    /** Add the correction, or as much of it as the problem has no reason_invalid to;
+     * returns the reason_invalid to all of it that remains. */
     std::string apply(const Stages &correction, Stages &u);
 
     const ConservationProblem &problem;
@@ -55,10 +55,10 @@ namespace meltfront::reference_fem::fitted
     std::unique_ptr<StageSolver> solver;
 
     std::vector<Stages> past_corrections;
-    double factorized_step = 0;
-    unsigned int factorized_stages = 0;
+    double factorised_step = 0;
+    unsigned int factorised_stages = 0;
     bool factors_serve = false; ///< the last step converged quickly with them
-    bool fresh = false;         ///< made within this step
+    bool current = false;       ///< made within this step
   };
 } // namespace meltfront::reference_fem::fitted
 

@@ -44,23 +44,23 @@ namespace meltfront::reference_fem::fitted
   }
 
   template <typename Number>
-  void assemble_shifted(const SortedPattern &pattern, const Linearization &linearization,
+  void assemble_shifted(const SortedPattern &pattern, const Linearisation &linearisation,
                         const Number shift, const double step,
                         CompressedRows<Number> &matrix)
   {
     matrix.row_starts = pattern.row_starts;
     matrix.columns = pattern.columns;
     matrix.values.resize(pattern.columns.size());
-    const std::vector<double> mass = pattern.values(linearization.mass_jacobian),
-                              flow = pattern.values(linearization.flow_jacobian),
-                              rate = pattern.values(linearization.rate_jacobian);
+    const std::vector<double> mass = pattern.values(linearisation.mass_jacobian),
+                              flow = pattern.values(linearisation.flow_jacobian),
+                              rate = pattern.values(linearisation.rate_jacobian);
     for(std::size_t k = 0; k < mass.size(); ++k)
       matrix.values[k] = shift * ((mass[k] - rate[k]) / step) - flow[k];
   }
 
-  template void assemble_shifted(const SortedPattern &, const Linearization &, double,
+  template void assemble_shifted(const SortedPattern &, const Linearisation &, double,
                                  double, CompressedRows<double> &);
-  template void assemble_shifted(const SortedPattern &, const Linearization &, Complex,
+  template void assemble_shifted(const SortedPattern &, const Linearisation &, Complex,
                                  double, CompressedRows<Complex> &);
 
   namespace
@@ -77,9 +77,9 @@ namespace meltfront::reference_fem::fitted
       bool prepare(const StageEquations &equations, const Stages &u) override
       {
         const unsigned int s = equations.n_stages();
-        if(factorizations.size() < s)
+        if(factorisations.size() < s)
         {
-          factorizations.resize(s);
+          factorisations.resize(s);
           matrices.resize(s);
         }
         CompressedRows<double> &matrix = matrices[s - 1];
@@ -87,12 +87,12 @@ namespace meltfront::reference_fem::fitted
           lay_out(s, matrix);
         fill(equations, u, matrix);
         cost.work += static_cast<long>(matrix.values.size());
-        ++cost.factorizations;
-        auto &factorization = factorizations[s - 1];
-        if(factorization == nullptr)
-          factorization = std::make_unique<Factorization<double>>();
-        const bool success = factorization->factorize(matrix);
-        cost.work += factorization->n_entries();
+        ++cost.factorisations;
+        auto &factorisation = factorisations[s - 1];
+        if(factorisation == nullptr)
+          factorisation = std::make_unique<Factorisation<double>>();
+        const bool success = factorisation->factorise(matrix);
+        cost.work += factorisation->n_entries();
         return success;
       }
 
@@ -103,8 +103,8 @@ namespace meltfront::reference_fem::fitted
         for(std::size_t i = 0; i < n; ++i)
           for(std::size_t j = 0; j < s; ++j)
             b[i * s + j] = -residual[j][i];
-        factorizations[s - 1]->solve(b, x);
-        cost.work += factorizations[s - 1]->n_entries();
+        factorisations[s - 1]->solve(b, x);
+        cost.work += factorisations[s - 1]->n_entries();
         for(std::size_t i = 0; i < n; ++i)
           for(std::size_t j = 0; j < s; ++j)
             correction[j][i] = x[i * s + j];
@@ -131,13 +131,13 @@ namespace meltfront::reference_fem::fitted
       {
         const unsigned int s = equations.n_stages();
         std::vector<std::vector<double>> mass(s), flow(s), rate(s);
-        Linearization linearization(equations.problem());
+        Linearisation linearisation(equations.problem());
         for(unsigned int j = 0; j < s; ++j)
         {
-          equations.linearize(j, u, linearization);
-          mass[j] = pattern.values(linearization.mass_jacobian);
-          flow[j] = pattern.values(linearization.flow_jacobian);
-          rate[j] = pattern.values(linearization.rate_jacobian);
+          equations.linearise(j, u, linearisation);
+          mass[j] = pattern.values(linearisation.mass_jacobian);
+          flow[j] = pattern.values(linearisation.flow_jacobian);
+          rate[j] = pattern.values(linearisation.rate_jacobian);
         }
         dealii::FullMatrix<double> coupling = equations.coupling();
         coupling /= equations.step();
@@ -154,7 +154,7 @@ namespace meltfront::reference_fem::fitted
       IntegrationCost &cost;
       /** By the number of stages: BDF starts with Radau steps. */
       std::vector<CompressedRows<double>> matrices;
-      std::vector<std::unique_ptr<Factorization<double>>> factorizations;
+      std::vector<std::unique_ptr<Factorisation<double>>> factorisations;
     };
 
     class FrozenStageSolver : public StageSolver
@@ -163,7 +163,7 @@ namespace meltfront::reference_fem::fitted
       FrozenStageSolver(const ConservationProblem &problem, IntegrationCost &cost)
         : pattern(problem.sparsity())
         , cost(cost)
-        , linearization(problem)
+        , linearisation(problem)
       {
       }
 
@@ -173,15 +173,15 @@ namespace meltfront::reference_fem::fitted
         step = equations.step();
         if(modes == nullptr || s != modes->values.size())
           modes = std::make_unique<Eigendecomposition>(equations.coupling());
-        equations.linearize(s / 2, u, linearization);
+        equations.linearise(s / 2, u, linearisation);
         bool success = true;
         for(unsigned int j = 0; j < s; ++j)
           if(modes->values[j].imag() == 0)
-            success = factorize(modes->values[j].real(), real_matrix, real_factors)
+            success = factorise(modes->values[j].real(), real_matrix, real_factors)
                       && success;
           else if(modes->values[j].imag() > 0)
             success
-                = factorize(modes->values[j], complex_matrix, complex_factors) && success;
+                = factorise(modes->values[j], complex_matrix, complex_factors) && success;
         return success;
       }
 
@@ -217,12 +217,12 @@ namespace meltfront::reference_fem::fitted
 
     private:
       template <typename Number>
-      bool factorize(const Number shift, CompressedRows<Number> &matrix,
-                     Factorization<Number> &factors)
+      bool factorise(const Number shift, CompressedRows<Number> &matrix,
+                     Factorisation<Number> &factors)
       {
-        assemble_shifted(pattern, linearization, shift, step, matrix);
-        const bool success = factors.factorize(matrix);
-        ++cost.factorizations;
+        assemble_shifted(pattern, linearisation, shift, step, matrix);
+        const bool success = factors.factorise(matrix);
+        ++cost.factorisations;
         cost.work += static_cast<long>(matrix.values.size()) + factors.n_entries();
         return success;
       }
@@ -239,13 +239,13 @@ namespace meltfront::reference_fem::fitted
 
       SortedPattern pattern;
       IntegrationCost &cost;
-      Linearization linearization;
+      Linearisation linearisation;
       double step = 0;
       std::unique_ptr<Eigendecomposition> modes; ///< of B
       CompressedRows<double> real_matrix;
       CompressedRows<Complex> complex_matrix;
-      Factorization<double> real_factors;
-      Factorization<Complex> complex_factors;
+      Factorisation<double> real_factors;
+      Factorisation<Complex> complex_factors;
     };
   } // namespace
 

@@ -55,7 +55,7 @@ namespace meltfront::reference_fem::fitted
 
   /** lambda (M_u - F_rate) / h - F_u. */
   template <typename Number>
-  void assemble_shifted(const SortedPattern &pattern, const Linearization &linearization,
+  void assemble_shifted(const SortedPattern &pattern, const Linearisation &linearisation,
                         Number shift, double step, CompressedRows<Number> &matrix);
 } // namespace meltfront::reference_fem::fitted
 

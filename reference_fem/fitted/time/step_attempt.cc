@@ -115,6 +115,6 @@ namespace meltfront::reference_fem::fitted
     Vector prediction(u.size());
     for(std::size_t k = 0; k < states.size(); ++k)
       prediction.add(weights[k], *states[k]);
-    return problem.objection(prediction).empty() ? prediction : u;
+    return problem.reason_invalid(prediction).empty() ? prediction : u;
   }
 } // namespace meltfront::reference_fem::fitted

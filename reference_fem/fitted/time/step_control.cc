@@ -45,16 +45,16 @@ namespace meltfront::reference_fem::fitted
     for(std::size_t j = 0; j < weights.size(); ++j)
       flow.add(-weights[j], outcome.flows[j]);
 
-    linearization.mass_jacobian = 0.;
-    linearization.flow_jacobian = 0.;
-    linearization.rate_jacobian = 0.;
-    problem.linearize(outcome.end, outcome.stages.back(), outcome.rates.back(),
-                      linearization.mass, linearization.flow, linearization.mass_jacobian,
-                      linearization.flow_jacobian, linearization.rate_jacobian);
-    assemble_shifted(pattern, linearization, 1 / radau.estimate_weight, outcome.size,
+    linearisation.mass_jacobian = 0.;
+    linearisation.flow_jacobian = 0.;
+    linearisation.rate_jacobian = 0.;
+    problem.linearise(outcome.end, outcome.stages.back(), outcome.rates.back(),
+                      linearisation.mass, linearisation.flow, linearisation.mass_jacobian,
+                      linearisation.flow_jacobian, linearisation.rate_jacobian);
+    assemble_shifted(pattern, linearisation, 1 / radau.estimate_weight, outcome.size,
                      estimate_matrix);
-    ++cost.factorizations;
-    if(!estimate_factors.factorize(estimate_matrix))
+    ++cost.factorisations;
+    if(!estimate_factors.factorise(estimate_matrix))
       fail("has a singular Jacobian in the estimate of the step's error");
     cost.work += static_cast<long>(estimate_matrix.values.size())
                  + 2 * estimate_factors.n_entries();

@@ -201,7 +201,7 @@ subsection Reference
   set n = 64
 end
 subsection Measure
-  set marks = 0.033, 0.05
+  set intermediate times = 0.033, 0.05
 end
 subsection Acceptance
   set criterion 1 = )" << criterion << "\nend\n";
@@ -218,12 +218,17 @@ TEST(App, ARunCanStandInForAnExactSolution)
   const TemporaryDirectory directory;
   write_referenced_case(
       directory.path(),
-      "sph[ step_factor = 0.4, dimension = 1 ]: solid_volume_2_error at n=64 <= 3e-3");
+      "sph[ step_factor = 0.4, dimension = 1 ]: solid_volume_2_error at n=64 <= 3e-3\n"
+      "  set criterion 2 = any method: worst budget_defect <= 1e-9\n"
+      "  set criterion 3 = sph: front_rms at n=64 <= 1");
   const Outcome outcome
       = run_program("verify " + (directory.path() / "matrix.prm").string() + " --out "
                     + (directory.path() / "out").string());
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   expect_text(outcome, "PASS  slab: sph[ step_factor = 0.4, dimension = 1 ]");
+  expect_text(outcome, "PASS  slab: sph[dimension=1,step_factor=0.4]: worst budget");
+  expect_text(outcome, "PASS  slab: fem-enthalpy: worst budget_defect");
+  expect_text(outcome, "Not judged: 1 criteria of these cases");
   expect_text(outcome, "the reference");
   for(const char *file : {"out/report.html", "out/tables/slab-reference.csv"})
     EXPECT_TRUE(fs::exists(directory.path() / file)) << file;

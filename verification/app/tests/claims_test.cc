@@ -144,7 +144,7 @@ namespace meltfront::verification::claims
                    BoundaryKind kind)
     {
       if(form.solves(ProblemKind::interface_advection))
-        return carried_ball(dimension, kind);
+        return advected_ball(dimension, kind);
       if(form.is_bar())
         return particle_bar(75);
       // All of an outline is insulated, of a box the ends of x only.

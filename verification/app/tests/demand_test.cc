@@ -52,7 +52,7 @@ namespace meltfront::verification
           {"greenspan",
            "greenspan-rectangle-free",
            15'000,
-           {{"neighbours", "all pairs"}},
+           {{"neighbours", "all-pairs"}},
            memory},
           {"level-set", "sphere-in-deformation", 1'000'000, {}, memory},
           {"level-set-particle", "circle-in-vortex", 1'000'000, {}, memory},

@@ -67,7 +67,7 @@ namespace meltfront::verification
       result.cases[0].reference->label = "fine[ scheme=a, degree=2 ]";
       compare_with_references(result);
       EXPECT_TRUE(result.omissions.empty());
-      ASSERT_EQ(result.references.size(), 2u) << "the end and mark 1";
+      ASSERT_EQ(result.references.size(), 2u) << "the end and time 1";
       const ReferenceTrust &trust = result.references[0];
       EXPECT_EQ(trust.quantity, "solid_volume_end");
       EXPECT_EQ(trust.n, (std::vector<int>{64, 32, 16}));

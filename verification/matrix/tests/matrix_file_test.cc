@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 namespace meltfront::verification
 {
@@ -174,6 +175,43 @@ namespace meltfront::verification
       EXPECT_THROW(load_matrix("paper"), cases::InputError);
       EXPECT_THROW(load_matrix("folder/nothing.prm"), cases::InputError);
       EXPECT_NE(matrix_file_reference().find("resolutions"), std::string::npos);
+    }
+
+    TEST(MatrixLibrary, BoundsEveryCaseThatIsNotOnlyHard)
+    {
+      std::set<std::string> bounded;
+      for(const std::string &name : matrix_names())
+        for(const MatrixCriterion &one : load_matrix(name).criteria)
+          bounded.insert(one.case_name);
+      for(const std::string &name : cases::library_names())
+      {
+        const cases::Case c = cases::load_case(name);
+        EXPECT_TRUE(bounded.contains(name) || !c.criteria.empty()
+                    || std::ranges::find(c.tags, "hard") != c.tags.end())
+            << name;
+      }
+    }
+
+    TEST(MatrixLibrary, RestatesTheTableOfThePaperInFull)
+    {
+      const cases::Case c = cases::load_case("line-sink");
+      const Matrix paper = load_matrix("paper-sph");
+      ASSERT_EQ(c.printed.size(), 8u);
+      for(const cases::PrintedValue &printed : c.printed)
+      {
+        const auto bound
+            = std::ranges::find_if(paper.criteria,
+                                   [&printed](const MatrixCriterion &one)
+                                   {
+                                     return one.case_name == "line-sink"
+                                            && one.criterion.method == printed.method
+                                            && one.criterion.quantity == printed.quantity
+                                            && one.criterion.n == printed.n;
+                                   });
+        ASSERT_NE(bound, paper.criteria.end()) << printed.quantity << printed.n;
+        EXPECT_NEAR(bound->criterion.lower, 0.85 * printed.value, 1e-15);
+        EXPECT_NEAR(bound->criterion.upper, 1.15 * printed.value, 1e-15);
+      }
     }
   } // namespace
 } // namespace meltfront::verification

@@ -114,9 +114,9 @@ namespace meltfront::verification
 
   void GivenHeat::add_release()
   {
-    if(!scene.heat_release)
+    if(!scene.volumetric_source)
       return;
-    const cases::Field &release = *scene.heat_release;
+    const cases::Field &release = *scene.volumetric_source;
     std::vector<QuadraturePoint> points = points_over(scene.domain);
     sources_vary = !release.constant;
     if(release.constant)

@@ -20,7 +20,7 @@ namespace meltfront::verification
 
   void SnapshotChecks::judge_heat(const cases::Snapshot &snapshot)
   {
-    if(!snapshot.heat.booked)
+    if(!snapshot.heat.conservative)
     {
       for(const Kind kind : {heat_of_sites_, balance, heat_of_walls, heat_of_sources})
         if(entries[kind].reason.empty())
@@ -64,12 +64,12 @@ namespace meltfront::verification
   double SnapshotChecks::expected_of_sources(const cases::Snapshot &snapshot) const
   {
     const double exact = given.from_sources(snapshot.time);
-    if(scene.problem != cases::ProblemKind::poisson || !scene.heat_release)
+    if(scene.problem != cases::ProblemKind::poisson || !scene.volumetric_source)
       return exact;
     double sampled = 0;
     for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
       sampled += snapshot.weights[i]
-                 * (*scene.heat_release)(site_position(snapshot, i), snapshot.time);
+                 * (*scene.volumetric_source)(site_position(snapshot, i), snapshot.time);
     // Cells that a wall holds have no weight, and their release may be booked.
     return std::clamp(snapshot.heat.sources, std::min(sampled, exact),
                       std::max(sampled, exact));

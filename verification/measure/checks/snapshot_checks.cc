@@ -106,7 +106,7 @@ namespace meltfront::verification
                                                     : sum_of_round_off;
     // The temperature of a layer of some dozen particles fluctuates: nothing bounds it,
     // nor does its phase follow it.
-    if(scene.particle_solid && !snapshot.heat.booked)
+    if(scene.particle_solid && !snapshot.heat.conservative)
       entries[principle].reason = entries[phase].reason
           = "the temperature of few particles fluctuates";
     judge_principle(snapshot);
@@ -122,7 +122,7 @@ namespace meltfront::verification
       end_run(snapshot, "temperature", "is not finite");
     if(!std::ranges::all_of(snapshot.solid_fraction, finite))
       end_run(snapshot, "solid fraction", "is not finite");
-    if(snapshot.heat.booked && !std::isfinite(snapshot.heat.defect()))
+    if(snapshot.heat.conservative && !std::isfinite(snapshot.heat.defect()))
       end_run(snapshot, "heat budget", "is not finite");
   }
 

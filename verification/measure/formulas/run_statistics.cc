@@ -10,7 +10,7 @@ namespace meltfront::verification
   {
     using cases::nan;
     constexpr std::size_t cubic_points = 4;
-    constexpr double steps_before_mark = 5, steps_after_mark = 4;
+    constexpr double steps_before_intermediate = 5, steps_after_intermediate = 4;
   } // namespace
 
   void ErrorStatistics::add(double error)
@@ -87,12 +87,12 @@ namespace meltfront::verification
     return result;
   }
 
-  MarkWatch::MarkWatch(std::vector<double> marks)
-    : marks(std::move(marks))
+  SnapshotTimes::SnapshotTimes(std::vector<double> intermediate_times)
+    : intermediate_times(std::move(intermediate_times))
   {
   }
 
-  void MarkWatch::pass(long step, double time)
+  void SnapshotTimes::pass(long step, double time)
   {
     if(step == last_step)
       return;
@@ -101,14 +101,14 @@ namespace meltfront::verification
     last_time = time;
   }
 
-  bool MarkWatch::near_mark() const
+  bool SnapshotTimes::near_one() const
   {
     return std::ranges::any_of(
-        marks,
-        [this](double mark)
+        intermediate_times,
+        [this](double intermediate)
         {
-          return last_time >= mark - steps_before_mark * step_length
-                 && last_time <= mark + steps_after_mark * step_length;
+          return last_time >= intermediate - steps_before_intermediate * step_length
+                 && last_time <= intermediate + steps_after_intermediate * step_length;
         });
   }
 } // namespace meltfront::verification

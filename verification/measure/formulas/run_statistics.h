@@ -62,23 +62,23 @@ namespace meltfront::verification
                       double time, double tolerance = 0);
 
   /**
-   * Tells a run which steps lie so near a mark in time that they are wanted for the
-   * interpolation to it: those within five steps before it and four behind.
+   * Tells a run which steps lie so near an intermediate time in time that they are wanted
+   * for the interpolation to it: those within five steps before it and four behind.
    */
-  class MarkWatch
+  class SnapshotTimes
   {
   public:
-    explicit MarkWatch(std::vector<double> marks);
+    explicit SnapshotTimes(std::vector<double> intermediate_times);
 
     /** The state after a step is at this time; steps come in their order, and one that
      * was seen before changes nothing. */
     void pass(long step, double time);
 
-    /** Whether a mark is near the time that was passed last. */
-    bool near_mark() const;
+    /** Whether an intermediate time is near the time that was passed last. */
+    bool near_one() const;
 
   private:
-    std::vector<double> marks;
+    std::vector<double> intermediate_times;
     long last_step = -1;
     double last_time = 0, step_length = 0;
   };

@@ -92,7 +92,7 @@ namespace meltfront::verification::tests
   {
     State()
     {
-      snapshot.heat.booked = false;
+      snapshot.heat.conservative = false;
     }
 
     cases::Snapshot snapshot;

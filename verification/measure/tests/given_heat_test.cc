@@ -84,8 +84,8 @@ namespace meltfront::verification
     TEST(GivenHeat, AddsWhatIsReleasedToWhatSourcesGive)
     {
       cases::Scene scene = tests::scene_of(DomainShape::ball, 2, Symmetry::none);
-      scene.heat_release = field([](const cases::Position &p, double t)
-                                 { return (p[0] * p[0] + p[1] * p[1]) * 2 * t; });
+      scene.volumetric_source = field([](const cases::Position &p, double t)
+                                      { return (p[0] * p[0] + p[1] * p[1]) * 2 * t; });
       scene.sources.push_back({.expression = {},
                                .power = [](double) { return -3.; },
                                .energy = [](double t) { return -3 * t; }});

@@ -20,7 +20,7 @@ namespace
     c.scene.alloy->solutes.push_back({.name = "salt", .liquidus_slope = 1});
     c.scene.initial.concentration = {cases::Field::uniform(0.1)};
     c.exact = std::make_shared<tests::HalfFrozen>();
-    c.measurement.marks = {0.25, 0.64};
+    c.measurement.intermediate_times = {0.25, 0.64};
     return c;
   }
 
@@ -49,11 +49,12 @@ namespace
     {
     }
 
-    void add(tests::State &state, double time, const std::vector<int> &marks = {},
-             bool at_end = false)
+    void add(tests::State &state, double time,
+             const std::vector<int> &intermediate_times = {}, bool at_end = false)
     {
-      Sighting sighting{
-          .snapshot = state.view(1, time), .marks = marks, .at_end = at_end};
+      Sighting sighting{.snapshot = state.view(1, time),
+                        .intermediate_times = intermediate_times,
+                        .at_end = at_end};
       sighting.coordinates = &state.positions[0];
       for(const auto &measure : measures)
         measure->observe(sighting);
@@ -101,16 +102,16 @@ TEST(Measures, OfARunFillInWhatTheyDeclare)
     EXPECT_NO_THROW(require_quantity(name));
 }
 
-TEST(Measures, OfAMushAreTakenAtTheMarksAndAtTheEnd)
+TEST(Measures, OfAMushAreTakenAtIntermediateTimesAndAtTheEnd)
 {
   const cases::Case c = salty_case();
   Measured measured(c);
-  const auto add
-      = [&](double time, const std::vector<int> &marks = {}, bool at_end = false)
+  const auto add = [&](double time, const std::vector<int> &intermediate_times = {},
+                       bool at_end = false)
   {
     tests::State state = exact_state(time);
     state.temperature[0] += time;
-    measured.add(state, time, marks, at_end);
+    measured.add(state, time, intermediate_times, at_end);
   };
   add(0);
   add(0.3, {1});

@@ -67,25 +67,25 @@ namespace meltfront::verification
       EXPECT_GT(fit_order(steps, errors, 4.5).order, 3.7);
     }
 
-    TEST(MarkWatch, WantsTheStepsAroundAMark)
+    TEST(SnapshotTimes, WantsTheStepsAroundATime)
     {
-      MarkWatch watch({0.5});
+      SnapshotTimes watch({0.5});
       std::vector<int> wanted;
       for(int step = 0; step <= 100; ++step)
       {
         watch.pass(step, step / 100.);
         watch.pass(step, step / 100.); // asked again of the same step
-        if(watch.near_mark())
+        if(watch.near_one())
           wanted.push_back(step);
       }
       ASSERT_FALSE(wanted.empty());
       EXPECT_LE(wanted.front(), 48);
       EXPECT_GE(wanted.back(), 52);
       EXPECT_LE(wanted.size(), 12u) << "snapshots are not free";
-      MarkWatch none({});
+      SnapshotTimes none({});
       none.pass(0, 0);
       none.pass(1, 0.1);
-      EXPECT_FALSE(none.near_mark());
+      EXPECT_FALSE(none.near_one());
     }
 
     TEST(FrontCourse, KnowsBothDirections)

@@ -43,7 +43,7 @@ namespace meltfront::verification
         caption += " Blue: solid; orange: liquid.";
       if(!record.scene.sources.empty())
         caption += " Star: source.";
-      if(record.measurement.picture_mark == 0)
+      if(record.measurement.picture_time == 0)
         caption += restated(record, "particles");
       SceneContent content{run ? run : runs.finest(), front, {}};
       if(const RunRecord *tracked = tracked_run(runs))
@@ -57,7 +57,7 @@ namespace meltfront::verification
                                   "The scene of " + record.name(), text(caption));
     }
 
-    /** Tracked fronts at the marks and at the end in one picture. */
+    /** Tracked fronts at the intermediate times and at the end in one picture. */
     Markup front_frames(const ReportContext &context, const CaseRuns &runs)
     {
       const RunRecord *run = tracked_run(runs);
@@ -195,7 +195,7 @@ namespace meltfront::verification
     if(moves_particles(record))
       return solid_chapter(context, runs);
     if(carries_front(record))
-      return carried_chapter(context, runs);
+      return advected_chapter(context, runs);
     Markup content = chapter_head(record);
     content += pair(picture(context, runs),
                     element("div", element("h3", "Equations") + equations(record)),

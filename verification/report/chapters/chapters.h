@@ -69,7 +69,7 @@ namespace meltfront::verification
   Markup solid_chapter(const ReportContext &context, const CaseRuns &runs);
 
   /** Of a front that is carried along: fronts over the exact ones, errors, orders. */
-  Markup carried_chapter(const ReportContext &context, const CaseRuns &runs);
+  Markup advected_chapter(const ReportContext &context, const CaseRuns &runs);
 
   Markup provenance_chapter(const ReportContext &context);
 
@@ -97,7 +97,7 @@ namespace meltfront::verification
                     const std::string &csv);
 
   /** Profiles of temperature and solid fraction, and of an alloy's concentration too, at
-   * the marks and at the end. */
+   * the intermediate times and at the end. */
   Markup profiles_of_case(const ReportContext &context, const CaseRuns &runs);
 } // namespace meltfront::verification
 

@@ -141,7 +141,7 @@ namespace meltfront::verification
           row += effect_cell(runs, decision_on(*decisions, effect));
         rows += element("tr", row) + Markup("\n");
       }
-    Markup content = element("h2", "What the scene calls for");
+    Markup content = element("h2", "Active effects and their cost");
     if(rows.empty())
       content += element("p", "No run says which effects its scene called for.");
     else

@@ -70,11 +70,11 @@ namespace meltfront::verification
       if(!steady(record))
         numbers
             += math(", $ρ$c = #", {equation_number(solid.volumetric_heat_capacity())});
-      if(scene.heat_release)
-        numbers += math(", $q = #", {text(scene.heat_release->expression)});
+      if(scene.volumetric_source)
+        numbers += math(", $q = #", {text(scene.volumetric_source->expression)});
       return equation_line("", math(steady(record) ? "0 = ∇·($k ∇$T)"
                                                    : "$ρ$c \\d{$T}{$t} = ∇·($k ∇$T)")
-                                   + (scene.heat_release ? math(" + $q") : Markup()))
+                                   + (scene.volumetric_source ? math(" + $q") : Markup()))
              + equation_line("", numbers);
     }
 

@@ -55,9 +55,9 @@ namespace meltfront::verification
           CriterionResult bound;
           bound.lower = criterion.lower;
           bound.upper = criterion.upper;
-          std::string remark = criterion.known_shortfall.empty()
+          std::string remark = criterion.expected_failure.empty()
                                    ? ""
-                                   : "known shortfall: " + criterion.known_shortfall;
+                                   : "expected failure: " + criterion.expected_failure;
           if(evidence.values.size() > 1)
             for(const EvidenceValue &value : evidence.values)
               if(!value.passed)

@@ -87,21 +87,22 @@ namespace meltfront::verification
     const StoredCase &record = *runs.record;
     Markup content = element(
         "p",
-        fmt::format("There is no exact solution: runs are held against {} at n = {}.",
+        fmt::format("There is no exact solution: runs are compared with {} at n = {}.",
                     record.reference->label, record.reference->n));
     const auto trusts = trusts_of(context, record.name());
     if(trusts.empty())
       return content
              + element("p",
                        "It did not run or did not finish: nothing was compared with it.");
-    content += element("h4", "How far the reference can be trusted")
-               + table_markup(trust_table(trusts))
-               + linked_csv(context, record.name() + "-reference", trust_csv(trusts))
-               + element("p", {{"class", "nothing"}},
-                         text("GCI: the grid convergence index, 1.25 times the distance "
-                              "from Richardson's limit (three times the spread where the "
-                              "values are not monotone): the reference's error bar. An "
-                              "error of at most one bar cannot be told from none."));
+    content
+        += element("h4", "Reference uncertainty (GCI)")
+           + table_markup(trust_table(trusts))
+           + linked_csv(context, record.name() + "-reference", trust_csv(trusts))
+           + element("p", {{"class", "nothing"}},
+                     text("GCI: the grid convergence index, 1.25 times the distance "
+                          "from Richardson's limit (three times the spread where the "
+                          "values are not monotone): the reference's error bar. Errors "
+                          "below that uncertainty are not significant."));
     return content;
   }
 } // namespace meltfront::verification

@@ -151,7 +151,7 @@ namespace meltfront::verification
            + solid_conditions(record);
   }
 
-  Markup carried_equations(const StoredCase &record)
+  Markup advection_equations(const StoredCase &record)
   {
     return element("div", {{"class", "equations"}},
                    equation_line("front", math("\\d{$φ}{$t} + $u · ∇$φ = 0"))

@@ -15,7 +15,7 @@ namespace meltfront::verification
 
   /** A front that a velocity carries along: the level set's equation, region, velocity,
    * times. */
-  Markup carried_equations(const StoredCase &record);
+  Markup advection_equations(const StoredCase &record);
 } // namespace meltfront::verification
 
 #endif

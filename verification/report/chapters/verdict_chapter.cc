@@ -144,10 +144,11 @@ namespace meltfront::verification
         items.push_back(text(sentence));
       constexpr std::size_t most_shown = 6;
       if(items.size() <= most_shown)
-        return element("h3", "Left out, and why") + list("ul", items);
+        return element("h3", "Skipped runs and unjudged criteria") + list("ul", items);
       return element(
           "details",
-          element("summary", fmt::format("{} runs left out, and why", items.size()))
+          element("summary",
+                  fmt::format("{} skipped runs and unjudged criteria", items.size()))
               + list("ul", items));
     }
   } // namespace
@@ -173,9 +174,9 @@ namespace meltfront::verification
       row += element("td", criterion.method) + element("td", criterion.quantity)
              + element("td", {{"class", "number"}}, number_markup(criterion.value))
              + element("td", {{"class", "number"}}, bound_of(criterion))
-             + element("td", criterion.known_shortfall.empty()
+             + element("td", criterion.expected_failure.empty()
                                  ? ""
-                                 : "known shortfall: " + criterion.known_shortfall);
+                                 : "expected failure: " + criterion.expected_failure);
       rows += element("tr", row) + Markup("\n");
     }
     return element(

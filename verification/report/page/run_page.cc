@@ -1,6 +1,6 @@
 #include <verification/report/page/case_runs.h>
 #include <verification/report/page/report.h>
-#include <verification/report/pictures/carried_picture.h>
+#include <verification/report/pictures/advected_picture.h>
 #include <verification/report/pictures/particle_frames.h>
 #include <verification/report/pictures/scene_picture.h>
 #include <verification/report/plots/gnuplot.h>
@@ -56,7 +56,7 @@ namespace meltfront::verification
     }
     std::string script;
     if(carries_front(record) && record.scene.domain.dimension == 2)
-      script = carried_front_script(record, run.frames);
+      script = advected_interface_script(record, run.frames);
     else if(fills_a_plane(run, record))
     {
       SceneContent content{&run, {}, {}};

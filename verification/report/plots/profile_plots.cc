@@ -36,13 +36,15 @@ namespace meltfront::verification
       return columns[static_cast<std::size_t>(quantity)];
     }
 
-    /** The profile at a mark, or at the end; null where the run has none. */
-    const RunProfile *profile_of(const RunRecord &run, int mark)
+    /** The profile at an intermediate time, or at the end; null where the run has none.
+     */
+    const RunProfile *profile_of(const RunRecord &run, int intermediate)
     {
-      if(mark == profile_at_end)
+      if(intermediate == profile_at_end)
         return &run.profile;
-      const auto i = static_cast<std::size_t>(mark);
-      return i < run.mark_profiles.size() ? &run.mark_profiles[i] : nullptr;
+      const auto i = static_cast<std::size_t>(intermediate);
+      return i < run.intermediate_profiles.size() ? &run.intermediate_profiles[i]
+                                                  : nullptr;
     }
 
     void add_profile(Plot &plot, const std::vector<double> &coordinate,
@@ -66,7 +68,7 @@ namespace meltfront::verification
   } // namespace
 
   Plot profile_plot(const CaseRuns &runs, const MethodStyles &styles,
-                    ProfileQuantity quantity, int mark)
+                    ProfileQuantity quantity, int intermediate)
   {
     const ProfileColumn &column = column_of(quantity);
     Plot plot;
@@ -78,7 +80,7 @@ namespace meltfront::verification
     for(const LabelRuns &label : runs.labels)
     {
       const RunRecord *run = label.finest();
-      const RunProfile *profile = run ? profile_of(*run, mark) : nullptr;
+      const RunProfile *profile = run ? profile_of(*run, intermediate) : nullptr;
       if(!profile || (profile->*column.values).empty())
         continue;
       Curve curve;

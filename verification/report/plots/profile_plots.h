@@ -14,15 +14,16 @@ namespace meltfront::verification
     concentration   ///< of the first solute in the liquid, by mass
   };
 
-  /** Number of the profile at the end, where profiles at marks count from 0. */
+  /** Number of the profile at the end, where profiles at intermediate times count from 0.
+   */
   inline constexpr int profile_at_end = -1;
 
   /**
-   * A quantity over the coordinate at a mark or at the end: the finest run of every
-   * label, and the exact one where it is known.
+   * A quantity over the coordinate at an intermediate time or at the end: the finest run
+   * of every label, and the exact one where it is known.
    */
   Plot profile_plot(const CaseRuns &runs, const MethodStyles &styles,
-                    ProfileQuantity quantity, int mark = profile_at_end);
+                    ProfileQuantity quantity, int intermediate = profile_at_end);
 
   /** Temperature of one run at the end over its coordinate, with the exact one. */
   Plot run_profile(const RunRecord &run, const StoredCase &record);

@@ -25,14 +25,18 @@ namespace meltfront::verification
       Curve curve;
       curve.label = "printed";
       curve.line = false;
-      const std::vector<double> &marks = record.measurement.marks;
+      const std::vector<double> &intermediate_times
+          = record.measurement.intermediate_times;
       for(const cases::PrintedValue &printed : record.printed)
-        for(std::size_t mark = 0; mark <= marks.size(); ++mark)
+        for(std::size_t intermediate = 0; intermediate <= intermediate_times.size();
+            ++intermediate)
         {
-          const bool end = mark == marks.size();
-          if(printed.quantity != (end ? "solid_end" : fmt::format("solid_{}", mark + 1)))
+          const bool end = intermediate == intermediate_times.size();
+          if(printed.quantity
+             != (end ? "solid_end" : fmt::format("solid_{}", intermediate + 1)))
             continue;
-          curve.x.push_back(end ? record.scene.end_time : marks[mark]);
+          curve.x.push_back(end ? record.scene.end_time
+                                : intermediate_times[intermediate]);
           curve.y.push_back(printed.value);
         }
       return curve;

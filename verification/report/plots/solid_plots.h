@@ -9,7 +9,7 @@ namespace meltfront::verification
 {
   /** The mean number of solid particles of a case against time, with a band of one
    * standard deviation over the runs, one line for each label; printed numbers as points
-   * at their marks. Nothing to draw where the number never changes. */
+   * at their intermediate times. Nothing to draw where the number never changes. */
   Plot solid_particles_over_time(const CaseRuns &runs, const MethodStyles &styles);
 
   /** Largest change of the energy against the time step, over all labels. */

@@ -1,4 +1,4 @@
-#include <cases/outcomes.h>
+#include <cases/reported_scalars.h>
 #include <verification/record/label.h>
 #include <verification/report/chapters/chapters.h>
 #include <verification/report/tables/convergence_table.h>
@@ -16,10 +16,11 @@ namespace meltfront::verification
     const double nan = std::nan("");
 
     /** Names and meanings of all that may stand in the table. */
-    std::vector<cases::Outcome> table_outcomes(const StoredCase &record)
+    std::vector<cases::ReportedScalar> table_scalars(const StoredCase &record)
     {
-      std::vector<cases::Outcome> list;
-      const std::vector<double> &marks = record.measurement.marks;
+      std::vector<cases::ReportedScalar> list;
+      const std::vector<double> &intermediate_times
+          = record.measurement.intermediate_times;
       const double step = record.scene.particle_solid->time_step;
       const auto solid = [&](const std::string &suffix, double time)
       {
@@ -28,10 +29,12 @@ namespace meltfront::verification
              fmt::format("solid particles at step {:.0f}",
                          std::round((time - record.scene.start_time) / step))});
       };
-      for(std::size_t mark = 0; mark < marks.size(); ++mark)
-        solid(std::to_string(mark + 1), marks[mark]);
+      for(std::size_t intermediate = 0; intermediate < intermediate_times.size();
+          ++intermediate)
+        solid(std::to_string(intermediate + 1), intermediate_times[intermediate]);
       solid("end", record.scene.end_time);
-      list.insert(list.end(), cases::outcomes().begin(), cases::outcomes().end());
+      list.insert(list.end(), cases::reported_scalars().begin(),
+                  cases::reported_scalars().end());
       return list;
     }
 
@@ -123,7 +126,7 @@ namespace meltfront::verification
 
     std::vector<Column> headings(const Columns &columns)
     {
-      std::vector<Column> list{{"outcome", "", false}};
+      std::vector<Column> list{{"reported scalar", "", false}};
       if(columns.printed)
         list.push_back({"printed", "", true});
       list.push_back({columns.spread ? "mean" : "value", "", true});
@@ -211,19 +214,18 @@ namespace meltfront::verification
       for(const Level &level : label.levels)
       {
         EnsembleGroup group{fmt::format("{}, n = {}", label.label, level.n), {}};
-        for(const cases::Outcome &outcome : table_outcomes(record))
+        for(const cases::ReportedScalar &scalar : table_scalars(record))
         {
-          const auto found = level.values.find(outcome.name);
+          const auto found = level.values.find(scalar.name);
           if(found == level.values.end())
             continue;
           EnsembleRow row = row_of(found->second);
-          row.quantity = outcome.name;
-          row.meaning = outcome.meaning;
-          row.printed = printed_value(record, label.label, level.n, outcome.name);
-          row.criterion
-              = criterion_on(result, record, label.label, level.n, outcome.name);
+          row.quantity = scalar.name;
+          row.meaning = scalar.meaning;
+          row.printed = printed_value(record, label.label, level.n, scalar.name);
+          row.criterion = criterion_on(result, record, label.label, level.n, scalar.name);
           const bool asked = row.criterion || std::isfinite(row.printed);
-          if(asked || (!several && !is_of_one_particle(outcome.name)))
+          if(asked || (!several && !is_of_one_particle(scalar.name)))
             group.rows.push_back(row);
         }
         if(!group.rows.empty())

@@ -34,9 +34,9 @@ namespace meltfront::verification
 
   /**
    * What many runs of a particle solid say together: of every label and n one row for
-   * each of cases::outcomes() and for the solid particles at the marks and at the end
-   * that has a value. Of particles one by one, and of everything where there are several
-   * labels, only what a criterion or a printed value asks for.
+   * each of cases::reported_scalars() and for the solid particles at the intermediate
+   * times and at the end that has a value. Of particles one by one, and of everything
+   * where there are several labels, only what a criterion or a printed value asks for.
    */
   std::vector<EnsembleGroup> ensemble(const MatrixResult &result, const CaseRuns &runs);
 

@@ -1,4 +1,4 @@
-#include <cases/outcomes.h>
+#include <cases/reported_scalars.h>
 #include <cases/shape.h>
 #include <cases/velocity_field.h>
 #include <verification/judge/criteria.h>
@@ -41,7 +41,7 @@ namespace meltfront::verification
       record.scene.domain.dimension = 2;
       record.scene.end_time = 10;
       record.title = "A <solid>";
-      record.measurement.marks = {8};
+      record.measurement.intermediate_times = {8};
       cases::ParticleSolid solid;
       solid.gravity = 32;
       solid.disturbance = 1e-6;

@@ -82,7 +82,7 @@ namespace meltfront::verification
   {
     const std::string html = report_of(fixture::matrix());
     position(html, "1 of 2 acceptance criteria hold");
-    position(html, "known shortfall: 1.5 &lt;measured&gt; &amp; known");
+    position(html, "expected failure: 1.5 &lt;measured&gt; &amp; known");
     position(html, "temperature is &lt;not&gt; finite &amp; &#39;broken&#39;");
     position(html, "fem-enthalpy lacks the effect &quot;liquid_motion&quot;");
     position(html, "1 of 3 hard runs failed");

@@ -48,7 +48,7 @@ namespace meltfront::verification
         fixture::set_wall(record, side, cases::BoundaryKind::fixed_temperature, "1");
       record.exact = nullptr;
       record.measurement.front_mode = 4;
-      record.measurement.marks = {0.5};
+      record.measurement.intermediate_times = {0.5};
       record.reference = cases::Reference{"fem-fitted", 80};
       return record;
     }
@@ -115,7 +115,7 @@ namespace meltfront::verification
       const std::string html = directory.read("report.html");
       EXPECT_EQ(fixture::first_mistake(html), "");
       for(const char *words :
-          {"How far the reference can be trusted", "Richardson", "solid_volume_end",
+          {"Reference uncertainty (GCI)", "Richardson", "solid_volume_end",
            "front_mode_end", "Orders of the time schemes",
            "Orders of the elements by degree", "time step dt",
            "The front that fem-fitted tracked at n = 80, at t = 0.5, 1",

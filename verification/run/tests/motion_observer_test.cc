@@ -1,4 +1,4 @@
-#include <cases/outcomes.h>
+#include <cases/reported_scalars.h>
 #include <cases/shape.h>
 #include <cases/velocity_field.h>
 #include <verification/judge/criteria.h>
@@ -15,14 +15,14 @@ namespace meltfront::verification
   namespace
   {
     /** Two particles that part from each other; the second melts at t = 5. */
-    cases::Case solid_case(std::vector<double> marks)
+    cases::Case solid_case(std::vector<double> intermediate_times)
     {
       cases::Case c;
       c.scene.name = "two-particles";
       c.scene.problem = cases::ProblemKind::particle_solid;
       c.scene.end_time = 10;
       c.scene.particle_solid = cases::ParticleSolid();
-      c.measurement.marks = std::move(marks);
+      c.measurement.intermediate_times = std::move(intermediate_times);
       return c;
     }
 
@@ -58,18 +58,18 @@ namespace meltfront::verification
     }
   } // namespace
 
-  TEST(MotionObserver, CountsSolidParticlesAtTheMarks)
+  TEST(MotionObserver, CountsSolidParticlesAtIntermediateTimes)
   {
     const cases::Case c = solid_case({4, 6});
     MotionObserver observer(c, c.scene, "fake");
     run(observer, 1000);
-    observer.outcome("least_solid", 1);
+    observer.report("least_solid", 1);
     const RunRecord record = record_of(observer);
     EXPECT_EQ(record.quantities.at("solid_1"), 2);
     EXPECT_EQ(record.quantities.at("solid_2"), 1);
     EXPECT_EQ(record.quantities.at("solid_end"), 1);
     EXPECT_EQ(record.quantities.at("least_solid"), 1);
-    ASSERT_EQ(record.particle_frames.size(), 4u); // start, marks, end
+    ASSERT_EQ(record.particle_frames.size(), 4u); // start, intermediate times, end
     EXPECT_EQ(record.particle_frames[1].step, 400);
     EXPECT_NEAR(record.particle_frames[1].x[1], 4. / 3, 1e-4); // five digits are kept
     EXPECT_EQ(record.particle_frames[1].y[0], 0);
@@ -101,7 +101,7 @@ namespace meltfront::verification
     EXPECT_EQ(record_of(observer).animation.size(), 8u);
   }
 
-  TEST(MotionObserver, MeasuresACarriedFront)
+  TEST(MotionObserver, MeasuresAnAdvectedInterface)
   {
     cases::Case c;
     c.scene.problem = cases::ProblemKind::interface_advection;
@@ -112,7 +112,7 @@ namespace meltfront::verification
     c.scene.interface = cases::InterfaceAdvection{
         plane, std::make_shared<cases::RigidMotion>(cases::Position{0.5, 0, 0}, 0,
                                                     cases::Position{})};
-    c.measurement.marks = {0.5};
+    c.measurement.intermediate_times = {0.5};
     MotionObserver observer(c, c.scene, "fake");
     cases::RunDescription description;
     description.spacing = 0.1;

@@ -87,11 +87,11 @@ namespace meltfront::verification
       return 0.3 + 0.4 * std::sin(time);
     }
 
-    TEST(SolidVolumeOverTime, IsMeasuredAtTheMarksFromTheStepsAroundThem)
+    TEST(SolidVolumeOverTime, IsMeasuredAtIntermediateTimesFromTheStepsAroundThem)
     {
       cases::Case c = disk_case();
       c.measurement.samples = 50;
-      c.measurement.marks = {0.3333, 0.5, 1};
+      c.measurement.intermediate_times = {0.3333, 0.5, 1};
       HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       const int taken = drive(observer, 1000, growing);
       EXPECT_LT(taken, 51 + 30);
@@ -102,7 +102,8 @@ namespace meltfront::verification
       EXPECT_NEAR(values.at("solid_volume_3"), growing(1), 1e-15);
       EXPECT_TRUE(std::isnan(values.at("solid_volume_4")));
       EXPECT_EQ(values.at("solid_volume_3"), values.at("solid_volume_end"));
-      EXPECT_EQ(observer.series().time.size(), 51u) << "marks add nothing to the series";
+      EXPECT_EQ(observer.series().time.size(), 51u)
+          << "intermediate times add nothing to the series";
       EXPECT_NEAR(observer.series().solid_volume.back(), growing(1), 1e-15);
     }
 
@@ -183,10 +184,10 @@ namespace meltfront::verification
       EXPECT_TRUE(untracked.frames().empty());
     }
 
-    TEST(TrackedFront, IsKeptAtTheMarksAndTheEnd)
+    TEST(TrackedFront, IsKeptAtIntermediateTimesAndTheEnd)
     {
       cases::Case c = disk_case();
-      c.measurement.marks = {0.25, 0.5, 1};
+      c.measurement.intermediate_times = {0.25, 0.5, 1};
       HeatObserver observer(c, c.scene, "fake", tests::fake_capabilities());
       drive(
           observer, 40, growing, [](double time) { return 0.2 + 0.1 * time; }, 1000);

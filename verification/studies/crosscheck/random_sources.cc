@@ -32,7 +32,7 @@ namespace meltfront::verification
     }
   }
 
-  void SceneMaker::choose_heat_release()
+  void SceneMaker::choose_volumetric_source()
   {
     if(!random.chance(problem == Problem::steady ? 0.8 : 0.5))
       return;
@@ -45,7 +45,7 @@ namespace meltfront::verification
         = random.chance(0.5) && symmetry != "cylindrical" && symmetry != "spherical"
               ? fmt::format("(1 + 0.5*sin({}*x))*", words(6 / length))
               : "";
-    draft.set("Scene/Heat release", "power density",
+    draft.set("Scene/Volumetric source", "power density",
               fmt::format("{}({})", wave, course.expression), course.simpler);
   }
 } // namespace meltfront::verification

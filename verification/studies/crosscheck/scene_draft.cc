@@ -149,8 +149,9 @@ namespace meltfront::verification
       drafts.push_back(*this);
       drafts.back().remove(what...);
     };
-    for(const char *optional : {"Scene/Heat release", "Scene/Inclusion", "Scene/Source 1",
-                                "Scene/Source 2", "Scene/Material/Liquid"})
+    for(const char *optional :
+        {"Scene/Volumetric source", "Scene/Inclusion", "Scene/Source 1", "Scene/Source 2",
+         "Scene/Material/Liquid"})
       if(has(optional))
         without(optional);
     if(has("Scene/Material/Solute 1"))

@@ -33,7 +33,7 @@ namespace meltfront::verification
       choose_sources();
     else
     {
-      choose_heat_release();
+      choose_volumetric_source();
       choose_inclusion();
     }
     if(problem == Problem::alloy)

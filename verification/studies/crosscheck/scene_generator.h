@@ -10,9 +10,9 @@ namespace meltfront::verification
   /**
    * A random scene in the language that heat methods know: shapes, walls of every kind,
    * constant, ramped, pulsed and switched, materials, starts in one phase, at the melting
-   * point and with fronts, sources, heat release, inclusions, alloys; over about the time
-   * that a front needs for a part of the domain. The same for the same arguments, on any
-   * machine, whatever was made before.
+   * point and with fronts, sources, volumetric source, inclusions, alloys; over about the
+   * time that a front needs for a part of the domain. The same for the same arguments, on
+   * any machine, whatever was made before.
    *
    * @param dimension 1 (slabs, and balls and shells that are symmetric), 2 or 3; 0: any,
    * most in one

@@ -80,7 +80,7 @@ namespace meltfront::verification
 
     // In random_sources.cc:
     void choose_sources();
-    void choose_heat_release();
+    void choose_volumetric_source();
 
     RandomStream random;
     int dimension;

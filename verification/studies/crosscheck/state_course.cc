@@ -112,7 +112,7 @@ namespace meltfront::verification
   CourseObserver::CourseObserver(const cases::Scene &scene)
     : scene(scene)
     , coordinates(scene.symmetry)
-    , marks(inner_times(scene))
+    , intermediate_times(inner_times(scene))
     , lowest(infinity)
     , highest(-infinity)
     , volume(volume_of(scene.domain))
@@ -126,8 +126,8 @@ namespace meltfront::verification
 
   bool CourseObserver::wants(long step, double time)
   {
-    marks.pass(step, time);
-    return step == 0 || marks.near_mark();
+    intermediate_times.pass(step, time);
+    return step == 0 || intermediate_times.near_one();
   }
 
   void CourseObserver::add(const std::string &name, double value)
@@ -255,7 +255,7 @@ namespace meltfront::verification
                                        double of_sites) const
   {
     double share = scene.domain.round() ? std::abs(of_sites / volume - 1) : 0;
-    if(snapshot.heat.booked && heat_scale() > 0)
+    if(snapshot.heat.conservative && heat_scale() > 0)
       share += (std::abs(snapshot.heat.imbalance())
                 + heat_of_sites(scene.material, snapshot).difference(snapshot.heat))
                / (heat_scale() * volume);

@@ -92,7 +92,7 @@ namespace meltfront::verification
 
     cases::Scene scene;
     SiteCoordinates coordinates;
-    MarkWatch marks;
+    SnapshotTimes intermediate_times;
     std::vector<double> times;
     std::map<std::string, std::vector<double>> values;  ///< one for each of the times
     std::map<std::string, std::vector<double>> misread; ///< the same

@@ -167,7 +167,7 @@ namespace meltfront::reference_fem::fitted
       const RunOptions options = options_for(scene, resolution);
       const EventScene setting{scene, effects, options, rays_of(scene, options)};
       Timeline timeline(setting, {},
-                        {[](const Stretch &) {},
+                        {[](const RunSegment &) {},
                          [](long, double, const dealii::Vector<double> &, bool) {}});
       timeline.run(one_phase_stretch(setting));
       ASSERT_EQ(timeline.events().size(), 1u);
@@ -232,7 +232,7 @@ namespace meltfront::reference_fem::fitted
       EXPECT_THROW(run(at_melting, 8), cases::Refusal);
     }
 
-    TEST(Stretch, StepsLengthenAndCellsWiden)
+    TEST(RunSegment, StepsLengthenAndCellsWiden)
     {
       const auto steps = lengthening_steps(0.001, 2, 10, 3);
       ASSERT_EQ(steps.size(), 10u);

@@ -95,24 +95,24 @@ namespace meltfront::reference_fem::fitted
       EXPECT_THROW(integrator.advance_to(1, 0), cases::InputError);
     }
 
-    TEST(Factorization, SolvesRealAndComplexSystemsAndSeesSingularOnes)
+    TEST(Factorisation, SolvesRealAndComplexSystemsAndSeesSingularOnes)
     {
       CompressedRows<double> real{{0, 2, 4}, {0, 1, 0, 1}, {2, 1, 0, 4}};
-      Factorization<double> real_factors;
-      ASSERT_TRUE(real_factors.factorize(real));
+      Factorisation<double> real_factors;
+      ASSERT_TRUE(real_factors.factorise(real));
       std::vector<double> x;
       real_factors.solve({4, 8}, x);
       EXPECT_NEAR(x[0], 1, 1e-15);
       EXPECT_NEAR(x[1], 2, 1e-15);
       real.values = {1, 2, 2, 4};
-      EXPECT_FALSE(real_factors.factorize(real));
+      EXPECT_FALSE(real_factors.factorise(real));
       real.values[0] = std::nan("");
-      EXPECT_FALSE(real_factors.factorize(real));
+      EXPECT_FALSE(real_factors.factorise(real));
 
       using Complex = std::complex<double>;
       CompressedRows<Complex> complex{{0, 2, 4}, {0, 1, 0, 1}, {{0, 1}, 1., 0., {1, 1}}};
-      Factorization<Complex> complex_factors;
-      ASSERT_TRUE(complex_factors.factorize(complex));
+      Factorisation<Complex> complex_factors;
+      ASSERT_TRUE(complex_factors.factorise(complex));
       std::vector<Complex> z;
       complex_factors.solve({{0, 1}, {2, 0}}, z);
       EXPECT_NEAR(std::abs(z[1] - Complex(1, -1)), 0, 1e-15);

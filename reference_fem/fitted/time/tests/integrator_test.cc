@@ -137,7 +137,7 @@ namespace meltfront::reference_fem::fitted
         if(!exact)
         {
           // Steps this short are easy enough for factors to be kept.
-          EXPECT_LT(integrator.cost().factorizations, integrator.cost().steps);
+          EXPECT_LT(integrator.cost().factorisations, integrator.cost().steps);
         }
       }
       states[0] -= states[1];

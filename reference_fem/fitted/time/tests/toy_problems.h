@@ -42,7 +42,7 @@ namespace meltfront::reference_fem::fitted
       return ones;
     }
 
-    std::string objection(const dealii::Vector<double> &) const override
+    std::string reason_invalid(const dealii::Vector<double> &) const override
     {
       return {};
     }
@@ -101,7 +101,7 @@ namespace meltfront::reference_fem::fitted
       flow[4] = u[3];
     }
 
-    void linearize(const double t, const dealii::Vector<double> &u,
+    void linearise(const double t, const dealii::Vector<double> &u,
                    const dealii::Vector<double> &rate, dealii::Vector<double> &mass,
                    dealii::Vector<double> &flow,
                    dealii::SparseMatrix<double> &mass_jacobian,
@@ -156,7 +156,7 @@ namespace meltfront::reference_fem::fitted
       flow[n - 1] = 1 - u[n - 1];
     }
 
-    void linearize(const double t, const dealii::Vector<double> &u,
+    void linearise(const double t, const dealii::Vector<double> &u,
                    const dealii::Vector<double> &rate, dealii::Vector<double> &mass,
                    dealii::Vector<double> &flow,
                    dealii::SparseMatrix<double> &mass_jacobian,
@@ -196,7 +196,7 @@ namespace meltfront::reference_fem::fitted
       flow[0] = u[0] * u[0];
     }
 
-    void linearize(const double t, const dealii::Vector<double> &u,
+    void linearise(const double t, const dealii::Vector<double> &u,
                    const dealii::Vector<double> &rate, dealii::Vector<double> &mass,
                    dealii::Vector<double> &flow,
                    dealii::SparseMatrix<double> &mass_jacobian,
@@ -208,7 +208,7 @@ namespace meltfront::reference_fem::fitted
       flow_jacobian.set(0, 0, 2 * u[0]);
     }
 
-    std::string objection(const dealii::Vector<double> &u) const override
+    std::string reason_invalid(const dealii::Vector<double> &u) const override
     {
       return u[0] > ceiling ? "u is above its ceiling" : "";
     }

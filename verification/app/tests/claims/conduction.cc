@@ -170,7 +170,7 @@ namespace meltfront::verification::claims
                                 { return power * p[0] * (1 - p[0]) / (2 * k); },
                                 1. / 8);
       if(power != 0)
-        trial.scene.heat_release = cases::Field::uniform(power);
+        trial.scene.volumetric_source = cases::Field::uniform(power);
       return trial;
     }
 
@@ -240,8 +240,8 @@ namespace meltfront::verification::claims
     {
     case Effect::wall_temperature:
     {
-      // Surroundings at 0 beyond x_max make the solution unique without the held wall,
-      // too.
+      // Surroundings at 0 beyond x_max make the solution unique without the Dirichlet
+      // wall, too.
       const auto held = [k, h](double temperature)
       {
         const double slope = -h * temperature / (k + h);
@@ -266,7 +266,7 @@ namespace meltfront::verification::claims
       };
       return EffectTrials{heated(0), heated(1)};
     }
-    case Effect::wall_transfer:
+    case Effect::robin_wall:
     {
       const auto surrounded = [k, h](double ambient)
       {
@@ -278,7 +278,7 @@ namespace meltfront::verification::claims
       };
       return EffectTrials{surrounded(0.5), surrounded(1)};
     }
-    case Effect::heat_release:
+    case Effect::volumetric_source:
       return EffectTrials{released(0), released(2)};
     case Effect::inclusion:
       return EffectTrials{steady_composite(k), steady_composite(5 * k)};

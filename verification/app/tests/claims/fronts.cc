@@ -195,7 +195,7 @@ namespace meltfront::verification::claims
           = field([exact](const Position &p, double) { return exact(p[0], 0); });
       scene.initial.front = field([=](const Position &p, double) { return p[0] - from; });
       if(released)
-        scene.heat_release = cases::Field::uniform(-in_solid * speed);
+        scene.volumetric_source = cases::Field::uniform(-in_solid * speed);
       const double end = scene.end_time;
       cases::OracleProblem &problem = of.problem;
       problem.material = scene.material;
@@ -332,11 +332,11 @@ namespace meltfront::verification::claims
     case Effect::wall_flux:
       return EffectTrials{with_flux(front_scene(shape, dimension, false), 0),
                           with_flux(front_scene(shape, dimension, false), strong_flux)};
-    case Effect::wall_transfer:
+    case Effect::robin_wall:
       return EffectTrials{
           with_transfer(front_scene(shape, dimension, false), 0),
           with_transfer(front_scene(shape, dimension, false), strong_flux)};
-    case Effect::heat_release:
+    case Effect::volumetric_source:
       return EffectTrials{released_front(shape, dimension, false),
                           released_front(shape, dimension, true)};
     default:

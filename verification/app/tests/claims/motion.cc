@@ -228,7 +228,7 @@ namespace meltfront::verification::claims
     }
   }
 
-  Trial carried_ball(int dimension, cases::BoundaryKind kind)
+  Trial advected_ball(int dimension, cases::BoundaryKind kind)
   {
     constexpr double radius = 0.22;
     const Position start{0.4, 0.5, dimension == 3 ? 0.5 : 0};

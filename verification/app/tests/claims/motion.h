@@ -9,7 +9,7 @@ namespace meltfront::verification::claims
 {
   /** A disk or ball that a uniform velocity carries along, between walls of a kind at
    * both ends of x. */
-  Trial carried_ball(int dimension, cases::BoundaryKind kind);
+  Trial advected_ball(int dimension, cases::BoundaryKind kind);
 
   /** Particles that hardly bind each other, so that each goes its own way, which is
    * known. */

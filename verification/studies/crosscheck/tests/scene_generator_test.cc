@@ -82,7 +82,7 @@ namespace meltfront::verification
                               "solute",
                               "solute_diffusion",
                               "eutectic",
-                              "heat_release",
+                              "volumetric_source",
                               "inclusion",
                               "gibbs_thomson"})
         EXPECT_GT(words[word], 0) << word;

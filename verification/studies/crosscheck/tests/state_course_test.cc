@@ -174,7 +174,7 @@ namespace meltfront::verification
                                       heat.stored = held.stored + (step == 18 ? 0.05 : 0);
                                       heat.latent = held.latent;
                                       heat.initial = heat.stored + heat.latent - 0.15;
-                                      heat.booked = step != 6;
+                                      heat.conservative = step != 6;
                                     });
       const auto &misreadings = course.misreadings;
       const double span = (1 - 0.5 / 64) / 2, share = 0.15 / (span + 1);
@@ -194,7 +194,7 @@ namespace meltfront::verification
       const auto course = course_of(scene,
                                     [](int step, tests::State &state)
                                     {
-                                      state.snapshot.heat.booked = false;
+                                      state.snapshot.heat.conservative = false;
                                       if(step != 6)
                                         return;
                                       state.temperature.back() = 0.25;

@@ -1,0 +1,394 @@
+#include <cases/error.h>
+#include <particles/rkpm_tracked/line/collocation.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::particles::rkpm_tracked
+{
+  namespace
+  {
+    /** Spacings over the thickness of a layer before a front, V h/a: up to the one it is
+     * resolved, from the other on it is fitted. */
+    constexpr double resolved_peclet = 0.25, unresolved_peclet = 0.75;
+  } // namespace
+
+  using cases::BoundaryKind;
+
+  LineInterval interval(const LineProblem &problem, const LineState &state,
+                        std::size_t number)
+  {
+    LineInterval result;
+    result.lower_front = number > 0;
+    result.upper_front = number < state.fronts.size();
+    result.lower = result.lower_front ? state.fronts[number - 1] : problem.nodes.front();
+    result.upper = result.upper_front ? state.fronts[number] : problem.nodes.back();
+    result.solid = state.solid(number);
+    return result;
+  }
+
+  LineCollocation::LineCollocation(const LineProblem &problem,
+                                   const LineSettings &settings)
+    : problem(problem)
+    , interpolation_distance(std::max(settings.interpolation_distance, coincidence)
+                             * problem.spacing)
+    , stencils(settings.basis_order, settings.dilation * problem.spacing)
+    , regular(problem.nodes.size())
+  {
+    cloud.dimension = 1;
+    cloud.position[0] = problem.nodes;
+    for(std::size_t i = 0; i < problem.nodes.size(); ++i)
+      stencils.evaluate(problem.nodes[i], cloud, regular[i]);
+  }
+
+  void LineCollocation::nodes_moved(std::span<const double> before)
+  {
+    const std::vector<double> &x = problem.nodes;
+    const auto moved = [&](std::size_t i) { return x[i] != before[i]; };
+    cloud.position[0] = x;
+    for(std::size_t i = 0; i < x.size(); ++i)
+    {
+      bool touched = false;
+      const std::size_t from
+          = regular[i].first - std::min<std::size_t>(regular[i].first, 1);
+      for(std::size_t j = from; j < std::min(regular[i].end() + 1, x.size()); ++j)
+        touched = touched || moved(j);
+      if(touched)
+        stencils.evaluate(x[i], cloud, regular[i]);
+    }
+  }
+
+  std::pair<std::size_t, std::size_t>
+  LineCollocation::nodes_of(const LineInterval &interval) const
+  {
+    const std::vector<double> &x = problem.nodes;
+    const double near = coincidence * problem.spacing;
+    const auto begin = interval.lower_front
+                           ? std::upper_bound(x.begin(), x.end(), interval.lower + near)
+                           : x.begin();
+    const auto past = interval.upper_front
+                          ? std::lower_bound(begin, x.end(), interval.upper - near)
+                          : x.end();
+    return {static_cast<std::size_t>(begin - x.begin()),
+            static_cast<std::size_t>(past - x.begin())};
+  }
+
+  void LineCollocation::gather(const LineInterval &interval)
+  {
+    const std::vector<double> &x = problem.nodes;
+    std::tie(all_first, all_end) = nodes_of(interval);
+    first = all_first;
+    end = all_end;
+    // A node on a wall stays, however near the front is.
+    while(interval.lower_front && first < end && first + 1 < x.size()
+          && x[first] - interval.lower < interpolation_distance)
+      ++first;
+    while(interval.upper_front && end > first && end > 1
+          && interval.upper - x[end - 1] < interpolation_distance)
+      --end;
+    std::vector<double> &place = cloud.position[0];
+    place.clear();
+    if(interval.lower_front)
+      place.push_back(interval.lower);
+    offset = place.size();
+    for(std::size_t i = first; i < end; ++i)
+      place.push_back(x[i]);
+    if(interval.upper_front)
+      place.push_back(interval.upper);
+    if(rows.size() < place.size())
+    {
+      rows.resize(place.size());
+      coefficients.resize(place.size());
+    }
+  }
+
+  const LineStencil &LineCollocation::stencil(std::size_t point)
+  {
+    const double place = cloud.position[0][point];
+    LineStencil &row = rows[point];
+    const std::size_t node = first + point - offset;
+    if(point >= offset && node < end)
+    {
+      const LineStencil &known = regular[node];
+      const bool inside = known.first >= first && known.end() <= end;
+      const bool below = offset == 1 && place - cloud.position[0].front() < known.radius;
+      const bool above = offset + (end - first) < cloud.size()
+                         && cloud.position[0].back() - place < known.radius;
+      if(inside && !below && !above)
+      {
+        row = known;
+        row.first = known.first - first + offset;
+        return row;
+      }
+    }
+    stencils.evaluate(place, cloud, row);
+    return row;
+  }
+
+  void LineCollocation::add_row(std::size_t point, const LineInterval &interval,
+                                const StepTerms &terms)
+  {
+    const LineStencil &row = rows[point];
+    const double x = cloud.position[0][point];
+    const cases::PhaseProperties &phase = problem.phase(interval.solid);
+    const double diffusivity = phase.diffusivity();
+    const int bends = problem.curvature_terms();
+    double slope = bends > 0 ? -diffusivity * bends / x : 0.;
+    if(terms.displaced_speed != 0)
+    {
+      double speed = terms.displaced_speed;
+      for(int i = 0; i < bends; ++i)
+        speed *= terms.displacing_front / x;
+      slope += speed;
+    }
+    std::vector<double> &values = coefficients[point];
+    values.resize(row.size());
+    for(std::size_t j = 0; j < row.size(); ++j)
+      values[j] = slope * row.slope[j] - diffusivity * row.second[j];
+    values[point - row.first] += terms.leading;
+    right_side[point] = -terms.history[first + point - offset];
+  }
+
+  void LineCollocation::add_release(const LineInterval &interval, double time)
+  {
+    const double capacity = problem.phase(interval.solid).volumetric_heat_capacity();
+    for(std::size_t p = 1; p + 1 < cloud.size(); ++p)
+      right_side[p] += problem.volumetric_source(cloud.position[0][p], time) / capacity;
+  }
+
+  void LineCollocation::add_wall_row(std::size_t point, int side,
+                                     const LineInterval &interval, double time)
+  {
+    const LineWall &wall = problem.walls[static_cast<std::size_t>(side)];
+    const LineStencil &row = rows[point];
+    std::vector<double> &values = coefficients[point];
+    values.assign(row.size(), 0.);
+    right_side[point] = 0;
+    if(wall.fixed())
+    {
+      values[point - row.first] = 1;
+      right_side[point] = wall.value(time);
+      return;
+    }
+    const double conductivity = problem.phase(interval.solid).conductivity;
+    const double outward = side == 0 ? -1 : 1;
+    for(std::size_t j = 0; j < row.size(); ++j)
+      values[j] = outward * conductivity * row.slope[j];
+    if(wall.kind == BoundaryKind::flux)
+      right_side[point] = wall.value(time);
+    if(wall.kind == BoundaryKind::heat_transfer)
+    {
+      values[point - row.first] += wall.transfer;
+      right_side[point] = wall.transfer * wall.value(time);
+    }
+  }
+
+  void LineCollocation::make_rows(const LineInterval &interval, const StepTerms &terms)
+  {
+    const std::size_t points = cloud.size();
+    right_side.resize(points);
+    for(std::size_t p = 0; p < points; ++p)
+    {
+      const LineStencil &row = stencil(p);
+      const bool lower_end = p == 0, upper_end = p + 1 == points;
+      if((lower_end && interval.lower_front) || (upper_end && interval.upper_front))
+      {
+        coefficients[p].assign(row.size(), 0.);
+        coefficients[p][p - row.first] = 1;
+        right_side[p] = problem.material.melting_temperature;
+      }
+      else if(lower_end || upper_end)
+      {
+        const int side = upper_end ? 1 : 0;
+        walls[static_cast<std::size_t>(problem.walls[side].kind)].measure(
+            [&] { add_wall_row(p, side, interval, terms.time); });
+      }
+      else
+        add_row(p, interval, terms);
+      entries += static_cast<long>(row.size());
+    }
+    if(problem.volumetric_source)
+      release.measure([&] { add_release(interval, terms.time); });
+  }
+
+  const cases::EffectMeter *LineCollocation::meter(cases::Effect effect) const
+  {
+    const auto of_wall
+        = [&](BoundaryKind kind) { return &walls[static_cast<std::size_t>(kind)]; };
+    switch(effect)
+    {
+    case cases::Effect::volumetric_source:
+      return &release;
+    case cases::Effect::wall_temperature:
+      return of_wall(BoundaryKind::fixed_temperature);
+    case cases::Effect::wall_flux:
+      return of_wall(BoundaryKind::flux);
+    case cases::Effect::robin_wall:
+      return of_wall(BoundaryKind::heat_transfer);
+    default:
+      return nullptr;
+    }
+  }
+
+  void LineCollocation::fill_matrix()
+  {
+    const std::size_t points = cloud.size();
+    std::size_t below = 0, above = 0;
+    for(std::size_t p = 0; p < points; ++p)
+    {
+      below = std::max(below, p - std::min(p, rows[p].first));
+      above = std::max(above, rows[p].end() - 1 - std::min(rows[p].end() - 1, p));
+    }
+    matrix.reset(points, below, above);
+    for(std::size_t p = 0; p < points; ++p)
+    {
+      // Rows of equal size, for the sake of the pivots.
+      double largest = 0;
+      for(const double value : coefficients[p])
+        largest = std::max(largest, std::abs(value));
+      for(std::size_t j = 0; j < rows[p].size(); ++j)
+        matrix(p, rows[p].first + j) = coefficients[p][j] / largest;
+      right_side[p] /= largest;
+    }
+  }
+
+  EndSlopes LineCollocation::solve(const LineInterval &interval, const StepTerms &terms,
+                                   std::span<double> temperature)
+  {
+    gather(interval);
+    if(cloud.size() < 2)
+      throw cases::InputError("rkpm-tracked: a phase needs two points at least");
+    make_rows(interval, terms);
+    fill_matrix();
+    if(!matrix.solve(right_side))
+      throw cases::InputError("rkpm-tracked: the equations of a phase are singular");
+    for(std::size_t i = first; i < end; ++i)
+      temperature[i] = right_side[i - first + offset];
+    interpolate_absorbed(interval, temperature);
+    EndSlopes slopes = end_slopes();
+    for(std::size_t side = 0; side < 2; ++side)
+      if(terms.approach[side] > 0)
+        slopes[side] *= slope_over_resolved(interval, side, terms.approach[side]);
+    return slopes;
+  }
+
+  /**
+   * By how much the slope at a front that moves into a phase exceeds what its stencil
+   * has. A layer of thickness a/V runs before the front, in which the temperature is 1 -
+   * exp(-V x/a) steadily; the factor is what makes the stencil exact for that
+   * (exponential fitting: Il'in 1969, Scharfetter and Gummel 1969), so that the front
+   * draws from a phase whose layer no node resolves the heat rho c V (T - T_m) that it
+   * meets. It comes in where the layer is about as thin as the spacing.
+   */
+  double LineCollocation::slope_over_resolved(const LineInterval &interval,
+                                              std::size_t side, double approach) const
+  {
+    const double rate = approach / problem.phase(interval.solid).diffusivity();
+    const double share = std::clamp((rate * problem.spacing - resolved_peclet)
+                                        / (unresolved_peclet - resolved_peclet),
+                                    0., 1.);
+    if(share == 0)
+      return 1;
+    const LineStencil &row = rows[side == 0 ? 0 : cloud.size() - 1];
+    const double front = side == 0 ? interval.lower : interval.upper;
+    double sum = 0;
+    for(std::size_t j = 0; j < row.size(); ++j)
+      sum -= row.slope[j]
+             * std::expm1(-rate * std::abs(cloud.position[0][row.first + j] - front));
+    const double factor = (side == 0 ? rate : -rate) / sum;
+    return factor > 0 ? 1 + share * share * (3 - 2 * share) * (factor - 1) : 1;
+  }
+
+  void LineCollocation::interpolate_absorbed(const LineInterval &interval,
+                                             std::span<double> temperature) const
+  {
+    const std::vector<double> &place = cloud.position[0];
+    const std::size_t points = std::min<std::size_t>(place.size(), 3);
+    const auto fill = [&](std::size_t node, std::size_t from)
+    {
+      const double x = problem.nodes[node];
+      double value = 0;
+      for(std::size_t i = from; i < from + points; ++i)
+      {
+        double weight = 1;
+        for(std::size_t j = from; j < from + points; ++j)
+          if(j != i)
+            weight *= (x - place[j]) / (place[i] - place[j]);
+        value += weight * right_side[i];
+      }
+      temperature[node] = value;
+    };
+    for(std::size_t node = all_first; node < first; ++node)
+      fill(node, 0);
+    for(std::size_t node = end; node < all_end; ++node)
+      fill(node, place.size() - points);
+    const double melting = problem.material.melting_temperature;
+    if(interval.lower_front && all_first > 0
+       && std::abs(problem.nodes[all_first - 1] - interval.lower)
+              <= coincidence * problem.spacing)
+      temperature[all_first - 1] = melting;
+    if(interval.upper_front && all_end < problem.nodes.size()
+       && std::abs(problem.nodes[all_end] - interval.upper)
+              <= coincidence * problem.spacing)
+      temperature[all_end] = melting;
+  }
+
+  EndSlopes LineCollocation::end_slopes() const
+  {
+    const double melting = problem.material.melting_temperature;
+    const std::size_t last = cloud.size() - 1;
+    EndSlopes result{};
+    for(std::size_t side = 0; side < 2; ++side)
+    {
+      const LineStencil &row = rows[side == 0 ? 0 : last];
+      double sum = 0;
+      for(std::size_t j = 0; j < row.size(); ++j)
+        sum += row.slope[j] * (right_side[row.first + j] - melting);
+      result[side] = sum;
+    }
+    return result;
+  }
+
+  void LineCollocation::gather_values(const LineInterval &interval,
+                                      std::span<const double> temperature)
+  {
+    gather(interval);
+    right_side.resize(cloud.size());
+    for(std::size_t p = 0; p < cloud.size(); ++p)
+    {
+      const bool node = p >= offset && first + p - offset < end;
+      right_side[p]
+          = node ? temperature[first + p - offset] : problem.material.melting_temperature;
+    }
+    stencil(0);
+    stencil(cloud.size() - 1);
+  }
+
+  EndSlopes LineCollocation::slopes(const LineInterval &interval,
+                                    std::span<const double> temperature)
+  {
+    gather_values(interval, temperature);
+    return end_slopes();
+  }
+
+  double LineCollocation::exchanging_wall(const LineInterval &interval, std::size_t side,
+                                          double ambient,
+                                          std::span<const double> temperature)
+  {
+    gather_values(interval, temperature);
+    const std::size_t point = side == 0 ? 0 : cloud.size() - 1;
+    const LineStencil &row = rows[point];
+    const double conductivity = problem.phase(interval.solid).conductivity;
+    const double transfer = problem.walls[side].transfer;
+    double own = transfer, others = 0;
+    for(std::size_t j = 0; j < row.size(); ++j)
+    {
+      const double coefficient = (side == 0 ? -1 : 1) * conductivity * row.slope[j];
+      if(row.first + j == point)
+        own += coefficient;
+      else
+        others += coefficient * right_side[row.first + j];
+    }
+    return (transfer * ambient - others) / own;
+  }
+} // namespace meltfront::particles::rkpm_tracked

@@ -1,0 +1,121 @@
+#ifndef meltfront_particles_rkpm_tracked_line_collocation_h
+#define meltfront_particles_rkpm_tracked_line_collocation_h
+
+#include <cases/effect_meter.h>
+#include <particles/rkpm_tracked/line/band_matrix.h>
+#include <particles/rkpm_tracked/line/problem.h>
+#include <particles/rkpm_tracked/line/stencils.h>
+
+#include <span>
+
+namespace meltfront::particles::rkpm_tracked
+{
+  /** A phase between two ends, each of them a front or a wall. */
+  struct LineInterval
+  {
+    double lower = 0, upper = 0; ///< m
+    bool lower_front = false, upper_front = false;
+    bool solid = false;
+  };
+
+  /** An interval of a state. */
+  LineInterval interval(const LineProblem &problem, const LineState &state,
+                        std::size_t number);
+
+  /** What an implicit step adds to the equation of conduction: leading T + history = a
+   * (T_xx + ...) - u T_x + f/(rho c). */
+  struct StepTerms
+  {
+    double time = 0;                 ///< at which the equation holds (s)
+    double leading = 0;              ///< 1/s
+    std::span<const double> history; ///< of each node (K/s)
+    double displaced_speed = 0;      ///< u at the front that displaces matter (m/s)
+    double displacing_front = 0;     ///< its place (m)
+    /** Speeds at which fronts at the lower and the upper end move into the phase (m/s); 0
+     * where none does, or where its layer is not to be fitted. */
+    std::array<double, 2> approach{};
+  };
+
+  /** Slopes of the temperature at the two ends of an interval (K/m). */
+  using EndSlopes = std::array<double, 2>;
+
+  /** Collocates the conduction of heat in one phase at a time. */
+  class LineCollocation
+  {
+  public:
+    LineCollocation(const LineProblem &problem, const LineSettings &settings);
+
+    /**
+     * Temperature of an interval at the end of an implicit step.
+     * @param temperature at all nodes; those of the interval are written
+     * @return slopes at the ends
+     */
+    EndSlopes solve(const LineInterval &interval, const StepTerms &terms,
+                    std::span<double> temperature);
+
+    /** Slopes at the ends of an interval for given temperatures. */
+    EndSlopes slopes(const LineInterval &interval, std::span<const double> temperature);
+
+    /** Temperature of a wall (0: lower, 1: upper) beside an interval that exchanges heat
+     * with an ambient temperature, for given temperatures of the other nodes. */
+    double exchanging_wall(const LineInterval &interval, std::size_t side, double ambient,
+                           std::span<const double> temperature);
+
+    /** Nodes strictly inside an interval or on a wall that bounds it, [first, end);
+     * `absorbed` counts those that lie too near to a front. */
+    std::pair<std::size_t, std::size_t> nodes_of(const LineInterval &interval) const;
+
+    /** The problem's nodes have moved: weights among them are made anew where a node
+     * moved in their reach.
+     * @param before where they were */
+    void nodes_moved(std::span<const double> before);
+
+    /** Matrix entries so far. */
+    long work() const
+    {
+      return entries;
+    }
+
+    /** What walls of a kind and heat that is released have cost; null for an effect that
+     * is a factor of all rows. */
+    const cases::EffectMeter *meter(cases::Effect effect) const;
+
+  private:
+    void gather(const LineInterval &interval);
+    const LineStencil &stencil(std::size_t point);
+    void add_row(std::size_t point, const LineInterval &interval, const StepTerms &terms);
+    void add_wall_row(std::size_t point, int side, const LineInterval &interval,
+                      double time);
+    void add_release(const LineInterval &interval, double time);
+    void make_rows(const LineInterval &interval, const StepTerms &terms);
+    void fill_matrix();
+    void interpolate_absorbed(const LineInterval &interval,
+                              std::span<double> temperature) const;
+    void gather_values(const LineInterval &interval, std::span<const double> temperature);
+    EndSlopes end_slopes() const;
+    double slope_over_resolved(const LineInterval &interval, std::size_t side,
+                               double approach) const;
+
+    const LineProblem &problem;
+    double interpolation_distance; ///< m
+    LineStencils stencils;
+    std::vector<LineStencil> regular;       ///< of each node among all nodes
+    std::size_t all_first = 0, all_end = 0; ///< nodes of the interval
+    std::size_t first = 0, end = 0;         ///< those that are collocated
+    std::size_t offset = 0;                 ///< of node `first` in the cloud
+    ParticleStorage cloud;
+    std::vector<LineStencil> rows; ///< of the cloud's points
+    std::vector<std::vector<double>> coefficients;
+    std::vector<double> right_side;
+    BandMatrix matrix;
+    long entries = 0;
+    cases::EffectMeter release;
+    std::array<cases::EffectMeter, cases::n_boundary_kinds> walls;
+  };
+
+  /** Nodes and fronts that lie nearer to each other than this coincide (over the
+   * spacing). */
+  inline constexpr double coincidence = 1e-9;
+} // namespace meltfront::particles::rkpm_tracked
+
+#endif

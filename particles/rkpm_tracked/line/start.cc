@@ -1,0 +1,231 @@
+#include <cases/error.h>
+#include <cases/initial_level.h>
+#include <cases/time_integral.h>
+#include <particles/core/arrangement.h>
+#include <particles/rkpm_tracked/line/similarity_start.h>
+#include <particles/rkpm_tracked/line/start.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::particles::rkpm_tracked
+{
+  namespace
+  {
+    using cases::BoundaryKind;
+    using cases::Side;
+
+    /** A phase is told at so many places in each spacing. */
+    constexpr int probes_per_spacing = 16;
+    constexpr int bisections = 60;
+    /** Thicknesses of the layer that a run starts with, over the spacing. */
+    constexpr double first_layers[] = {2, 1, 0.5, 0.25, 0.1};
+    LineWall wall_of(const cases::Scene &scene, Side side, double x)
+    {
+      const cases::Boundary &boundary = scene.boundary(side);
+      LineWall wall;
+      wall.kind = boundary.kind;
+      wall.transfer = boundary.heat_transfer_coefficient;
+      if(wall.kind == BoundaryKind::insulated)
+        return wall;
+      // Far less than any step, far more than round-off.
+      const double beside = 1e-11 * (scene.end_time - scene.start_time);
+      const auto value_at = [field = boundary.value, x](double side)
+      {
+        return [field, x, side](double time)
+        {
+          return field(position_on_line(x),
+                       cases::breaks_at(field, time) ? time + side : time);
+        };
+      };
+      wall.value = value_at(-beside);
+      wall.value_after = value_at(beside);
+      const cases::TimeMean mean(boundary.value);
+      if(wall.kind == BoundaryKind::flux)
+        wall.mean_flux = [mean, x](double begin, double end)
+        { return mean(position_on_line(x), begin, end); };
+      return wall;
+    }
+
+    std::vector<double> arrange_line(double lower, double upper, double spacing,
+                                     double jitter_over_spacing, std::uint64_t seed)
+    {
+      const double length = upper - lower;
+      const auto intervals = std::lround(length / spacing);
+      if(intervals < 2)
+        throw cases::Refusal(
+            fmt::format("rkpm-tracked needs at least two intervals between nodes, not {}",
+                        intervals));
+      ParticleStorage places;
+      places.dimension = 1;
+      for(long i = 0; i <= intervals; ++i)
+        places.add({i == intervals ? upper : lower + length * i / intervals, 0, 0});
+      if(jitter_over_spacing > 0)
+        jitter(places, jitter_over_spacing * length / intervals, seed,
+               [&](const std::array<double, 3> &p)
+               { return p[0] != lower && p[0] != upper; });
+      return places.position[0];
+    }
+
+    bool solid_at(const cases::Scene &scene, double x)
+    {
+      return cases::initial_level(scene)(position_on_line(x), scene.start_time) < 0;
+    }
+
+    std::vector<double> find_fronts(const cases::Scene &scene, double lower, double upper,
+                                    double spacing)
+    {
+      std::vector<double> fronts;
+      const auto probes
+          = static_cast<long>((upper - lower) / spacing * probes_per_spacing);
+      double before = lower;
+      for(long i = 1; i <= probes; ++i)
+      {
+        double behind = lower + (upper - lower) * i / probes;
+        const double next = behind;
+        if(solid_at(scene, before) != solid_at(scene, behind))
+        {
+          for(int b = 0; b < bisections; ++b)
+          {
+            const double middle = (before + behind) / 2;
+            (solid_at(scene, middle) == solid_at(scene, before) ? before : behind)
+                = middle;
+          }
+          fronts.push_back((before + behind) / 2);
+        }
+        before = next;
+      }
+      return fronts;
+    }
+
+    /** Share of the time since an exact solution began that its history may take; less
+     * where its front has just set out, with steps that are short beside its age. */
+    constexpr double longest_exact_history = 0.5, longest_similarity_history = 0.2;
+
+    /** States before a time, on an exact solution that began at `begin`. */
+    template <typename StateAt>
+    std::vector<LineState> older_states(const StateAt &state_at, double time,
+                                        double begin, double step, TimeScheme scheme,
+                                        double longest_history)
+    {
+      const int wanted = static_cast<int>(scheme) - 1;
+      if(wanted > 0)
+        step = std::min(step, longest_history * (time - begin) / wanted);
+      std::vector<LineState> result;
+      for(int k = 1; k <= wanted; ++k)
+        result.push_back(state_at(time - k * step));
+      return result;
+    }
+
+  } // namespace
+
+  cases::Position position_on_line(double x)
+  {
+    return {x, 0, 0};
+  }
+
+  LineProblem pose_line_problem(const cases::Scene &scene,
+                                const TrackingParameters &parameters, std::uint64_t seed)
+  {
+    const cases::Domain &domain = scene.domain;
+    const bool ball = domain.shape == cases::DomainShape::ball;
+    LineProblem problem;
+    problem.symmetry = scene.symmetry;
+    problem.material = scene.material;
+    const double lower = domain.round() ? (ball ? 0 : domain.inner_radius) : 0;
+    const double upper = domain.round() ? domain.radius : domain.side();
+    problem.axis = ball;
+    problem.nodes = arrange_line(lower, upper, domain.side() / parameters.cells,
+                                 parameters.jitter, seed);
+    problem.spacing = (upper - lower) / static_cast<double>(problem.nodes.size() - 1);
+    if(!ball)
+      problem.walls[0]
+          = wall_of(scene, domain.round() ? Side::inner : Side::x_min, lower);
+    problem.walls[1] = wall_of(scene, domain.round() ? Side::outer : Side::x_max, upper);
+    problem.breakpoints = cases::breakpoints_of(scene);
+    if(scene.volumetric_source)
+    {
+      const double beside = 1e-11 * (scene.end_time - scene.start_time);
+      problem.volumetric_source
+          = [field = *scene.volumetric_source, beside](double x, double time)
+      {
+        return field(position_on_line(x),
+                     cases::breaks_at(field, time) ? time - beside : time);
+      };
+      problem.mean_release = [mean = cases::TimeMean(*scene.volumetric_source)](
+                                 double x, double begin, double end)
+      { return mean(position_on_line(x), begin, end); };
+    }
+    problem.displaced = parameters.displaced;
+    problem.metastable = cases::metastable_initial_phase(scene) != nullptr;
+    return problem;
+  }
+
+  LineState initial_state(const cases::Scene &scene, const LineProblem &problem)
+  {
+    const double lower = problem.nodes.front(), upper = problem.nodes.back();
+    LineState state;
+    state.time = scene.start_time;
+    for(const double x : problem.nodes)
+      state.temperature.push_back(
+          scene.initial.temperature(position_on_line(x), scene.start_time));
+    if(const auto &exact = scene.initial.exact)
+    {
+      const double front = exact->front(scene.start_time);
+      state.solid_first = exact->solid_at_origin();
+      if(front > lower && front < upper)
+        state.fronts = {front};
+      else if(front <= lower)
+        state.solid_first = !state.solid_first;
+      return state;
+    }
+    state.fronts = find_fronts(scene, lower, upper, problem.spacing);
+    state.solid_first = solid_at(scene, lower);
+    if(state.fronts.size() > 1
+       && scene.material.solid.density != scene.material.liquid.density)
+      throw cases::Refusal("rkpm-tracked follows one front where the densities differ, "
+                           "not several");
+    return state;
+  }
+
+  LineStart choose_start(const cases::Scene &scene, const LineProblem &problem,
+                         const TrackingParameters &parameters, const LineState &initial,
+                         double step)
+  {
+    LineStart start;
+    const double time = scene.start_time;
+    const auto &exact = scene.initial.exact;
+    if(exact && !initial.fronts.empty() && parameters.exact_history)
+    {
+      const double begin = exact->start_time();
+      if(time > begin)
+        start.older = older_states(
+            [&](double t) { return exact_state(*exact, problem, t, false); }, time, begin,
+            step, parameters.time_scheme, longest_exact_history);
+      start.state = initial;
+      start.how = "the exact solution and its history";
+      return start;
+    }
+    const SimilarityStart similar(problem, initial, scene.end_time - time);
+    if(similar && parameters.start == Start::automatic)
+      for(const double layer : first_layers)
+      {
+        const double since = similar.time_of(layer * problem.spacing);
+        if(!similar.holds(since))
+          continue;
+        start.state = similar.state(since);
+        start.older = older_states([&](double t) { return similar.state(t - time); },
+                                   time + since, time, step, parameters.time_scheme,
+                                   longest_similarity_history);
+        start.how
+            = fmt::format("the similarity solution of a layer of {:g} spacings", layer);
+        return start;
+      }
+    start.state = initial;
+    start.how = "the initial state";
+    start.from_initial = true;
+    return start;
+  }
+} // namespace meltfront::particles::rkpm_tracked

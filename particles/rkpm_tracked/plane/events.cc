@@ -1,0 +1,149 @@
+#include <particles/rkpm_tracked/plane/measure.h>
+#include <particles/rkpm_tracked/plane/run.h>
+#include <particles/rkpm_tracked/plane/topology.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace meltfront::particles::rkpm_tracked
+{
+  namespace
+  {
+    /** After fronts met, so many steps pass before any meet again: the new neck is to
+     * open first. Bodies that overlap meanwhile count as one anyway. */
+    constexpr long steps_between_meetings = 4;
+
+    /** Changes of a node's solid fraction that count as a place where something
+     * happened. */
+    constexpr double noticeable = 0.02;
+
+    /** Of the heat that flows to the front, the part from which on ripples are spoken
+     * of. */
+    constexpr double noticeable_drive = 0.1;
+  } // namespace
+
+  TopologySettings PlaneRun::topology_settings() const
+  {
+    TopologySettings settings;
+    settings.spacing = nodes.spacing;
+    settings.front_spacing = front_spacing * nodes.spacing;
+    settings.join = step_number >= next_meeting;
+    return settings;
+  }
+
+  /** Fronts that met or vanished: their latent heat goes into the nodes, and the next
+   * step begins anew. */
+  void PlaneRun::follow_topology()
+  {
+    PlaneFront front = state.front;
+    bool solid_beyond = heat.settings.solid_beyond;
+    const std::vector<TopologyEvent> changes
+        = update_topology(front, nodes, marked, solid_beyond, topology_settings());
+    if(changes.empty())
+      return;
+    const PlaneMeasure before = measure(scene, nodes, heat, state);
+    state.front = std::move(front);
+    heat.settings.solid_beyond = solid_beyond;
+    heat.mark_active(state.front);
+    PlaneMeasure after = measure(scene, nodes, heat, state);
+    std::vector<PlanePoint> places;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      if(std::abs(after.solid_fraction[i] - before.solid_fraction[i]) > noticeable)
+        places.push_back(nodes.position[i]);
+    // The new curves are to enclose what the old ones did; what they cannot is booked.
+    add_solid(state.front, places, before.solid_area - after.solid_area, nodes.spacing);
+    heat.mark_active(state.front);
+    after = measure(scene, nodes, heat, state);
+    marked.seed(state.front, solid_beyond);
+    settle_nodes();
+    const double energy = scene.material.solid.density * scene.material.latent_heat
+                          * (after.solid_area - before.solid_area);
+    const double booked = book_latent_heat(state, scene, nodes, heat, places, energy);
+    decreed_heat += std::abs(energy);
+    for(const TopologyEvent &change : changes)
+    {
+      if(!change.vanished)
+        next_meeting = step_number + steps_between_meetings;
+      events.emplace_back(state.time, change.what);
+    }
+    const double area = after.solid_area - before.solid_area;
+    events.back().second
+        += fmt::format("; {:.3g} m^2 {} by that, of {:.3g} J/m latent heat {:.3g} J/m "
+                       "went into the nodes about it",
+                       std::abs(area), area > 0 ? "froze" : "melted", energy, booked);
+    older.reset();
+    restarted = true;
+  }
+
+  /** Once: whether ripples of the front grow. One of wave number k does where, n into the
+   * solid, k_l dT_l/dn + k_s dT_s/dn > (k_s + k_l) T_m Gamma k^2 (Mullins and Sekerka
+   * 1963, quasi-steady, plane). */
+  void PlaneRun::warn_of_ripples()
+  {
+    if(warned_of_ripples)
+      return;
+    const cases::Material &material = scene.material;
+    const double k_solid = material.solid.conductivity,
+                 k_liquid = material.liquid.conductivity;
+    const PlaneFront &front = state.front;
+    double drive = 0, flow = 0;
+    std::size_t worst = 0;
+    for(std::size_t p = 0; p < front.size(); ++p)
+    {
+      if(!front.active[p])
+        continue;
+      const PlanePoint solid = state.expansion[1].gradient[p]
+                               + heat.sinks.gradient(front.position[p], state.time);
+      const double from_solid = k_solid * solid.dot(front.normal[p]),
+                   from_liquid
+                   = k_liquid * state.expansion[0].gradient[p].dot(front.normal[p]);
+      flow = std::max({flow, std::abs(from_solid), std::abs(from_liquid)});
+      if(from_solid + from_liquid > drive)
+      {
+        drive = from_solid + from_liquid;
+        worst = p;
+      }
+    }
+    if(drive <= noticeable_drive * flow)
+      return;
+    warned_of_ripples = true;
+    const double shortest
+        = 2 * std::numbers::pi
+          * std::sqrt((k_solid + k_liquid) * heat.settings.capillarity / drive);
+    events.emplace_back(
+        state.time,
+        fmt::format(
+            "the front grows into undercooled liquid or superheated solid at "
+            "({:.6g}, {:.6g}): ripples longer than {:.3g} m grow there, {}",
+            front.position[worst].x(), front.position[worst].y(), shortest,
+            shortest > 0
+                ? fmt::format("{:.3g} spacings", shortest / nodes.spacing)
+                : "for want of a Gibbs-Thomson coefficient the faster the shorter "
+                  "they are; only short times mean anything, and finer nodes make "
+                  "it worse"));
+  }
+
+  /** Nodes that changed their phase without a front that passed over them are at the
+   * melting temperature: beyond where the front was, their new phase has no past. */
+  void PlaneRun::settle_nodes()
+  {
+    const double absorbed = parameters.interpolation_distance * nodes.spacing;
+    const FrontIndex index(state.front, heat.settings.solid_beyond, nodes.spacing);
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      const PlanePoint &place = nodes.position[i];
+      const double distance = index.signed_distance(place, nodes.spacing);
+      const NodePhase phase = distance < 0 ? NodePhase::solid : NodePhase::liquid;
+      const double kept = state.phase[i] == NodePhase::front ? 1.5 * absorbed : absorbed;
+      if(state.phase[i] == phase || std::abs(distance) < kept)
+        continue;
+      state.phase[i] = phase;
+      state.unknown[i]
+          = scene.material.melting_temperature
+            - (phase == NodePhase::solid ? heat.sinks.value(place, state.time) : 0);
+    }
+  }
+} // namespace meltfront::particles::rkpm_tracked

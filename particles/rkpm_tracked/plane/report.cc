@@ -1,0 +1,119 @@
+#include <particles/rkpm_tracked/plane/measure.h>
+#include <particles/rkpm_tracked/plane/run.h>
+
+#include <fmt/format.h>
+
+namespace meltfront::particles::rkpm_tracked
+{
+  cases::RunDescription PlaneRun::describe() const
+  {
+    cases::RunDescription result;
+    result.dimension = 2;
+    result.spacing = nodes.spacing;
+    result.time_step = (scene.end_time - scene.start_time) / parameters.steps;
+    result.unknowns = static_cast<long>(nodes.size() + state.front.size());
+    result.parameters
+        = {{"start", start_in_words, ""},
+           {"nodes", fmt::format("{}", nodes.size()), "1"},
+           {"front particles at the start", fmt::format("{}", state.front.size()), "1"},
+           {"basis order", fmt::format("{}", parameters.basis_order), "1"},
+           {"largest condition number of moment matrices at the front's start",
+            fmt::format("{:.3g}", condition), "1"},
+           {"time scheme",
+            parameters.time_scheme == TimeScheme::bdf2 ? "bdf2" : "backward-euler", ""}};
+    return result;
+  }
+
+  cases::Cost PlaneRun::cost() const
+  {
+    cases::Cost cost;
+    cost.steps = step_number;
+    cost.unknowns = static_cast<long>(heat.most_unknowns);
+    cost.work = heat.entries;
+    cost.solver_iterations = heat.solves;
+    cost.most_iterations = most_passes;
+    cost.capped_steps = capped_steps;
+    cost.effects = effect_costs();
+    cost.evidence = evidence();
+    return cost;
+  }
+
+  void PlaneRun::report()
+  {
+    for(const auto &[time, event] : events)
+      note(time, event);
+    events.clear();
+    reached(step_number, state.time);
+  }
+
+  /** The scene's own initial state, also where the run starts from a front that was
+   * seeded later: all of it is liquid then. */
+  void PlaneRun::report_initial()
+  {
+    std::optional<PlaneState> seeded;
+    if(state.time > scene.start_time)
+    {
+      seeded = std::exchange(state, {});
+      state.time = scene.start_time;
+      state.phase.assign(nodes.size(), NodePhase::liquid);
+      for(const PlanePoint &place : nodes.position)
+        state.unknown.push_back(
+            scene.initial.temperature(position_of(place), scene.start_time));
+    }
+    measured = measure(scene, nodes, heat, state);
+    initial_heat = measured.sensible + measured.latent;
+    reached(0, scene.start_time);
+    if(seeded)
+      state = *std::move(seeded);
+  }
+
+  cases::Snapshot PlaneRun::snapshot(long step, double time)
+  {
+    measured = measure(scene, nodes, heat, state);
+    for(int d = 0; d < 2; ++d)
+    {
+      site_positions[d].clear();
+      front_positions[d].clear();
+      for(const PlanePoint &place : nodes.position)
+        site_positions[d].push_back(place[d]);
+      for(std::size_t p = 0; p < state.front.size(); ++p)
+        if(state.front.active[p])
+          front_positions[d].push_back(state.front.position[p][d]);
+    }
+    cases::Snapshot snapshot;
+    snapshot.step = step;
+    snapshot.time = time;
+    snapshot.dimension = 2;
+    for(int d = 0; d < 2; ++d)
+    {
+      snapshot.positions[d] = site_positions[d];
+      snapshot.front[d] = front_positions[d];
+    }
+    snapshot.weights = nodes.weight;
+    snapshot.temperature = measured.temperature;
+    snapshot.solid_fraction = measured.solid_fraction;
+    snapshot.obeys_maximum_principle = false;
+    snapshot.heat = {measured.sensible, measured.latent, boundary_heat,
+                     heat.sinks.energy(state.time) + released_heat, initial_heat};
+    return snapshot;
+  }
+
+  std::vector<cases::EffectCost> PlaneRun::effect_costs() const
+  {
+    std::vector<cases::EffectCost> result;
+    for(const cases::EffectDecision &decision : effects.decisions())
+      if(decision.on)
+        result.push_back(heat.cost(decision.effect));
+    return result;
+  }
+
+  std::map<std::string, double> PlaneRun::evidence() const
+  {
+    return {{"steps halved", double(halved_steps)},
+            {"singular matrices, met by halving the step", double(heat.singular)},
+            {"steps taken with 1e-4 to 1e-2 spacings left to move", double(capped_steps)},
+            {"heat that the front made up for (J/m)", closed_heat},
+            {"latent heat of areas that changed phase by decree (J/m)", decreed_heat},
+            {"largest distance of level set and front particles, in spacings", mismatch}};
+  }
+} // namespace meltfront::particles::rkpm_tracked

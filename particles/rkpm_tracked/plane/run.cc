@@ -1,0 +1,347 @@
+#include <particles/rkpm_tracked/plane/heat_correction.h>
+#include <particles/rkpm_tracked/plane/measure.h>
+#include <particles/rkpm_tracked/plane/run.h>
+#include <particles/rkpm_tracked/plane/topology.h>
+
+#include <cases/error.h>
+#include <cases/exact/front_start.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meltfront::particles::rkpm_tracked
+{
+  namespace
+  {
+    /** The first step, of the one that accuracy allows: backward Euler makes it, whose
+     * error is of first order. */
+    constexpr double first_step_share = 1. / 32;
+
+    /** BDF2 is stable for steps that grow by less than 1 + sqrt(2). */
+    constexpr double largest_growth = 1.6;
+
+    /** No particle moves by more than this in a step, in spacings. */
+    constexpr double farthest_step = 1;
+
+    constexpr int most_halvings = 8;
+    constexpr int passes_allowed = 10;
+
+    /** Passes in which nodes change their phases. */
+    constexpr long regrouping_passes = 4;
+
+    /** What is accepted, and counted, of a step that cannot be halved further. */
+    constexpr double nearly_done = 1e-2;
+
+    /** Shares of their distance within which front particles may stand. */
+    constexpr double closest = 0.7, farthest = 1.35;
+
+    /** No step takes a curve nearer to its middle than by this share. */
+    constexpr double share_of_radius = 0.5;
+
+    /** No particle makes up for lost heat by more than this in a step, in spacings. */
+    constexpr double farthest_correction = 0.05;
+
+    /** Largest and smallest radius of a seed around a sink, in spacings. */
+    constexpr double largest_seed = 3, smallest_seed = 0.75;
+    constexpr double negligible = 1e-5, closed_bracket = 1e-15; ///< see cases::SeedRule
+    constexpr double contour_margin = 4;
+
+    std::function<double(const PlanePoint &)>
+    at_points(const cases::FrontStart::Function &function)
+    {
+      return [function](const PlanePoint &point) { return function(position_of(point)); };
+    }
+
+    PlaneHeatSettings settings_of(const cases::Scene &scene,
+                                  const TrackingParameters &parameters, int threads)
+    {
+      PlaneHeatSettings settings;
+      settings.order = parameters.basis_order;
+      settings.interpolation_distance = parameters.interpolation_distance;
+      settings.threads = std::max(1, threads);
+      settings.capillarity = scene.material.gibbs_thomson_coefficient;
+      return settings;
+    }
+  } // namespace
+
+  PlaneRun::PlaneRun(const cases::Scene &scene, const cases::EffectSet &effects,
+                     const cases::Resolution &resolution)
+    : scene(scene)
+    , effects(effects)
+    , resolution(resolution)
+    , parameters(read_tracking_parameters(scene, resolution))
+    , nodes(scene, parameters.cells, {parameters.jitter, resolution.seed})
+    , heat(scene, nodes, settings_of(scene, parameters, resolution.threads))
+    , relaxation(nodes, parameters.relax_rule, std::max(1, resolution.threads))
+    , marked(nodes, std::max(1, resolution.threads))
+    , closes_budget(parameters.heat_correction == HeatCorrection::always
+                    || (parameters.heat_correction == HeatCorrection::given_walls
+                        && wall_heat_is_given(scene)))
+    , bounds(cases::temperature_bounds(scene))
+    , breakpoints(cases::breakpoints_of(scene))
+  {
+    if(parameters.time_scheme == TimeScheme::bdf3)
+      throw cases::Refusal("rkpm-tracked steps by bdf2 or backward-euler in the plane");
+    start();
+  }
+
+  void PlaneRun::start()
+  {
+    const double h = nodes.spacing;
+    const cases::FrontStart found = find_front_start(scene, {method_name,
+                                                             "nodes",
+                                                             smallest_seed * h,
+                                                             largest_seed * h,
+                                                             negligible,
+                                                             closed_bracket,
+                                                             {cases::Side::inner}});
+    const PlaneLevelSet level_set = at_points(found.level_set);
+    const auto temperature = at_points(found.temperature);
+    start_in_words = found.description;
+    state.time = found.time;
+    const ContourGrid grid
+        = contour_grid(nodes.lower, nodes.upper, contour_margin * h, h / 2);
+    std::vector<double> values;
+    for(long j = 0; j < grid.rows; ++j)
+      for(long i = 0; i < grid.columns; ++i)
+        values.push_back(level_set(grid.node(i, j)));
+    const Contours contours = find_contours(grid, std::move(values), level_set);
+    state.front = front_on_zeros(contours, level_set, front_spacing * h, 4 * h);
+    heat.settings.solid_beyond = contours.solid_beyond;
+    heat.set_front(state);
+    if(state.front.size() == 0)
+      throw cases::Refusal(fmt::format(
+          "rkpm-tracked finds no front at the start with nodes {:.3g} m apart; "
+          "a smaller spacing may resolve it",
+          h));
+    state.unknown.resize(nodes.size());
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      state.unknown[i]
+          = state.phase[i] == NodePhase::solid
+                ? heat.sinks.at_node(temperature, nodes.position[i], nodes.samples_of(i))
+                      - heat.singular_part(i, state.time)
+                : temperature(nodes.position[i]);
+    heat.expand(state);
+    marked.seed(state.front, heat.settings.solid_beyond);
+    condition = heat.worst_condition(state);
+    step_number = found.time > scene.start_time ? 1 : 0;
+    check(state);
+  }
+
+  void PlaneRun::take_steps()
+  {
+    report_initial();
+    if(state.time > scene.start_time)
+      report();
+    while(state.time < scene.end_time)
+    {
+      step();
+      report();
+    }
+  }
+
+  double PlaneRun::next_stop() const
+  {
+    return cases::end_of_piece(breakpoints, state.time, scene.end_time);
+  }
+
+  double PlaneRun::next_step() const
+  {
+    const double whole = scene.end_time - scene.start_time;
+    double step = whole / parameters.steps;
+    const PlaneFront &front = state.front;
+    for(std::size_t c = 0; c < front.curves(); ++c)
+    {
+      double fastest = 0;
+      for(std::size_t p = front.offsets[c]; p < front.offsets[c + 1]; ++p)
+        if(front.active[p])
+          fastest = std::max(fastest, std::abs(front.speed[p]));
+      const double way = std::min(parameters.cfl * nodes.spacing,
+                                  share_of_radius * curve_radius(front, c));
+      if(fastest > 0)
+        step = std::min(step, way / fastest);
+    }
+    step = std::min(step, longest_step_of_films(front, topology_settings()));
+    step = restarted ? first_step_share * step
+                     : std::min(step, largest_growth * last_step);
+    const double rest = next_stop() - state.time;
+    if(step >= rest * (1 - 1e-10))
+      return rest;
+    return step > rest / 2 ? rest / 2 : step;
+  }
+
+  /** The front goes on at its speed; expansions come from the particles that were nearest
+   * at the last state. */
+  void PlaneRun::predict(double step, PlaneState &next) const
+  {
+    next.front = state.front;
+    next.phase = state.phase;
+    const double farthest_way = farthest_step * nodes.spacing;
+    for(std::size_t p = 0; p < next.front.size(); ++p)
+      next.front.position[p]
+          += std::clamp(step * next.front.speed[p], -farthest_way, farthest_way)
+             * next.front.normal[p];
+    update_geometry(next.front);
+    for(int phase = 0; phase < n_phases; ++phase)
+    {
+      FrontExpansion &expansion = next.expansion[phase];
+      const FrontExpansion &from = state.expansion[phase];
+      expansion = FrontExpansion();
+      for(std::size_t p = 0; p < next.front.size(); ++p)
+      {
+        const PlanePoint &place = state.front.position[p];
+        const long nearest = state.expansion_bins.nearest(place);
+        const PlanePoint offset = place - state.expanded_about[nearest];
+        expansion.value.push_back(from.at(nearest, offset));
+        expansion.gradient.push_back(from.gradient_at(nearest, offset));
+        expansion.second.push_back(from.second[nearest]);
+      }
+    }
+  }
+
+  /** Make the moves that are left. @return whether one of them met its limit or is not
+   * finite. */
+  bool PlaneRun::move(const std::vector<double> &displacement, PlaneState &next,
+                      double &largest) const
+  {
+    const double h = nodes.spacing;
+    bool limited = false;
+    largest = 0;
+    for(std::size_t p = 0; p < displacement.size(); ++p)
+    {
+      if(!std::isfinite(displacement[p]))
+        return true;
+      PlanePoint &place = next.front.position[p];
+      const PlanePoint moved = place + displacement[p] * next.front.normal[p];
+      const PlanePoint way = moved - state.front.position[p];
+      const bool too_far = way.norm() > farthest_step * h;
+      if(next.front.active[p])
+      {
+        largest = std::max(largest, std::abs(displacement[p]) / h);
+        limited = limited || too_far;
+      }
+      place = too_far ? state.front.position[p] + farthest_step * h * way.normalized()
+                      : moved;
+    }
+    update_geometry(next.front);
+    return limited;
+  }
+
+  /** @return what is left of the front's way after the last pass, in spacings; infinite
+   * where particles would move too far or the matrix is singular. */
+  double PlaneRun::attempt(double step, PlaneState &next)
+  {
+    constexpr double failed = std::numeric_limits<double>::infinity();
+    const double stop = next_stop();
+    next.time = step == stop - state.time ? stop : state.time + step;
+    const bool two_steps = older && parameters.time_scheme == TimeScheme::bdf2;
+    const PlaneStep times(state, two_steps ? &*older : nullptr, next.time);
+    predict(step, next);
+    double largest = failed;
+    long passes = 0;
+    while(largest > done && passes < passes_allowed)
+    {
+      heat.set_front(next, passes >= regrouping_passes);
+      const std::optional<std::vector<double>> ways = heat.solve(times, next);
+      ++passes;
+      if(!ways || move(*ways, next, largest))
+        return failed;
+    }
+    most_passes = std::max(most_passes, passes);
+    return largest;
+  }
+
+  void PlaneRun::step()
+  {
+    double step = next_step();
+    PlaneState next;
+    double left = attempt(step, next);
+    for(int halvings = 0; left > done && halvings < most_halvings; ++halvings)
+    {
+      ++halved_steps;
+      step /= 2;
+      left = attempt(step, next);
+    }
+    if(left > nearly_done)
+      throw cases::NumericalError(
+          method_name, step_number + 1, state.time + step, "front",
+          std::isfinite(left)
+              ? fmt::format("has {:.2g} spacings left to move after {} passes, however "
+                            "short the step",
+                            left, passes_allowed)
+              : "moves too far or meets a singular matrix, however short the step");
+    capped_steps += left > done;
+    last_step = shorten_to_bounds(step, next);
+    accept(std::move(next));
+  }
+
+  /** Heat that the scheme lost in the step is made up for by the front. */
+  void PlaneRun::close_budget()
+  {
+    if(!closes_budget)
+      return;
+    const PlaneMeasure measured = measure(scene, nodes, heat, state);
+    const double missing = initial_heat + boundary_heat + released_heat
+                           + heat.sinks.energy(state.time) - measured.sensible
+                           - measured.latent;
+    const PlaneFront &front = state.front;
+    const bool gone = std::ranges::none_of(front.active, [](char on) { return on; });
+    closed_heat += gone ? warm_nodes(scene, nodes, state, missing)
+                        : rkpm_tracked::close_budget(scene, heat.sinks, older->front,
+                                                     state, missing,
+                                                     farthest_correction * nodes.spacing);
+  }
+
+  /** The level set goes along; then the particles are put onto its zeros. */
+  void PlaneRun::follow_level_set()
+  {
+    PlaneFront &front = state.front;
+    const auto ways = [&]
+    {
+      for(std::size_t p = 0; p < front.size(); ++p)
+        front.displacement[p] = front.position[p] - older->front.position[p];
+    };
+    ways();
+    marked.carry(older->front, front.displacement, step_number, state.time);
+    mismatch = std::max(mismatch, marked.mismatch(front) / nodes.spacing);
+    marked.reproject(front, front.displacement);
+    ways();
+  }
+
+  void PlaneRun::accept(PlaneState next)
+  {
+    const double before = restarted ? next.wall_power : state.wall_power;
+    boundary_heat += (next.time - state.time) * (before + next.wall_power) / 2;
+    boundary_heat += next.flux_heat;
+    released_heat += next.released_heat;
+    older = std::move(state);
+    state = std::move(next);
+    restarted = false;
+    ++step_number;
+    check_resolved();
+    warn_of_ripples();
+    close_budget();
+    follow_level_set();
+    redistribute(state.front, front_spacing * nodes.spacing, closest, farthest);
+    // Particles that were placed anew may lie beyond a wall.
+    heat.mark_active(state.front);
+    follow_topology();
+    if(parameters.relax > 0 && !restarted && step_number % parameters.relax == 0)
+      relax_nodes();
+    if(std::ranges::binary_search(breakpoints, state.time))
+    {
+      older.reset();
+      restarted = true;
+    }
+  }
+
+  std::unique_ptr<cases::Run> make_plane_run(const cases::Scene &scene,
+                                             const cases::EffectSet &effects,
+                                             const cases::Resolution &resolution)
+  {
+    return std::make_unique<PlaneRun>(scene, effects, resolution);
+  }
+} // namespace meltfront::particles::rkpm_tracked

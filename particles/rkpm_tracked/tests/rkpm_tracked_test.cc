@@ -1,0 +1,272 @@
+#include <cases/error.h>
+#include <cases/exact/frank.h>
+#include <cases/exact/oracle.h>
+#include <cases/exact/planar_neumann.h>
+#include <cases/scene.h>
+#include <particles/rkpm_tracked/line/tests/cases.h>
+#include <particles/rkpm_tracked/tests/tracked_run.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+namespace meltfront::particles::rkpm_tracked
+{
+  namespace
+  {
+    void start_from(cases::Scene &scene,
+                    const std::shared_ptr<const cases::ExactSolution> &exact)
+    {
+      const auto temperature = [exact](const cases::Position &p, double time)
+      { return exact->temperature(p, time); };
+      scene.initial.temperature = {"exact", temperature};
+      scene.initial.exact = exact;
+      const double sign = exact->solid_at_origin() ? 1 : -1;
+      scene.initial.front
+          = cases::Field{"exact", [exact, sign](const cases::Position &p, double time)
+                         { return sign * exact->signed_distance(p, time); }};
+      const cases::Boundary wall{
+          BoundaryKind::fixed_temperature, {"exact", temperature}, true};
+      if(scene.domain.round())
+        set_boundary(scene, Side::outer, wall);
+      else
+        for(const Side side : {Side::x_min, Side::x_max})
+          set_boundary(scene, side, wall);
+    }
+
+    TEST(RkpmTracked, BarFromTheExactState)
+    {
+      const auto exact
+          = std::make_shared<const cases::PlanarNeumann>(bar_material(), hot, cold);
+      const ExactLine line = neumann(bar_material());
+      cases::Scene scene = slab(bar_material(), line.time_of(0.06), line.time_of(0.18));
+      start_from(scene, exact);
+      std::vector<double> errors, defects;
+      for(const int n : {40, 80, 160, 320})
+      {
+        const Course recorder = run(scene, n);
+        ASSERT_EQ(recorder.front_points[0].size(), 1U);
+        errors.push_back(recorder.front_points[0][0] - 0.18);
+        EXPECT_NEAR(recorder.solid.back(), 1 - recorder.front_points[0][0], 1e-12);
+        EXPECT_NEAR(recorder.volume.back(), 1, 1e-12);
+        EXPECT_EQ(recorder.time.front(), scene.start_time);
+        EXPECT_EQ(recorder.time.back(), scene.end_time);
+        EXPECT_TRUE(std::ranges::is_sorted(recorder.step));
+        defects.push_back(recorder.worst_budget_defect());
+        RecordProperty("exact_start_" + std::to_string(n),
+                       std::to_string(errors.back() * 1e6) + "e-6");
+        RecordProperty("budget_defect_" + std::to_string(n),
+                       std::to_string(recorder.worst_budget_defect() * 1e6) + "e-6");
+      }
+      EXPECT_GE(fitted_order(errors), 1.8);
+      EXPECT_LE(std::abs(errors[3]), 1e-5);
+      EXPECT_GE(fitted_order(defects), 1.8);
+      EXPECT_LE(defects[3], 1.4e-4);
+    }
+
+    cases::Scene cold_bar(double end)
+    {
+      cases::Scene scene = slab(bar_material(), 0, end);
+      scene.initial.temperature = cases::Field::uniform(cold);
+      set_boundary(scene, Side::x_min, fixed_wall(hot));
+      const auto exact
+          = std::make_shared<const cases::PlanarNeumann>(bar_material(), hot, cold);
+      set_boundary(scene, Side::x_max,
+                   {BoundaryKind::fixed_temperature,
+                    {"exact", [exact](const cases::Position &p, double time)
+                     { return exact->temperature(p[0], time); }},
+                    true});
+      return scene;
+    }
+
+    TEST(RkpmTracked, StartsFromNothing)
+    {
+      const double end = neumann(bar_material()).time_of(0.18);
+      std::vector<double> similar, steady;
+      for(const int n : {40, 80, 160, 320})
+      {
+        const std::pair<std::string, std::string> steps{"steps", std::to_string(n / 2)};
+        const Course recorder = run(cold_bar(end), n, {steps});
+        similar.push_back(recorder.front_points[0].at(0) - 0.18);
+        EXPECT_LE(recorder.worst_budget_defect(), 2e-2);
+        steady.push_back(run(cold_bar(end), n, {steps, {"start", "quasi-steady"}})
+                             .front_points[0]
+                             .at(0)
+                         - 0.18);
+        RecordProperty("start_" + std::to_string(n),
+                       std::to_string(similar.back() * 1e6) + "e-6 similar, "
+                           + std::to_string(steady.back() * 1e6) + "e-6 quasi-steady");
+      }
+      // The coarsest are better than their order makes them.
+      EXPECT_GE(fitted_order(similar), 1.1);
+      EXPECT_LE(std::abs(similar[0]), 1.3e-4);
+      EXPECT_LE(std::abs(similar[3]), 8e-6);
+      EXPECT_GE(fitted_order(steady), 1.1);
+      EXPECT_LE(std::abs(steady[0]), 2.4e-4);
+      EXPECT_LE(std::abs(steady[3]), 1.2e-5);
+    }
+
+    TEST(RkpmTracked, FreezesFromTheUpperWallAlike)
+    {
+      // The same slab from the other end.
+      cases::Scene scene = cold_bar(0.02), mirrored = scene;
+      set_boundary(scene, Side::x_max, fixed_wall(cold));
+      set_boundary(mirrored, Side::x_max, fixed_wall(hot));
+      set_boundary(mirrored, Side::x_min, fixed_wall(cold));
+      EXPECT_NEAR(run(scene, 40).front_points[0].at(0),
+                  1 - run(mirrored, 40).front_points[0].at(0), 1e-9);
+    }
+
+    TEST(RkpmTracked, BarOfTheReport)
+    {
+      cases::Scene scene = slab(bar_material(), 0, 1);
+      scene.initial.temperature = {"straight", [](const cases::Position &p, double) {
+                                     return p[0] < 0.06 ? hot - 70 * p[0] / 0.06
+                                                        : 430 - 50 * (p[0] - 0.06) / 0.94;
+                                   }};
+      set_boundary(scene, Side::x_min, fixed_wall(hot));
+      set_boundary(scene, Side::x_max, fixed_wall(cold));
+      for(const auto &[mark, front] : {std::pair{0.05, 0.1986270}, {0.2, 0.3204786}})
+      {
+        scene.end_time = mark;
+        EXPECT_NEAR(run(scene, 160).front_points[0].at(0), front, 1e-4) << mark;
+      }
+    }
+
+    TEST(RkpmTracked, LighterIcePushesTheWater)
+    {
+      cases::Material material;
+      material.latent_heat = 333500;
+      material.solid = {2.2, 2090, 917};
+      material.liquid = {0.591, 4190, 1000};
+      const auto exact = std::make_shared<const cases::PlanarNeumann>(material, -10, 10);
+      cases::Scene scene = slab(material, 3600, 86400);
+      scene.domain.upper[0] = 0.5;
+      start_from(scene, exact);
+      std::vector<double> errors;
+      for(const int n : {40, 80, 160, 320})
+      {
+        const Course recorder = run(scene, n);
+        errors.push_back(recorder.front_points[0].at(0) - exact->front(86400));
+        RecordProperty("lighter_ice_" + std::to_string(n),
+                       std::to_string(errors.back() * 1e6) + "e-6, budget "
+                           + std::to_string(recorder.worst_budget_defect()));
+        EXPECT_LE(recorder.worst_budget_defect(), 1e-2);
+      }
+      EXPECT_GE(fitted_order(errors), 1.5);
+      EXPECT_LE(std::abs(errors[3]) / exact->front(86400), 1e-4);
+    }
+
+    TEST(RkpmTracked, DiskAndSphereGrowIntoUndercooledMelt)
+    {
+      for(const auto symmetry :
+          {cases::Symmetry::cylindrical, cases::Symmetry::spherical})
+      {
+        const auto exact = std::make_shared<const cases::FrankGrowth>(cases::Material{},
+                                                                      symmetry, -0.3);
+        cases::Scene scene;
+        scene.symmetry = symmetry;
+        scene.domain.shape = cases::DomainShape::ball;
+        scene.domain.dimension = symmetry == cases::Symmetry::cylindrical ? 2 : 3;
+        scene.domain.radius = 1;
+        const double unit = exact->front(1.);
+        scene.start_time = 0.04 / (unit * unit);
+        scene.end_time = 0.25 / (unit * unit);
+        start_from(scene, exact);
+        std::vector<double> errors;
+        for(const int n : {80, 160, 320, 640})
+        {
+          const Course recorder = run(scene, n);
+          errors.push_back(recorder.front_points[0].at(0) - 0.5);
+          RecordProperty("growth_" + std::to_string(scene.domain.dimension) + "d_"
+                             + std::to_string(n),
+                         std::to_string(errors.back() * 1e6) + "e-6, budget "
+                             + std::to_string(recorder.worst_budget_defect()));
+          EXPECT_LE(recorder.worst_budget_defect(), 3e-2);
+        }
+        EXPECT_GE(fitted_order(errors), 1.7);
+        EXPECT_LE(std::abs(errors[3]), scene.domain.dimension == 2 ? 4e-5 : 1.3e-4);
+      }
+    }
+
+    TEST(RkpmTracked, RefusesWhatItCannotFollow)
+    {
+      cases::Scene scene = cold_bar(0.01);
+      EXPECT_THROW(run(scene, 1), cases::Refusal);
+      cases::Scene conduction = scene;
+      conduction.material.latent_heat = 0;
+      EXPECT_THROW(run(conduction, 20), cases::Refusal);
+      cases::Scene periodic = scene;
+      set_boundary(periodic, Side::x_max, {BoundaryKind::periodic, {}});
+      EXPECT_THROW(run(periodic, 20), cases::Refusal);
+      EXPECT_THROW(run(scene, 20, {{"dimension", "2"}}), cases::Refusal);
+      cases::Scene two_fronts = scene;
+      two_fronts.material.solid.density = 0.9;
+      two_fronts.initial.temperature = {"", [](const cases::Position &p, double) {
+                                          return p[0] > 0.4 && p[0] < 0.6 ? 440. : 400.;
+                                        }};
+      EXPECT_THROW(run(two_fronts, 20), cases::Refusal);
+    }
+
+    TEST(RkpmTracked, WhatGivesWayMustNotLieAtTheCentre)
+    {
+      cases::Scene core = slab(bar_material(), 0, 0.01);
+      core.symmetry = cases::Symmetry::cylindrical;
+      core.domain.shape = cases::DomainShape::ball;
+      core.domain.dimension = 2;
+      core.domain.radius = 1;
+      core.material.solid.density = 0.9;
+      core.initial.temperature = cases::Field::uniform(440);
+      set_boundary(core, Side::outer,
+                   {BoundaryKind::fixed_temperature, cases::Field::uniform(400)});
+      EXPECT_THROW(run(core, 20), cases::Refusal);
+      EXPECT_NO_THROW(run(core, 20, {{"displaced", "solid"}}));
+    }
+
+    // Within a planned step of 0.1 s, and over the end of one.
+    TEST(RkpmTracked, APulseOfFluxBringsItsEnergy)
+    {
+      for(const double begin : {0.523, 0.496})
+      {
+        cases::Scene scene = slab(bar_material(), 0, 1);
+        scene.initial.temperature = cases::Field::uniform(440);
+        set_boundary(scene, Side::x_min,
+                     {BoundaryKind::flux,
+                      {"",
+                       [begin](const cases::Position &, double t)
+                       { return t >= begin && t < begin + 0.01 ? 100. : 0.; },
+                       false,
+                       {begin, begin + 0.01}}});
+        set_boundary(scene, Side::x_max, {});
+        const Course recorder = run(scene, 80, {{"steps", "10"}});
+        EXPECT_NEAR(recorder.heat.boundary, 1, 1e-9);
+        EXPECT_NEAR(recorder.heat.stored + recorder.heat.latent - recorder.heat.initial,
+                    1, 0.03);
+      }
+    }
+
+    TEST(RkpmTracked, AWallThatIsSwitchedInMidRunFreezesFromThenOn)
+    {
+      const auto solid_at_end = [](double time)
+      {
+        cases::Scene scene = slab(bar_material(), 0, 1);
+        scene.initial.temperature = cases::Field::uniform(440);
+        set_boundary(scene, Side::x_min,
+                     {BoundaryKind::fixed_temperature,
+                      {"",
+                       [time](const cases::Position &, double t)
+                       { return t < time ? 440. : cold; },
+                       false,
+                       {time}}});
+        set_boundary(scene, Side::x_max, {});
+        return run(scene, 40, {{"steps", "10"}}).solid.back();
+      };
+      const double one = solid_at_end(0.501), other = solid_at_end(0.499);
+      EXPECT_GT(one, 0.1);
+      EXPECT_NEAR(one / other, std::sqrt(0.499 / 0.501), 2e-3);
+    }
+  } // namespace
+} // namespace meltfront::particles::rkpm_tracked

@@ -1,0 +1,56 @@
+#include <cases/compensated_sum.h>
+#include <particles/sph/volumetric_source.h>
+
+#include <algorithm>
+
+namespace meltfront::particles
+{
+  VolumetricSource::VolumetricSource(const Discretisation &dis)
+    : dis(dis)
+    , density(*dis.scene.volumetric_source)
+    , power(dis.particles.size())
+    , released{{dis.scene.start_time, 0.}}
+  {
+  }
+
+  void VolumetricSource::prepare_step(double begin, double end)
+  {
+    meter.measure_setup(
+        [&]
+        {
+          for(std::size_t a = 0; a < power.size(); ++a)
+            power[a] = density(dis.particles.point(a), begin, end) * dis.particle_volume;
+          for(const WallCell &cell : dis.wall_cells)
+            power[cell.particle] *= cell.share;
+          cases::CompensatedSum sum;
+          for(const double heat : power)
+            sum.add(heat);
+          while(released.size() > 1 && released.back().time > begin)
+            released.pop_back();
+          released.push_back({end, released.back().heat + (end - begin) * sum.value()});
+        });
+  }
+
+  void VolumetricSource::add(std::span<double> flow, double flow_scale)
+  {
+    meter.measure(
+        [&]
+        {
+          for(std::size_t a = 0; a < power.size(); ++a)
+            flow[a] += power[a] / flow_scale;
+        });
+  }
+
+  double VolumetricSource::heat(double time) const
+  {
+    const auto found = std::ranges::find_if(released, [time](const Released &entry)
+                                            { return entry.time >= time; });
+    return (found == released.end() ? released.back() : *found).heat;
+  }
+
+  cases::EffectCost VolumetricSource::cost() const
+  {
+    return meter.cost(cases::Effect::volumetric_source,
+                      power.size() * sizeof(double) + released.size() * sizeof(Released));
+  }
+} // namespace meltfront::particles
