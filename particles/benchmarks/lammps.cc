@@ -2,7 +2,7 @@
 #include <cases/stopwatch.h>
 #include <particles/benchmarks/lammps.h>
 #include <particles/greenspan/generation.h>
-#include <particles/greenspan/motion.h>
+#include <particles/greenspan/motion/motion.h>
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,8 +1,8 @@
 #ifndef meltfront_particles_benchmarks_lammps_h
 #define meltfront_particles_benchmarks_lammps_h
 
-#include <particles/greenspan/pair_force.h>
-#include <particles/greenspan/particle_state.h>
+#include <particles/greenspan/motion/pair_force.h>
+#include <particles/greenspan/motion/particle_state.h>
 
 #include <iosfwd>
 #include <optional>

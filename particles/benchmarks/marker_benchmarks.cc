@@ -1,7 +1,7 @@
 #include <cases/shape.h>
 #include <particles/benchmarks/benchmarks.h>
 #include <particles/benchmarks/table.h>
-#include <particles/level_set/marker_scheme.h>
+#include <particles/level_set/markers/marker_scheme.h>
 #include <particles/level_set/reinitialisation.h>
 
 #include <fmt/format.h>

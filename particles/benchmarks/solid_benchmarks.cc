@@ -1,7 +1,7 @@
 #include <particles/benchmarks/benchmarks.h>
 #include <particles/benchmarks/table.h>
 #include <particles/greenspan/generation.h>
-#include <particles/greenspan/motion.h>
+#include <particles/greenspan/motion/motion.h>
 
 #include <fmt/format.h>
 

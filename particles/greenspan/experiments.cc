@@ -1,5 +1,5 @@
 #include <particles/greenspan/experiments.h>
-#include <particles/greenspan/random_numbers.h>
+#include <particles/greenspan/motion/random_numbers.h>
 
 #include <algorithm>
 #include <cmath>

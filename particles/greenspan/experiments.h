@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_greenspan_experiments_h
 #define meltfront_particles_greenspan_experiments_h
 
-#include <particles/greenspan/motion.h>
+#include <particles/greenspan/motion/motion.h>
 #include <particles/greenspan/phases.h>
 
 #include <cstdint>

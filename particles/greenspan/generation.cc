@@ -1,8 +1,8 @@
 #include <cases/error.h>
-#include <particles/greenspan/bonds.h>
 #include <particles/greenspan/generation.h>
-#include <particles/greenspan/motion.h>
-#include <particles/greenspan/random_numbers.h>
+#include <particles/greenspan/motion/bonds.h>
+#include <particles/greenspan/motion/motion.h>
+#include <particles/greenspan/motion/random_numbers.h>
 
 #include <fmt/format.h>
 

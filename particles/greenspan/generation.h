@@ -2,8 +2,8 @@
 #define meltfront_particles_greenspan_generation_h
 
 #include <cases/outline.h>
-#include <particles/greenspan/motion_parameters.h>
-#include <particles/greenspan/particle_state.h>
+#include <particles/greenspan/motion/motion_parameters.h>
+#include <particles/greenspan/motion/particle_state.h>
 
 #include <cstdint>
 

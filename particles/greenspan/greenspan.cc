@@ -3,7 +3,7 @@
 #include <cases/reported_scalars.h>
 #include <cases/run.h>
 #include <cases/scene.h>
-#include <particles/greenspan/bar_run.h>
+#include <particles/greenspan/bar/bar_run.h>
 #include <particles/greenspan/checkpoint.h>
 #include <particles/greenspan/diagnostics.h>
 #include <particles/greenspan/greenspan.h>

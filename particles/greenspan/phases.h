@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_greenspan_phases_h
 #define meltfront_particles_greenspan_phases_h
 
-#include <particles/greenspan/bonds.h>
+#include <particles/greenspan/motion/bonds.h>
 
 #include <deque>
 

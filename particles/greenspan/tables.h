@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_greenspan_tables_h
 #define meltfront_particles_greenspan_tables_h
 
-#include <particles/greenspan/particle_state.h>
+#include <particles/greenspan/motion/particle_state.h>
 
 #include <string>
 

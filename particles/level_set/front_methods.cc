@@ -7,7 +7,7 @@
 #include <particles/level_set/front_contour.h>
 #include <particles/level_set/front_geometry.h>
 #include <particles/level_set/front_methods.h>
-#include <particles/level_set/marker_run.h>
+#include <particles/level_set/markers/marker_run.h>
 
 #include <fmt/format.h>
 

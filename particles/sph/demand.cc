@@ -1,7 +1,7 @@
 #include <cases/demand.h>
 #include <particles/core/kernels.h>
 #include <particles/sph/demand.h>
-#include <particles/sph/time_stepping.h>
+#include <particles/sph/time/time_stepping.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <particles/sph/heat_flow.h>
-#include <particles/sph/time_stepping.h>
+#include <particles/sph/time/time_stepping.h>
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <cases/method.h>
 #include <cases/stopwatch.h>
 #include <particles/sph/discretisation.h>
-#include <particles/sph/time_stepping.h>
+#include <particles/sph/time/time_stepping.h>
 
 #include <span>
 #include <string>

@@ -4,8 +4,8 @@
 #include <particles/sph/initial_state.h>
 #include <particles/sph/run_report.h>
 #include <particles/sph/sph_run.h>
-#include <particles/sph/stepper.h>
-#include <particles/sph/time_stepping.h>
+#include <particles/sph/time/stepper.h>
+#include <particles/sph/time/time_stepping.h>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_sph_mixture_implicit_mixture_h
 #define meltfront_particles_sph_mixture_implicit_mixture_h
 
-#include <particles/sph/implicit_solver.h>
+#include <particles/sph/time/implicit_solver.h>
 #include <particles/sph_mixture/mixture_flow.h>
 
 #include <span>

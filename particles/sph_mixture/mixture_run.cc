@@ -6,9 +6,9 @@
 #include <cases/temperature_slack.h>
 #include <cases/time_integral.h>
 #include <particles/alloy/mixture_state.h>
-#include <particles/sph/explicit_scheme.h>
-#include <particles/sph/implicit_scheme.h>
 #include <particles/sph/run_report.h>
+#include <particles/sph/time/explicit_scheme.h>
+#include <particles/sph/time/implicit_scheme.h>
 #include <particles/sph_mixture/implicit_mixture.h>
 #include <particles/sph_mixture/mixture_flow.h>
 #include <particles/sph_mixture/mixture_run.h>

@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_sph_two_population_two_population_implicit_h
 #define meltfront_particles_sph_two_population_two_population_implicit_h
 
-#include <particles/sph/krylov_solver.h>
+#include <particles/sph/time/krylov_solver.h>
 #include <particles/sph_two_population/two_population_flow.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_sph_two_population_two_population_stepper_h
 #define meltfront_particles_sph_two_population_two_population_stepper_h
 
-#include <particles/sph/explicit_scheme.h>
+#include <particles/sph/time/explicit_scheme.h>
 #include <particles/sph_two_population/two_population_flow.h>
 #include <particles/sph_two_population/two_population_implicit.h>
 

@@ -1,7 +1,7 @@
 #ifndef meltfront_verification_app_calibrate_h
 #define meltfront_verification_app_calibrate_h
 
-#include <particles/greenspan/calibration.h>
+#include <particles/greenspan/calibration/calibration.h>
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include <cases/error.h>
 #include <particles/benchmarks/lammps.h>
-#include <particles/greenspan/motion.h>
+#include <particles/greenspan/motion/motion.h>
 #include <particles/greenspan/tables.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_greenspan_tests_bar_measures_h
 #define meltfront_particles_greenspan_tests_bar_measures_h
 
-#include <particles/greenspan/bar.h>
+#include <particles/greenspan/bar/bar.h>
 
 #include <span>
 

@@ -1,5 +1,5 @@
 #include <cases/error.h>
-#include <particles/greenspan/calibration.h>
+#include <particles/greenspan/calibration/calibration.h>
 
 #include <gtest/gtest.h>
 

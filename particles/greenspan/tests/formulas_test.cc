@@ -1,6 +1,6 @@
 // The motion against the formulas of the report, written down once more.
 
-#include <particles/greenspan/motion.h>
+#include <particles/greenspan/motion/motion.h>
 #include <particles/greenspan/tables.h>
 #include <particles/greenspan/tests/report_runs.h>
 

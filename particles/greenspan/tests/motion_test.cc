@@ -1,7 +1,7 @@
 #include <cases/error.h>
-#include <particles/greenspan/bonds.h>
 #include <particles/greenspan/generation.h>
-#include <particles/greenspan/motion.h>
+#include <particles/greenspan/motion/bonds.h>
+#include <particles/greenspan/motion/motion.h>
 #include <particles/greenspan/tables.h>
 #include <particles/greenspan/tests/report_runs.h>
 

@@ -1,6 +1,6 @@
 #include <cases/error.h>
-#include <particles/greenspan/bonds.h>
-#include <particles/greenspan/bulk.h>
+#include <particles/greenspan/calibration/bulk.h>
+#include <particles/greenspan/motion/bonds.h>
 
 #include <gtest/gtest.h>
 

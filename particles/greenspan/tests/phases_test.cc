@@ -1,6 +1,6 @@
 #include <cases/error.h>
 #include <particles/greenspan/generation.h>
-#include <particles/greenspan/motion.h>
+#include <particles/greenspan/motion/motion.h>
 #include <particles/greenspan/phases.h>
 #include <particles/greenspan/tables.h>
 

@@ -1,7 +1,7 @@
 #include <cases/error.h>
 #include <cases/exact/planar_neumann.h>
-#include <particles/greenspan/calibration.h>
-#include <particles/greenspan/similarity.h>
+#include <particles/greenspan/bar/similarity.h>
+#include <particles/greenspan/calibration/calibration.h>
 
 #include <gtest/gtest.h>
 

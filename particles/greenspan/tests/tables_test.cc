@@ -1,5 +1,5 @@
 #include <cases/error.h>
-#include <particles/greenspan/pair_force.h>
+#include <particles/greenspan/motion/pair_force.h>
 #include <particles/greenspan/tables.h>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "marker_samples.h"
 
 #include <cases/error.h>
-#include <particles/level_set/marker_node_velocity.h>
+#include <particles/level_set/markers/marker_node_velocity.h>
 
 #include <gtest/gtest.h>
 

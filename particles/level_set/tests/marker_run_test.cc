@@ -1,7 +1,7 @@
 #include "marker_samples.h"
 
 #include <cases/error.h>
-#include <particles/level_set/marker_run.h>
+#include <particles/level_set/markers/marker_run.h>
 #include <particles/level_set/tests/measured_front.h>
 
 #include <gtest/gtest.h>

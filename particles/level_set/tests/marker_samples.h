@@ -1,7 +1,7 @@
 #ifndef meltfront_particles_level_set_tests_marker_samples_h
 #define meltfront_particles_level_set_tests_marker_samples_h
 
-#include <particles/level_set/marker_scheme.h>
+#include <particles/level_set/markers/marker_scheme.h>
 #include <particles/level_set/tests/shapes.h>
 
 namespace meltfront::particles::level_set

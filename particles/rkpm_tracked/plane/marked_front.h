@@ -2,8 +2,8 @@
 #define meltfront_particles_rkpm_tracked_plane_marked_front_h
 
 #include <particles/level_set/advection.h>
-#include <particles/level_set/marker_node_velocity.h>
-#include <particles/level_set/marker_scheme.h>
+#include <particles/level_set/markers/marker_node_velocity.h>
+#include <particles/level_set/markers/marker_scheme.h>
 #include <particles/level_set/reinitialisation.h>
 #include <particles/rkpm_tracked/plane/contour.h>
 #include <particles/rkpm_tracked/plane/nodes.h>

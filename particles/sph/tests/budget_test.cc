@@ -1,7 +1,7 @@
 #include <cases/error.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/tests/scenes.h>
-#include <particles/sph/time_stepping.h>
+#include <particles/sph/time/time_stepping.h>
 
 #include <gtest/gtest.h>
 

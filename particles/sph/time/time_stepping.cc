@@ -1,0 +1,155 @@
+#include <cases/error.h>
+#include <particles/sph/time/time_stepping.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::particles
+{
+  namespace
+  {
+    /** Fewest steps of a run, so that fronts can be sampled at 100 times. */
+    constexpr long fewest_steps = 200;
+
+    /** Equal steps of at most some length. @throws cases::Refusal for too many. */
+    long steps_within(double duration, double step)
+    {
+      const double steps = std::ceil(duration / step * (1 - 1e-12));
+      if(!(steps <= cases::most_steps))
+        throw cases::Refusal(fmt::format("steps of {:.3g} s would be {:.3g} in number, "
+                                         "and at most {:.0e} are possible",
+                                         step, steps, cases::most_steps));
+      return std::max(1L, static_cast<long>(steps));
+    }
+
+    long steps_for(double duration, double step)
+    {
+      return std::max(fewest_steps, steps_within(duration, step));
+    }
+  } // namespace
+
+  double monotone_step(const cases::Material &material, double particle_mass,
+                       double largest_row_sum, double largest_front_factor)
+  {
+    const double solid = material.solid.conductivity;
+    const double liquid = material.liquid.conductivity;
+    const double mean = solid == liquid ? 0 : 2 * solid * liquid / (solid + liquid);
+    return particle_mass / (largest_front_factor * largest_row_sum)
+           * std::min(material.solid.specific_heat_capacity / std::max(solid, mean),
+                      material.liquid.specific_heat_capacity / std::max(liquid, mean));
+  }
+
+  double published_step(const cases::Material &material, double smoothing_length)
+  {
+    return 0.15 * smoothing_length * smoothing_length
+           * std::min(1 / material.solid.diffusivity(),
+                      1 / material.liquid.diffusivity());
+  }
+
+  double super_step_reach(int stages)
+  {
+    return (double(stages) * stages + stages - 2) / 4;
+  }
+
+  namespace
+  {
+    /** Fewest stages, at least three, with which a super step reaches so many times the
+     * step of explicit Euler. */
+    int stages_for(double reach)
+    {
+      // (s^2 + s - 2)/4 = reach
+      const double root = std::sqrt(2.25 + 4 * reach * (1 - 1e-12)) - 0.5;
+      return static_cast<int>(std::ceil(std::clamp(root, 3., 1e9)));
+    }
+
+    void refuse_unstable_step(double step, double monotone)
+    {
+      if(step > monotone * (1 + 1e-12))
+        throw cases::Refusal(fmt::format(
+            "a step of {:.6g} s is {:.4g} times the largest one, {:.6g} s, that keeps "
+            "the maximum principle and is certainly stable",
+            step, step / monotone, monotone));
+    }
+
+    /** So many equal steps; super steps with the fewest stages that reach so far. */
+    StepPlan plan_given_steps(const SphParameters &p, double duration, double euler,
+                              double monotone)
+    {
+      StepPlan plan{p.steps, duration / p.steps, 1, monotone, 1, 0};
+      if(p.time_scheme == TimeScheme::euler)
+        refuse_unstable_step(plan.step, monotone);
+      if(p.time_scheme == TimeScheme::rkl2)
+      {
+        plan.stages = stages_for(plan.step / euler);
+        if(plan.stages > p.stages)
+          throw cases::Refusal(fmt::format(
+              "a step of {:.6g} s needs super steps of {} stages, and at most {} are "
+              "allowed",
+              plan.step, plan.stages, p.stages));
+        plan.resolved_steps = std::min<long>(8, p.steps);
+      }
+      return plan;
+    }
+
+    StepPlan plan_long_steps(const SphParameters &p, double duration, double euler,
+                             double monotone)
+    {
+      StepPlan plan{steps_for(duration, euler), 0, 1, monotone, 1, 8};
+      if(p.time_scheme != TimeScheme::rkl2)
+        return plan;
+      const long steps = steps_for(duration, euler * super_step_reach(p.stages));
+      const int stages = stages_for(duration / (euler * steps));
+      // Few stages gain nothing over as many explicit steps.
+      if(stages * steps < plan.steps)
+      {
+        plan.steps = steps;
+        plan.stages = stages;
+      }
+      return plan;
+    }
+  } // namespace
+
+  StepPlan plan_steps(const SphParameters &p, const cases::Scene &scene, double monotone,
+                      double smoothing_length)
+  {
+    const double duration = scene.end_time - scene.start_time;
+    const double euler = p.step_factor > 0
+                             ? p.step_factor * monotone
+                             : published_step(scene.material, smoothing_length);
+    if(is_implicit(p.time_scheme) && p.steps == 0)
+    {
+      const long steps = steps_within(duration, euler);
+      return {steps, duration / steps, 1, monotone, 1, 0};
+    }
+    if(!is_implicit(p.time_scheme))
+      refuse_unstable_step(euler, monotone);
+    StepPlan plan = p.steps > 0 ? plan_given_steps(p, duration, euler, monotone)
+                                : plan_long_steps(p, duration, euler, monotone);
+    plan.step = duration / plan.steps;
+    plan.euler_substeps = static_cast<int>(steps_within(plan.step, euler));
+    return plan;
+  }
+
+  SuperStep::SuperStep(int s)
+  {
+    const auto b = [](int j)
+    { return j < 2 ? 1. / 3 : (double(j) * j + j - 2) / (2. * j * (j + 1)); };
+    const double w = 4 / (double(s) * s + s - 2);
+    const auto fraction
+        = [w](int j) { return j < 2 ? w / 3 : (double(j) * j + j - 2) * w / 4; };
+    first_rate = b(1) * w;
+    for(int j = 2; j <= s; ++j)
+    {
+      SuperStage stage;
+      stage.previous = (2. * j - 1) / j * b(j) / b(j - 1);
+      stage.before = -(j - 1.) / j * b(j) / b(j - 2);
+      stage.start = 1 - stage.previous - stage.before;
+      stage.rate = stage.previous * w;
+      stage.start_rate = -(1 - b(j - 1)) * stage.rate;
+      stage.fraction = fraction(j - 1);
+      stages.push_back(stage);
+    }
+  }
+} // namespace meltfront::particles

@@ -1,0 +1,80 @@
+#ifndef meltfront_particles_sph_time_time_stepping_h
+#define meltfront_particles_sph_time_time_stepping_h
+
+#include <particles/sph/conduction_rows.h>
+#include <particles/sph/parameters.h>
+
+#include <vector>
+
+namespace meltfront::particles
+{
+  /**
+   * The largest explicit step that is guaranteed to keep the maximum principle:
+   *
+   *   dt = min over phases p of m c_p / (x k'_p max_a sum_b g_ab),
+   *
+   * x the largest factor of the exchange at fronts, k'_p the larger of the phase's
+   * conductivity and, where phases differ, of the harmonic mean 2 k_s k_l/(k_s + k_l).
+   * New temperatures are then convex combinations of old ones
+   * and of the walls'; by Gershgorin's theorem the step lies within the linear stability
+   * limit 2/lambda_max as well.
+   */
+  double monotone_step(const cases::Material &material, double particle_mass,
+                       double largest_row_sum, double largest_front_factor);
+
+  /** 0.15 c rho h^2/k, the smaller of both phases' (Monaghan et al. 2005, equation 2.20).
+   */
+  double published_step(const cases::Material &material, double smoothing_length);
+
+  /** How a run is divided into steps. */
+  struct StepPlan
+  {
+    long steps;
+    double step;         ///< s
+    int stages;          ///< of each step; 1: explicit Euler or implicit
+    double monotone;     ///< monotone_step (s)
+    int euler_substeps;  ///< Euler steps in place of a super step, where it is resolved
+                         ///< or broke a bound
+    long resolved_steps; ///< so many first steps are resolved by Euler steps: a
+                         ///< discontinuous start is not smooth enough for a super step
+  };
+
+  /**
+   * Divide a duration into equal steps. Super steps are kept short enough for at least
+   * 200 of them, with fewer stages where these suffice; implicit steps may be of any
+   * length.
+   * @throws cases::Refusal if an explicit step asked for exceeds monotone_step.
+   */
+  StepPlan plan_steps(const SphParameters &parameters, const cases::Scene &scene,
+                      double monotone, double smoothing_length);
+
+  /** One stage of a super step; F is the rate of change. */
+  struct SuperStage
+  {
+    double previous;   ///< factor of Y_(j-1)
+    double before;     ///< factor of Y_(j-2)
+    double start;      ///< factor of Y_0
+    double rate;       ///< factor of step * F(Y_(j-1))
+    double start_rate; ///< factor of step * F(Y_0)
+    double fraction;   ///< of the step, at which F(Y_(j-1)) is taken
+  };
+
+  /**
+   * Coefficients of the second-order Runge-Kutta-Legendre scheme RKL2 (Meyer, Balsara and
+   * Aslam 2014, equations 15 to 18), stages 2 to s; the first is Y_1 = Y_0 +
+   * first_rate * step * F(Y_0). Stable for steps up to super_step_reach(s) times the
+   * limit of explicit Euler.
+   */
+  struct SuperStep
+  {
+    explicit SuperStep(int stages);
+
+    double first_rate;
+    std::vector<SuperStage> stages;
+  };
+
+  /** (s^2 + s - 2)/4 */
+  double super_step_reach(int stages);
+} // namespace meltfront::particles
+
+#endif
