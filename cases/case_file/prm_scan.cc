@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace meltfront::cases
 {
@@ -80,7 +81,8 @@ namespace meltfront::cases
             {path(), key, trimmed(assignment.substr(equals + 1)), line});
       }
 
-      /** A file may set anew what another one has set: the later one counts. */
+      /** A file may set anew what another one has set: the later one counts. Entries of a
+       * list, `criterion 1`, are not values of one key: none of them is to get lost. */
       void override_statement(const std::vector<PrmStatement> &before, int line,
                               const std::string &key)
       {
@@ -90,6 +92,9 @@ namespace meltfront::cases
                                    name_of_key(path(), key),
                                    source.origins[one.line - 1].line));
         const PrmStatement &last = before.back();
+        if(std::isdigit(static_cast<unsigned char>(key.back())))
+          fail(line, fmt::format("{} is set in {} too: number it otherwise",
+                                 name_of_key(path(), key), source.place(last.line)));
         scan.overridden.emplace_back(last.line, last.last_line);
         std::erase_if(scan.assignments, [&last](const PrmAssignment &assignment)
                       { return assignment.line == last.line; });

@@ -173,6 +173,17 @@ TEST_F(Include, KeepsAKeyThatOneFileSetsTwiceAMistake)
             "time, after line 2");
 }
 
+TEST_F(Include, LosesNoEntryOfAList)
+{
+  write("bounds.prm", "set criterion 1 = sph: front_rms at n=20 <= 1\n");
+  EXPECT_EQ(complaint("subsection Acceptance\n"
+                      "  set criterion 1 = sph: front_rms at n=40 <= 1\n"
+                      "  include bounds.prm\n"
+                      "end\n"),
+            "bounds.prm:1: key 'criterion 1' in subsection 'Acceptance' is set in "
+            "main.prm:2 too: number it otherwise");
+}
+
 TEST_F(Include, NamesTheFileAndLineOfAMistake)
 {
   write("library/materials/wax.prm", "\nset latent heat = much\n");
