@@ -6,6 +6,7 @@
 #include <cases/case_file/criterion_parser.h>
 #include <cases/case_file/effect_checks.h>
 #include <cases/case_file/exact_reader.h>
+#include <cases/case_file/prm_library.h>
 #include <cases/case_file/scene_reader.h>
 #include <cases/options.h>
 
@@ -18,7 +19,7 @@ namespace meltfront::cases
 {
   namespace
   {
-    const std::string library_folder = MELTFRONT_CASE_LIBRARY;
+    const PrmLibrary library{MELTFRONT_CASE_LIBRARY, "case"};
 
     /** Call a parser of one value; its complaint gets file, line and key. */
     template <typename Parse>
@@ -234,33 +235,17 @@ namespace meltfront::cases
 
   std::vector<std::string> library_names()
   {
-    std::vector<std::string> names;
-    std::error_code failure;
-    for(const auto &entry : std::filesystem::directory_iterator(library_folder, failure))
-      if(entry.path().extension() == ".prm")
-        names.push_back(entry.path().stem().string());
-    if(failure)
-      throw OutputError(
-          fmt::format("{}: the library of cases cannot be read", library_folder));
-    std::sort(names.begin(), names.end());
-    return names;
+    return library.names();
   }
 
   std::string library_path(const std::string &name)
   {
-    return fmt::format("{}/{}.prm", library_folder, name);
+    return library.path(name);
   }
 
   Case load_case(const std::string &name_or_path)
   {
-    if(name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".prm"))
-      return read_case(name_or_path);
-    const std::vector<std::string> names = library_names();
-    if(std::find(names.begin(), names.end(), name_or_path) == names.end())
-      throw InputError(fmt::format("there is no case '{}'; the nearest is '{}'",
-                                   quotable(name_or_path),
-                                   nearest_name(name_or_path.substr(0, 200), names)));
-    return read_case(library_path(name_or_path));
+    return read_case(library.find(name_or_path));
   }
 
   std::string case_file_reference()

@@ -83,10 +83,10 @@ namespace meltfront::cases
   }
 
   void PrmFile::declare_in_each(const std::string &subsection,
-                                const std::string &placeholder, const PrmEntry &entry,
+                                const std::string &shown_name, const PrmEntry &entry,
                                 int count)
   {
-    in_each.push_back({subsection, placeholder, entry, count});
+    in_each.push_back({subsection, shown_name, entry, count});
   }
 
   void PrmFile::declare_opened()
@@ -347,7 +347,7 @@ namespace meltfront::cases
     std::string current;
     std::vector<Declared> all = declared;
     for(const InEach &each : in_each)
-      all.push_back({each.subsection + "/" + each.placeholder, each.entry, each.count});
+      all.push_back({each.subsection + "/" + each.shown_name, each.entry, each.count});
     for(const Declared &key : all)
     {
       if(key.subsection != current)

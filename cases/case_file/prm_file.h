@@ -70,8 +70,8 @@ namespace meltfront::cases
                           int count);
 
     /** Declare the keys `KEY 1` ... `KEY count` of every subsection of one, whatever its
-     * name; `placeholder` stands for that in the reference. */
-    void declare_in_each(const std::string &subsection, const std::string &placeholder,
+     * name; `shown_name` stands for that in the reference. */
+    void declare_in_each(const std::string &subsection, const std::string &shown_name,
                          const PrmEntry &entry, int count);
 
     /**
@@ -139,7 +139,7 @@ namespace meltfront::cases
     struct InEach
     {
       std::string subsection;
-      std::string placeholder;
+      std::string shown_name;
       PrmEntry entry;
       int count;
     };

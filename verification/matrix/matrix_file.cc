@@ -1,4 +1,5 @@
 #include <cases/case_file/prm_file.h>
+#include <cases/case_file/prm_library.h>
 #include <cases/error.h>
 #include <verification/judge/finding_reader.h>
 #include <verification/matrix/criteria_reader.h>
@@ -17,7 +18,7 @@ namespace meltfront::verification
     using cases::PrmFile;
     using cases::PrmKind;
 
-    constexpr const char *library_folder = MELTFRONT_MATRIX_LIBRARY;
+    const cases::PrmLibrary library{MELTFRONT_MATRIX_LIBRARY, "matrix"};
     constexpr int most_blocks = 64;
 
     std::string block_name(int number)
@@ -27,7 +28,7 @@ namespace meltfront::verification
 
     PrmFile matrix_keys()
     {
-      PrmFile prm(library_folder);
+      PrmFile prm(library.folder);
       prm.declare("", {"title", PrmKind::text, "", "", "One line."});
       prm.declare("", {"description", PrmKind::text, "", "", "What the matrix shows."});
       prm.declare("", {"hard cases", PrmKind::boolean, "false", "",
@@ -226,35 +227,17 @@ namespace meltfront::verification
 
   std::vector<std::string> matrix_names()
   {
-    std::vector<std::string> names;
-    std::error_code failure;
-    for(const auto &entry : std::filesystem::directory_iterator(library_folder, failure))
-      if(entry.path().extension() == ".prm")
-        names.push_back(entry.path().stem().string());
-    if(failure)
-      throw cases::OutputError(
-          fmt::format("{}: the library of matrices cannot be read", library_folder));
-    std::ranges::sort(names);
-    return names;
+    return library.names();
   }
 
   Matrix load_matrix(const std::string &name_or_path)
   {
-    if(name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".prm"))
-    {
-      if(!std::filesystem::exists(name_or_path))
-        throw cases::InputError(fmt::format(
-            "there is no matrix file '{}'; a matrix of the library is named without a "
-            "path",
-            cases::quotable(name_or_path)));
-      return read_matrix(name_or_path);
-    }
-    const std::vector<std::string> names = matrix_names();
-    if(std::ranges::find(names, name_or_path) == names.end())
-      throw cases::InputError(fmt::format("there is no matrix '{}'; the nearest is '{}'",
-                                          cases::quotable(name_or_path),
-                                          cases::nearest_name(name_or_path, names)));
-    return read_matrix(fmt::format("{}/{}.prm", library_folder, name_or_path));
+    const std::string path = library.find(name_or_path);
+    if(!std::filesystem::exists(path))
+      throw cases::InputError(fmt::format("there is no matrix file '{}'; a matrix of the "
+                                          "library is named without a path",
+                                          cases::quotable(path)));
+    return read_matrix(path);
   }
 
   std::string matrix_file_reference()

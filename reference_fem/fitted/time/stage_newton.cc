@@ -115,7 +115,7 @@ namespace meltfront::reference_fem::fitted
   {
     // The exact Jacobian belongs to a state, a frozen one to a step and a scheme.
     current = exact || !factors_serve || equations.n_stages() != factorised_stages
-            || std::abs(equations.step() / factorised_step - 1) > 1e-6;
+              || std::abs(equations.step() / factorised_step - 1) > 1e-6;
     if(!current)
       return true;
     factorised_step = equations.step();

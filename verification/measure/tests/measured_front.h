@@ -1,5 +1,5 @@
-#ifndef meltfront_particles_level_set_tests_measured_front_h
-#define meltfront_particles_level_set_tests_measured_front_h
+#ifndef meltfront_verification_measure_tests_measured_front_h
+#define meltfront_verification_measure_tests_measured_front_h
 
 #include <particles/level_set/front_contour.h>
 #include <particles/level_set/front_geometry.h>

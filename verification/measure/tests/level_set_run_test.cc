@@ -1,7 +1,7 @@
 #include <cases/error.h>
 #include <particles/level_set/level_set_run.h>
 #include <particles/level_set/reinitialisation.h>
-#include <particles/level_set/tests/measured_front.h>
+#include <verification/measure/tests/measured_front.h>
 
 #include <gtest/gtest.h>
 

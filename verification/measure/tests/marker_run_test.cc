@@ -1,8 +1,7 @@
-#include "marker_samples.h"
-
 #include <cases/error.h>
 #include <particles/level_set/markers/marker_run.h>
-#include <particles/level_set/tests/measured_front.h>
+#include <particles/level_set/tests/marker_samples.h>
+#include <verification/measure/tests/measured_front.h>
 
 #include <gtest/gtest.h>
 
