@@ -137,16 +137,22 @@ namespace meltfront::cases
     virtual ~Method() = default;
 
     /** The word that a user types. */
-    virtual std::string name() const = 0;
+    const std::string &name() const
+    {
+      return its_name;
+    }
 
     /** One sentence. */
-    virtual std::string summary() const = 0;
+    const std::string &summary() const
+    {
+      return its_summary;
+    }
 
     /** Name of the method of which this is the form as published (`sph` for `sph-2005`),
      * or empty. */
-    virtual std::string corrected_form() const
+    const std::string &corrected_form() const
     {
-      return {};
+      return its_corrected_form;
     }
 
     /** What the method takes: one entry, or one for each of its forms, of which the first
@@ -177,10 +183,20 @@ namespace meltfront::cases
                           const Resolution &resolution) const;
 
   protected:
+    Method(std::string name, std::string summary, std::string corrected_form = {})
+      : its_name(std::move(name))
+      , its_summary(std::move(summary))
+      , its_corrected_form(std::move(corrected_form))
+    {
+    }
+
     /** A run of a scene within the capabilities, with all options, which the scene,
      * effects and resolution outlive. A method builds only what these effects need. */
     virtual std::unique_ptr<Run> set_up(const Scene &scene, const EffectSet &effects,
                                         const Resolution &resolution) const = 0;
+
+  private:
+    std::string its_name, its_summary, its_corrected_form;
   };
 
   /** The capabilities of the form of a method that takes a scene.

@@ -104,17 +104,10 @@ namespace
   {
   public:
     explicit Modest(std::vector<Capabilities> forms, Demand needed = {})
-      : forms(std::move(forms))
+      : Method("modest", "Takes little.")
+      , forms(std::move(forms))
       , needed(needed)
     {
-    }
-    std::string name() const override
-    {
-      return "modest";
-    }
-    std::string summary() const override
-    {
-      return "Takes little.";
     }
     std::vector<Capabilities> capabilities() const override
     {

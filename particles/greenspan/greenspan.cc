@@ -231,15 +231,11 @@ namespace meltfront::particles
     class Greenspan : public cases::Method
     {
     public:
-      std::string name() const override
+      Greenspan()
+        : Method("greenspan",
+                 "A solid of particles that bind each other, moved by leapfrog; it melts "
+                 "where they are driven apart (Greenspan 1976).")
       {
-        return "greenspan";
-      }
-
-      std::string summary() const override
-      {
-        return "A solid of particles that bind each other, moved by leapfrog; it melts "
-               "where they are driven apart (Greenspan 1976).";
       }
 
       std::vector<cases::Capabilities> capabilities() const override

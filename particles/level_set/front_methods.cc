@@ -331,18 +331,9 @@ namespace meltfront::particles
     {
     public:
       explicit LevelSetMethod(const Variant &variant)
-        : variant(variant)
+        : Method(variant.name, variant.summary)
+        , variant(variant)
       {
-      }
-
-      std::string name() const override
-      {
-        return variant.name;
-      }
-
-      std::string summary() const override
-      {
-        return variant.summary;
       }
 
       std::vector<cases::Capabilities> capabilities() const override

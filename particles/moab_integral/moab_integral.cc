@@ -104,17 +104,11 @@ namespace meltfront::particles
     class MoabIntegral : public cases::Method
     {
     public:
-      std::string name() const override
+      MoabIntegral()
+        : Method(method_name, "Conduction integrated twice by parts against a kernel, "
+                              "sums over particles in place of the integrals, with "
+                              "weights that make each sum exact for polynomials.")
       {
-        return method_name;
-      }
-
-      std::string summary() const override
-      {
-        return "Conduction integrated twice by parts against a kernel, sums over "
-               "particles "
-               "in place of the integrals, with weights that make each sum exact for "
-               "polynomials.";
       }
 
       std::vector<cases::Capabilities> capabilities() const override

@@ -68,18 +68,9 @@ namespace meltfront::particles
     {
     public:
       explicit RkpmMethod(const RkpmPolicy &policy)
-        : policy(policy)
+        : Method(policy.name, policy.summary)
+        , policy(policy)
       {
-      }
-
-      std::string name() const override
-      {
-        return policy.name;
-      }
-
-      std::string summary() const override
-      {
-        return policy.summary;
       }
 
       bool takes_inclusions() const

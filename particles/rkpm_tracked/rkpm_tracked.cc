@@ -79,15 +79,11 @@ namespace meltfront::particles
     class RkpmTracked : public cases::Method
     {
     public:
-      std::string name() const override
+      RkpmTracked()
+        : Method(method_name,
+                 "Sharp front: particles on the front move with the Stefan speed, solid "
+                 "and liquid are collocated apart with reproducing kernels.")
       {
-        return method_name;
-      }
-
-      std::string summary() const override
-      {
-        return "Sharp front: particles on the front move with the Stefan speed, solid "
-               "and liquid are collocated apart with reproducing kernels.";
       }
 
       std::vector<cases::Capabilities> capabilities() const override

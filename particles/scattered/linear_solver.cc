@@ -1,5 +1,4 @@
 #include <cases/error.h>
-#include <cases/stopwatch.h>
 #include <particles/scattered/direct_solver.h>
 #include <particles/scattered/iterative_solver.h>
 #include <particles/scattered/linear_solver.h>
@@ -89,7 +88,6 @@ namespace meltfront::particles
             fmt::format("conjugate gradients ({}) need a symmetric matrix, which this "
                         "one is not; take gmres-ilut",
                         linear_method_names()[static_cast<std::size_t>(method)]));
-      const cases::Stopwatch watch;
       if(!parameters.symmetric)
       {
         scales = row_scales(matrix);
@@ -105,7 +103,6 @@ namespace meltfront::particles
         stronger = stronger_than(parameters);
       load.resize(matrix.rows());
       product.resize(matrix.rows());
-      setup = watch.elapsed().wall;
     }
 
     Outcome solve_once(std::span<double> x)
@@ -130,7 +127,6 @@ namespace meltfront::particles
     /** Take the next of the stronger solvers. */
     void strengthen()
     {
-      const cases::Stopwatch watch;
       const LinearSolverParameters parameters = stronger.front();
       stronger.erase(stronger.begin());
       method = parameters.method;
@@ -139,7 +135,6 @@ namespace meltfront::particles
         direct.emplace(matrix);
       else
         iterative.emplace(matrix, method, parameters);
-      setup += watch.elapsed().wall;
     }
 
     std::vector<LinearSolverParameters>
@@ -164,7 +159,6 @@ namespace meltfront::particles
     std::optional<DirectSolver> direct;
     std::optional<IterativeSolver> iterative;
     std::vector<double> load, product;
-    double setup = 0;
   };
 
   LinearSolver::LinearSolver(const CompressedRows &matrix,
@@ -217,10 +211,5 @@ namespace meltfront::particles
   {
     return implementation->direct ? implementation->direct->fill()
                                   : implementation->iterative->fill();
-  }
-
-  double LinearSolver::setup_seconds() const
-  {
-    return implementation->setup;
   }
 } // namespace meltfront::particles

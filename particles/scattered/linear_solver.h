@@ -74,8 +74,6 @@ namespace meltfront::particles
     /** Entries of the factors or of the preconditioner over those of the matrix. */
     double fill() const;
 
-    double setup_seconds() const; ///< wall time of factorisation or preconditioner
-
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation;

@@ -11,23 +11,9 @@ namespace meltfront::particles
     {
     public:
       explicit SphMethod(const SphPolicy &policy)
-        : policy(policy)
+        : Method(policy.name, policy.summary, policy.corrected_form)
+        , policy(policy)
       {
-      }
-
-      std::string name() const override
-      {
-        return policy.name;
-      }
-
-      std::string summary() const override
-      {
-        return policy.summary;
-      }
-
-      std::string corrected_form() const override
-      {
-        return policy.corrected_form;
       }
 
       std::vector<cases::Capabilities> capabilities() const override

@@ -14,15 +14,11 @@ namespace meltfront::particles
     class MixtureMethod : public cases::Method
     {
     public:
-      std::string name() const override
+      MixtureMethod()
+        : Method("sph-mixture",
+                 "Smoothed particle hydrodynamics of alloys: each particle is a mixture "
+                 "of crystals and liquid in local equilibrium.")
       {
-        return "sph-mixture";
-      }
-
-      std::string summary() const override
-      {
-        return "Smoothed particle hydrodynamics of alloys: each particle is a mixture of "
-               "crystals and liquid in local equilibrium.";
       }
 
       std::vector<cases::Capabilities> capabilities() const override

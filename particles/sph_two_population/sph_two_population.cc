@@ -15,23 +15,9 @@ namespace meltfront::particles
     {
     public:
       explicit TwoPopulationMethod(const TwoPopulationPolicy &policy)
-        : policy(policy)
+        : Method(policy.name, policy.summary, policy.corrected_form)
+        , policy(policy)
       {
-      }
-
-      std::string name() const override
-      {
-        return policy.name;
-      }
-
-      std::string summary() const override
-      {
-        return policy.summary;
-      }
-
-      std::string corrected_form() const override
-      {
-        return policy.corrected_form;
       }
 
       /** The paper has no eutectic. Pure substances, whose front's origin could be told,

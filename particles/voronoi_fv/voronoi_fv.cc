@@ -189,18 +189,11 @@ namespace meltfront::particles
     class VoronoiFv : public cases::Method
     {
     public:
-      std::string name() const override
+      VoronoiFv()
+        : Method(method_name, "Finite volumes on the Voronoi cells of n particles along "
+                              "a side inside the walls, relaxed by a Lennard-Jones "
+                              "surrogate energy (Erickson et al. 2016, chapter 5).")
       {
-        return method_name;
-      }
-
-      std::string summary() const override
-      {
-        return "Finite volumes on the Voronoi cells of n particles along a side inside "
-               "the "
-               "walls, relaxed by a Lennard-Jones surrogate energy (Erickson et al. "
-               "2016, "
-               "chapter 5).";
       }
 
       std::vector<cases::Capabilities> capabilities() const override

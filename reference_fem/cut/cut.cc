@@ -14,15 +14,10 @@ namespace meltfront::reference_fem
     class FemCut : public cases::Method
     {
     public:
-      std::string name() const override
+      FemCut()
+        : Method("fem-cut", "Sharp front that cuts a fixed mesh (deal.II): level set, "
+                            "Nitsche's condition, ghost penalty; fronts merge and split.")
       {
-        return "fem-cut";
-      }
-
-      std::string summary() const override
-      {
-        return "Sharp front that cuts a fixed mesh (deal.II): level set, Nitsche's "
-               "condition, ghost penalty; fronts merge and split.";
       }
 
       std::vector<cases::Capabilities> capabilities() const override

@@ -15,16 +15,11 @@ namespace meltfront::reference_fem
     class FemEnthalpy : public cases::Method
     {
     public:
-      std::string name() const override
+      FemEnthalpy()
+        : Method("fem-enthalpy",
+                 "Enthalpy method with linear finite elements (deal.II): the exact "
+                 "enthalpy graph, solved by truncated nonsmooth Newton steps.")
       {
-        return "fem-enthalpy";
-      }
-
-      std::string summary() const override
-      {
-        return "Enthalpy method with linear finite elements (deal.II): the exact "
-               "enthalpy "
-               "graph, solved by truncated nonsmooth Newton steps.";
       }
 
       std::vector<cases::Capabilities> capabilities() const override

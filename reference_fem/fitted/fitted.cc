@@ -58,16 +58,12 @@ namespace meltfront::reference_fem
     class FemFitted : public cases::Method
     {
     public:
-      std::string name() const override
+      FemFitted()
+        : Method(
+            fitted::method_name,
+            "Sharp front: finite elements (deal.II) on a mesh that moves with the front, "
+            "in conservative form, with Newton's method for temperatures and front.")
       {
-        return fitted::method_name;
-      }
-
-      std::string summary() const override
-      {
-        return "Sharp front: finite elements (deal.II) on a mesh that moves with the "
-               "front, "
-               "in conservative form, with Newton's method for temperatures and front.";
       }
 
       std::vector<cases::Capabilities> capabilities() const override

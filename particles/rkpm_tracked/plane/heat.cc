@@ -345,15 +345,4 @@ namespace meltfront::particles::rkpm_tracked
         }
     return worst;
   }
-
-  StencilRecord PlaneHeat::stencil_record() const
-  {
-    StencilRecord sum;
-    for(const StencilMaker &maker : makers)
-    {
-      sum.enlarged += maker.record.enlarged;
-      sum.lowered += maker.record.lowered;
-    }
-    return sum;
-  }
 } // namespace meltfront::particles::rkpm_tracked

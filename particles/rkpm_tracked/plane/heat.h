@@ -115,8 +115,6 @@ namespace meltfront::particles::rkpm_tracked
       return *index;
     }
 
-    StencilRecord stencil_record() const;
-
     /** What an effect has cost so far. Two conductivities or capacities in place of one
      * are other numbers in the same rows, with no time of their own. */
     cases::EffectCost cost(cases::Effect effect) const;

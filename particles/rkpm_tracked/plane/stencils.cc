@@ -164,14 +164,12 @@ namespace meltfront::particles::rkpm_tracked
     bool determined = fit(centre, stencil.dilation, used);
     for(int i = 0; !determined && i < most_enlargements; ++i)
     {
-      record.enlarged += i == 0;
       stencil.dilation *= enlargement;
       gather(centre, phase, stencil.dilation);
       determined = fit(centre, stencil.dilation, used);
     }
     while(!determined && --used > 0)
       determined = fit(centre, stencil.dilation, used);
-    record.lowered += used < order;
     stencil.order = used;
     last_engine = used - 1;
     stencil.columns = neighbours;

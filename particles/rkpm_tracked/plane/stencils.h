@@ -47,13 +47,6 @@ namespace meltfront::particles::rkpm_tracked
     double apply(Derivative derivative, std::span<const double> values) const;
   };
 
-  /** What a set of stencils did to be determined. */
-  struct StencilRecord
-  {
-    long enlarged = 0; ///< stencils with a larger support than the rule's
-    long lowered = 0;  ///< stencils of a lower order than asked for
-  };
-
   /**
    * Fixed-kernel stencils in one phase: weights of a polynomial fitted to the nodes of
    * the phase and to the front particles, with the kernel frozen at the centre.
@@ -86,8 +79,6 @@ namespace meltfront::particles::rkpm_tracked
 
     /** Condition number of the last stencil's moment matrix; infinite if it has none. */
     double condition_number() const;
-
-    StencilRecord record;
 
   private:
     struct Candidate

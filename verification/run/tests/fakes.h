@@ -188,22 +188,12 @@ end
 
     explicit FakeMethod(const std::string &name, Act act = {}, double factor = 0.1,
                         double order = 1, Cheat cheat = {})
-      : its_name(name)
+      : Method(name, "A method with a known error.")
       , act(std::move(act))
       , factor(factor)
       , order(order)
       , cheat(std::move(cheat))
     {
-    }
-
-    std::string name() const override
-    {
-      return its_name;
-    }
-
-    std::string summary() const override
-    {
-      return "A method with a known error.";
     }
 
     std::vector<cases::Capabilities> capabilities() const override
@@ -228,7 +218,6 @@ end
     }
 
   private:
-    std::string its_name;
     Act act;
     double factor, order;
     Cheat cheat;
