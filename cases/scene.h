@@ -93,7 +93,7 @@ namespace meltfront::cases
   {
     BoundaryKind kind = BoundaryKind::insulated;
     Field value;        ///< temperature, flux or ambient temperature, empty otherwise
-    bool exact = false; ///< the temperature is taken from the exact solution
+    bool exact = false; ///< `value` is taken from the exact solution
     double heat_transfer_coefficient = 0; ///< of BoundaryKind::heat_transfer, W/(m^2 K)
   };
 

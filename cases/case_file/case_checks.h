@@ -7,6 +7,9 @@
 
 namespace meltfront::cases
 {
+  /** The key that gives a wall's value. */
+  const char *value_key(const Boundary &boundary);
+
   /** Points all over a domain at which values are checked. */
   std::vector<Position> sample_points(const Domain &domain);
 

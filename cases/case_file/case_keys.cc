@@ -4,6 +4,7 @@
 #include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/interface_reader.h>
 #include <cases/case_file/key_builders.h>
+#include <cases/case_file/manufactured_reader.h>
 #include <cases/case_file/particle_solid_reader.h>
 #include <cases/effects.h>
 #include <cases/scene.h>
@@ -136,14 +137,15 @@ namespace meltfront::cases
                      "from the ambient temperature drives."));
         prm.declare(wall, text_key("ambient temperature",
                                    "Temperature of the surroundings: expression of x, "
-                                   "y, z, t (K)."));
+                                   "y, z, t; exact: that which makes the flux the exact "
+                                   "solution's (K)."));
         prm.declare(wall,
                     number_key("heat transfer coefficient", "", "W/(m^2 K)",
                                "Heat flux per difference of temperature.", above_zero));
         prm.declare(wall, text_key("temperature", "Expression of x, y, z, t (K)."));
         prm.declare(wall,
                     text_key("flux", "Heat flux into the domain, expression of x, y, "
-                                     "z, t (W/m^2)."));
+                                     "z, t; exact: that of the exact solution (W/m^2)."));
       }
       for(int i = 1; i <= most_sources; ++i)
       {
@@ -174,8 +176,11 @@ namespace meltfront::cases
           word_key(
               "kind", "none",
               {"none", "neumann", "line sink", "point sink", "frank", "mushy layer",
-               "oracle", "formula", "five-point lattice"},
-              "The solution that is known; oracle: a spectral solution of the scene."));
+               "oracle", "formula", "five-point lattice", "manufactured"},
+              "The solution that is known; oracle: a spectral solution of the scene; "
+              "manufactured: a front that is given, with the heat that has to be "
+              "released "
+              "for it to move so."));
       prm.declare(exact, number_key("wall temperature", "", "K",
                                     "Wall temperature of Neumann's solution; that of the "
                                     "wall x_min where not given."));
@@ -305,6 +310,7 @@ namespace meltfront::cases
     declare_particle_solid(prm);
     declare_effects(prm);
     declare_exact_solution(prm);
+    declare_manufactured(prm);
     declare_measures(prm);
     return prm;
   }

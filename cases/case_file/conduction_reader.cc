@@ -56,6 +56,8 @@ namespace meltfront::cases
       problem.upper = scene.domain.upper;
       problem.conductivity = scene.material.solid.conductivity;
       problem.intervals = static_cast<int>(prm.get_integer(exact_keys, "intervals"));
+      if(scene.volumetric_source && !scene.volumetric_source->value)
+        complain("its solution releases no heat of its own");
       problem.volumetric_source = [release = scene.volumetric_source](const Position &p)
       { return release ? (*release)(p, 0) : 0.; };
       problem.wall_temperature = [&scene](const Position &p)
@@ -88,7 +90,8 @@ namespace meltfront::cases
     prm.declare(release_keys,
                 text_key("power density",
                          "Heat released throughout the domain, expression of x, "
-                         "y, z, t (W/m^3)."));
+                         "y, z, t; exact: that of the exact solution `manufactured` "
+                         "(W/m^3)."));
     prm.declare(
         inclusion_keys,
         text_key("level set",
@@ -119,10 +122,12 @@ namespace meltfront::cases
   {
     const bool release = prm.given(release_keys, "power density");
     const bool inclusion = prm.opened(inclusion_keys);
-    if((release || inclusion) && scene.changes_phase())
-      throw prm.subsection_error(release ? release_keys : inclusion_keys,
+    if(inclusion && scene.changes_phase())
+      throw prm.subsection_error(inclusion_keys,
                                  "has no meaning where the material has a latent heat");
-    if(release)
+    if(release && prm.get_text(release_keys, "power density") == exact_value)
+      scene.volumetric_source = Field{exact_value, {}};
+    else if(release)
       scene.volumetric_source
           = field(prm, release_keys, "power density", variables(scene) + "t");
     if(!inclusion)

@@ -16,8 +16,8 @@ namespace meltfront::cases
 
   /**
    * Volumetric source and inclusion of a scene whose domain and material are known.
-   * @throws InputError (file, line, key) also where the material changes phase: these
-   * belong to conduction alone.
+   * @throws InputError (file, line, key) also for an inclusion where the material changes
+   * phase: it belongs to conduction alone.
    */
   void read_conduction(const PrmFile &prm, Scene &scene);
 

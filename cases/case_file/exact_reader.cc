@@ -2,6 +2,7 @@
 #include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/exact_reader.h>
 #include <cases/case_file/key_builders.h>
+#include <cases/case_file/manufactured_reader.h>
 #include <cases/exact/flux_freezing.h>
 #include <cases/exact/frank.h>
 #include <cases/exact/line_sink.h>
@@ -323,6 +324,9 @@ namespace meltfront::cases
       for(const char *key : far_concentrations)
         prm.forbid(exact_keys, key, "it is a key of the mushy layer");
     }
+    if(kind == "manufactured")
+      return read_manufactured_solution(prm, scene);
+    forbid_manufactured_keys(prm);
     if(kind == "none")
     {
       for(const char *key : {"wall temperature", "far temperature", "lambda"})

@@ -4,8 +4,10 @@
 #include <cases/case_file/prm_file.h>
 #include <cases/scene.h>
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace meltfront::cases
 {
@@ -18,6 +20,10 @@ namespace meltfront::cases
         power; ///< of the sink (W or W/m, negative), if it is a sink's solution
     std::function<double(double time)> energy; ///< integral of power from time 0
     std::vector<Field> concentration{};        ///< of each solute, if it is an alloy's
+    /** Heat that has to be released throughout for it to hold (W/m^3). */
+    std::optional<Field> volumetric_source{};
+    /** k grad T (W/m^2), if the solution prescribes fluxes through walls. */
+    std::function<std::array<double, 3>(const Position &, double time)> heat_flux{};
   };
 
   /**

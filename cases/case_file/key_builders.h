@@ -11,6 +11,9 @@ namespace meltfront::cases
   inline const std::string initial_keys = "Scene/Initial state";
   inline const std::string exact_keys = "Exact solution";
 
+  /** Stands for a value that is the exact solution's. */
+  inline constexpr const char *exact_value = "exact";
+
   /** The subsection of a wall. */
   std::string wall_keys(Side side);
 

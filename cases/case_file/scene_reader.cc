@@ -134,6 +134,8 @@ namespace meltfront::cases
         if(kind == owner)
         {
           prm.require(here, key, fmt::format("a wall of kind '{}' needs it", kind));
+          if(kind != "fixed temperature" && prm.get_text(here, key) == exact_value)
+            return Field{exact_value, {}};
           return read_field(prm, here, key, variables);
         }
         prm.forbid(here, key, fmt::format("the wall's kind is '{}'", kind));
@@ -146,7 +148,7 @@ namespace meltfront::cases
       {
         prm.require(here, "heat transfer coefficient",
                     "a wall of kind 'heat transfer' needs it");
-        return {BoundaryKind::heat_transfer, ambient, false,
+        return {BoundaryKind::heat_transfer, ambient, !ambient.value,
                 prm.get_number(here, "heat transfer coefficient")};
       }
       prm.forbid(here, "heat transfer coefficient",
@@ -156,7 +158,7 @@ namespace meltfront::cases
       if(kind == "exact")
         return {BoundaryKind::fixed_temperature, Field(), true};
       if(kind == "flux")
-        return {BoundaryKind::flux, flux};
+        return {BoundaryKind::flux, flux, !flux.value};
       return {kind == "periodic" ? BoundaryKind::periodic : BoundaryKind::insulated,
               Field()};
     }
@@ -296,6 +298,46 @@ namespace meltfront::cases
               { return sign * exact->signed_distance(p, time); }};
     }
 
+    /** The outward normal at a point of a wall. */
+    Position outward_normal(const Domain &domain, Side side, const Position &wall)
+    {
+      Position normal{};
+      if(!domain.round())
+        normal[static_cast<int>(side) / 2] = static_cast<int>(side) % 2 == 0 ? -1 : 1;
+      else
+        for(int d = 0; d < domain.dimension; ++d)
+          normal[d] = (side == Side::outer ? wall[d] : -wall[d])
+                      / std::hypot(wall[0], wall[1], wall[2]);
+      return normal;
+    }
+
+    /** Of a wall that lets the exact solution's flux through: the flux, or the ambient
+     * temperature that makes it. */
+    void take_exact_flux(const PrmFile &prm, const KnownSolution &known, Side side,
+                         const Domain &domain, Boundary &boundary)
+    {
+      if(!known.heat_flux)
+        throw prm.error(
+            wall_keys(side), value_key(boundary),
+            "is 'exact', which has a meaning only where the exact solution is "
+            "'manufactured'");
+      const auto flux = [known, side, domain](const Position &p, double time)
+      {
+        const std::array<double, 3> gradient = known.heat_flux(p, time);
+        const Position normal = outward_normal(domain, side, p);
+        return gradient[0] * normal[0] + gradient[1] * normal[1]
+               + gradient[2] * normal[2];
+      };
+      if(boundary.kind == BoundaryKind::flux)
+        boundary.value = {exact_value, flux};
+      else
+        boundary.value
+            = {exact_value, [flux, exact = known.solution,
+                             coefficient = boundary.heat_transfer_coefficient](
+                                const Position &p, double time)
+               { return exact->temperature(p, time) + flux(p, time) / coefficient; }};
+    }
+
     /** Of a scene that conducts heat. */
     void read_heat(const PrmFile &prm, Scene &scene)
     {
@@ -374,8 +416,13 @@ namespace meltfront::cases
       if(!boundary.exact)
         continue;
       require_solution(wall_keys(side), "kind");
-      boundary.value = temperature();
+      if(boundary.kind == BoundaryKind::fixed_temperature)
+        boundary.value = temperature();
+      else
+        take_exact_flux(prm, known, side, scene.domain, boundary);
     }
+    if(scene.volumetric_source && !scene.volumetric_source->value)
+      scene.volumetric_source = known.volumetric_source;
     if(scene.conducts_heat() && prm.get_text(initial_keys, "kind") == "exact")
     {
       require_solution(initial_keys, "kind");
@@ -418,14 +465,10 @@ namespace meltfront::cases
       std::vector<Position> positions;
       visit_wall(scene.domain, side,
                  [&](const Position &wall) { positions.push_back(wall); });
-      const char *key = boundary.kind == BoundaryKind::flux ? "flux"
-                        : boundary.kind == BoundaryKind::heat_transfer
-                            ? "ambient temperature"
-                            : "temperature";
-      find_breakpoints_of(prm, wall_keys(side), key, scene, some_of(positions),
-                          boundary.value);
+      find_breakpoints_of(prm, wall_keys(side), value_key(boundary), scene,
+                          some_of(positions), boundary.value);
     }
-    if(scene.volumetric_source)
+    if(scene.volumetric_source && scene.volumetric_source->expression != exact_value)
       find_breakpoints_of(prm, "Scene/Volumetric source", "power density", scene,
                           some_of(sample_points(scene.domain)), *scene.volumetric_source);
   }

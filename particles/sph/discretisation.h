@@ -52,7 +52,8 @@ namespace meltfront::particles
      */
     bool known_beyond() const
     {
-      return boundary->exact && !inner;
+      return boundary->exact && !inner
+             && boundary->kind == cases::BoundaryKind::fixed_temperature;
     }
 
     /** Its area (m^(d-1)). */

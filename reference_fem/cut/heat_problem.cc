@@ -53,6 +53,8 @@ namespace meltfront::reference_fem::cut
             = fluxes[static_cast<std::size_t>(side)].emplace(scene.boundary(side).value);
         fluxes_vary = fluxes_vary || !flux.steady();
       }
+    if(scene.volumetric_source)
+      released.emplace(*scene.volumetric_source);
   }
 
   const cases::PhaseProperties &HeatProblem::properties(Phase phase) const
@@ -72,23 +74,32 @@ namespace meltfront::reference_fem::cut
         });
   }
 
-  /** What walls prescribe brings in its integral over time: the rate of it is the time
-   * scheme's own derivative of the integral, over whole steps. */
+  namespace
+  {
+    /** What is prescribed brings in its integral over time: the rate of it is the time
+     * scheme's own derivative of the integral, over whole steps. */
+    double rate_of(const cases::TimeMean &mean, const cases::Position &position,
+                   const State &state, const State *before, const State *older)
+    {
+      if(!before || mean.steady())
+        return mean(position, state.time, state.time);
+      const double step = state.time - before->time;
+      const double now = mean(position, before->time, state.time);
+      if(!older)
+        return now;
+      const double step_before = before->time - older->time;
+      const TimeDerivative derivative = time_derivative(step, step_before);
+      return derivative.now * step * now
+             - derivative.older * step_before * mean(position, older->time, before->time);
+    }
+  } // namespace
+
   double HeatProblem::flux_in(cases::Side side, const cases::Position &position,
                               const State &state, const State *before,
                               const State *older) const
   {
-    const cases::TimeMean &mean = *fluxes[static_cast<std::size_t>(side)];
-    if(!before || mean.steady())
-      return mean(position, state.time, state.time);
-    const double step = state.time - before->time;
-    const double now = mean(position, before->time, state.time);
-    if(!older)
-      return now;
-    const double step_before = before->time - older->time;
-    const TimeDerivative derivative = time_derivative(step, step_before);
-    return derivative.now * step * now
-           - derivative.older * step_before * mean(position, older->time, before->time);
+    return rate_of(*fluxes[static_cast<std::size_t>(side)], position, state, before,
+                   older);
   }
 
   /** Of the walls' fluxes (W/m), as flux_in() has it. */
@@ -168,6 +179,8 @@ namespace meltfront::reference_fem::cut
                       + state.geometry->cut_cells.size() * sizeof(CutCell));
     case Effect::heat_sources:
       return meters.sinks.cost(effect, sinks.places.size() * sizeof(Point));
+    case Effect::volumetric_source:
+      return meters.released.cost(effect, sizeof *released);
     case Effect::wall_temperature:
       return of_wall(BoundaryKind::fixed_temperature);
     case Effect::wall_flux:
@@ -333,9 +346,51 @@ namespace meltfront::reference_fem::cut
           = -capacity
             * (derivative.before * result.load[i]
                + (older ? derivative.older * older->unknown[index(phase)][i] : 0));
-    if(phase == Phase::solid && sinks.varies())
-      result.source = change_of_sinks(derivative, state, before, older);
+    result.source = source(phase, state, before, older);
     return result;
+  }
+
+  /** What is not proportional to an unknown: empty if there is nothing. */
+  PointFunction HeatProblem::source(Phase phase, const State &state, const State &before,
+                                    const State *older) const
+  {
+    PointFunction of_sinks;
+    if(phase == Phase::solid && sinks.varies())
+      of_sinks = change_of_sinks(time_derivative(state.time - before.time,
+                                                 older ? before.time - older->time : 0),
+                                 state, before, older);
+    if(!released)
+      return of_sinks;
+    return [this, of_sinks, &state, &before, older](const Point &point)
+    {
+      return meters.released.measure(
+                 [&]
+                 { return rate_of(*released, position(point), state, &before, older); })
+             + (of_sinks ? of_sinks(point) : 0);
+    };
+  }
+
+  /** Between two states, by the quadrature that the equations have (J/m). */
+  double HeatProblem::heat_released(const State &state, const State &before) const
+  {
+    double heat = 0;
+    const BackgroundMesh &mesh = *state.mesh;
+    const auto add = [&](unsigned int cell, const std::vector<VolumePoint> &points)
+    {
+      for(const VolumePoint &point : points)
+        heat += point.weight
+                * (*released)(position(mesh.cells[cell].real(point.unit)), before.time,
+                              state.time);
+    };
+    for(const Phase phase : phases)
+    {
+      for(unsigned int number = 0; number < mesh.cells.size(); ++number)
+        if(CutGeometry::is(state.geometry->location[number], phase)
+           && mesh.place[number] == Place::inside)
+          add(number, whole_cell(mesh.cells[number]));
+      state.geometry->visit_parts(mesh, phase, add);
+    }
+    return heat * (state.time - before.time);
   }
 
   void HeatProblem::solve(State &state, const State &before, const State *older)
@@ -363,6 +418,8 @@ namespace meltfront::reference_fem::cut
       state.wall_power -= flux_power(state, before, older);
       state.flux_heat = (state.time - before.time) * flux_power(state, before, nullptr);
     }
+    if(released)
+      state.released_heat = heat_released(state, before);
     find_speed(state, flux);
     most_unknowns = std::max(most_unknowns, unknowns);
     ++solves;

@@ -28,6 +28,7 @@ namespace meltfront::reference_fem::cut
     /** Heat in through the walls (W/m); where walls' fluxes vary, without these. */
     double wall_power = 0;
     double flux_heat = 0; ///< what walls' varying fluxes brought in the last step (J/m)
+    double released_heat = 0; ///< throughout the domain in the last step (J/m)
   };
 
   /** Factors of a time derivative: d/dt u = now u + before u_before + older u_older. */
@@ -42,7 +43,7 @@ namespace meltfront::reference_fem::cut
   /** What the parts of a solve cost that effects call for. */
   struct CutMeters
   {
-    cases::EffectMeter front, sinks;
+    cases::EffectMeter front, sinks, released;
     std::array<cases::EffectMeter, cases::n_boundary_kinds> walls;
   };
 
@@ -112,6 +113,9 @@ namespace meltfront::reference_fem::cut
     double flux_in(cases::Side side, const cases::Position &position, const State &state,
                    const State *before, const State *older) const;
     double flux_power(const State &state, const State &before, const State *older) const;
+    PointFunction source(Phase phase, const State &state, const State &before,
+                         const State *older) const;
+    double heat_released(const State &state, const State &before) const;
     PhaseEquation equation(Phase phase, const State &state, const State &before,
                            const State *older) const;
     PointFunction change_of_sinks(const TimeDerivative &derivative, const State &state,
@@ -124,6 +128,7 @@ namespace meltfront::reference_fem::cut
     double smoothing;
     std::array<std::optional<cases::TimeMean>, cases::n_sides> fluxes; ///< of walls
     bool fluxes_vary = false;
+    std::optional<cases::TimeMean> released; ///< throughout the domain
   };
 } // namespace meltfront::reference_fem::cut
 

@@ -322,6 +322,7 @@ namespace meltfront::reference_fem::cut
     euler_steps += fresh || damped_steps > 0;
     damped_steps = std::max(0, damped_steps - 1);
     boundary_heat += state.flux_heat;
+    released_heat += state.released_heat;
     fresh = std::ranges::binary_search(breakpoints, state.time);
     if(fresh)
     {

@@ -96,7 +96,7 @@ namespace meltfront::reference_fem::cut
     double wall_jump = 0;      ///< largest of a wall's datum, while its layer is thin (K)
     double layer_resolved = 0; ///< when that layer is as thick as a cell, h^2/alpha (s)
     long step_number = 0, halved_steps = 0, capped_steps = 0, euler_steps = 0, meshes = 1;
-    double boundary_heat = 0, initial_heat = 0;
+    double boundary_heat = 0, released_heat = 0, initial_heat = 0;
 
     std::array<std::vector<double>, dim> site_positions, front_positions;
     std::vector<double> weights, temperatures, solid_fractions;

@@ -169,7 +169,7 @@ namespace meltfront::reference_fem::cut
     snapshot.cells = site_cells;
     snapshot.obeys_maximum_principle = false;
     snapshot.heat = {heat.sensible_heat(state), heat.latent_heat(state), boundary_heat,
-                     heat.sinks.energy(state.time), initial_heat};
+                     heat.sinks.energy(state.time) + released_heat, initial_heat};
     return snapshot;
   }
 

@@ -55,6 +55,8 @@ namespace meltfront::reference_fem::fitted
         }
         if(matrices)
           scatter(s, l, time, u, integrals.matrices(), *matrices);
+        if(volumetric_account != RayMesh::none)
+          add_volumetric_source(s, l, time, integrals, flow, matrices);
       }
     }
     add_walls(clock, u, mass, flow, matrices);
@@ -128,7 +130,7 @@ namespace meltfront::reference_fem::fitted
       const Metered meter(*this, cases::Effect::heat_sources);
       add_source(clock, flow);
     }
-    for(const unsigned int account : {flux_account, source_account})
+    for(const unsigned int account : {flux_account, source_account, volumetric_account})
       if(account != RayMesh::none)
       {
         mass[account] -= u[account];
@@ -201,6 +203,50 @@ namespace meltfront::reference_fem::fitted
           matrices->flow.add(flux_account, nodes[b], -by_b);
         }
       }
+    }
+  }
+
+  void FittedProblem::add_volumetric_source(unsigned int surface_cell, unsigned int layer,
+                                            double time, const CellIntegrals &integrals,
+                                            Vector<double> &flow,
+                                            Matrices *matrices) const
+  {
+    const Metered meter(*this, cases::Effect::volumetric_source);
+    const std::vector<SurfacePoint> &along = surface_points(surface_cell);
+    const Eigen::Index across = tables(layer).line.points.size();
+    // Of the derivative by the front, which Newton's method takes, six digits suffice.
+    const double step = matrices ? 1e-6 * (rays.outer - rays.inner) : 0;
+    Eigen::ArrayXd released(integrals.r.size()), slope(integrals.r.size());
+    for(Eigen::Index q = 0; q < released.size(); ++q)
+    {
+      const SurfacePoint &point = along[q / across];
+      const auto density = [&](double r)
+      {
+        cases::Position place{};
+        for(int d = 0; d < 3; ++d)
+          place[d] = point.base[d] + r * point.direction[d];
+        return laws.volumetric_source(place, time);
+      };
+      released[q] = density(integrals.r[q]);
+      if(matrices)
+        slope[q] = (density(integrals.r[q] + step) - density(integrals.r[q] - step))
+                   / (2 * step);
+    }
+    const Eigen::VectorXd local = integrals.source_flow(released);
+    const std::vector<unsigned int> nodes = nodes_of(surface_cell, layer);
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      flow[nodes[i]] += local[i];
+    flow[volumetric_account] -= local.sum();
+    if(!matrices || !rays.has_front())
+      return;
+    const Eigen::MatrixXd by_front = integrals.source_flow_front(released, slope);
+    const std::vector<unsigned int> &cell = rays.surface.cells[surface_cell];
+    for(std::size_t a = 0; a < cell.size(); ++a)
+    {
+      const unsigned int column = rays.front_node(cell[a]);
+      for(std::size_t i = 0; i < nodes.size(); ++i)
+        matrices->flow.add(nodes[i], column, by_front(i, a));
+      matrices->flow.add(volumetric_account, column, -by_front.col(a).sum());
     }
   }
 

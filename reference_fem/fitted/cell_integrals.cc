@@ -225,6 +225,20 @@ namespace meltfront::reference_fem::fitted
           * ((-area * heat * speed_by_rate).matrix().asDiagonal() * tables.rays);
   }
 
+  Eigen::VectorXd CellIntegrals::source_flow(const Array &released) const
+  {
+    return tables.value.transpose() * (physics.time_rate * weight * released).matrix();
+  }
+
+  MatrixXd CellIntegrals::source_flow_front(const Array &released,
+                                            const Array &slope) const
+  {
+    const Array by_front
+        = weight * (released * (exponent * c * per_r + c_slope / r_slope) + slope * c);
+    return tables.value.transpose()
+           * ((physics.time_rate * by_front).matrix().asDiagonal() * tables.rays);
+  }
+
   double CellIntegrals::volume() const
   {
     return weight.sum();

@@ -102,6 +102,14 @@ namespace meltfront::reference_fem::fitted
     CellVectors vectors() const;
     CellMatrices matrices() const;
 
+    /** dt/dclock int q phi of heat released throughout, by node; @p released is q at the
+     * points (W/m^3). */
+    Eigen::VectorXd source_flow(const Eigen::ArrayXd &released) const;
+
+    /** Its derivative by node and ray (h). @param slope dq/dr at the points */
+    Eigen::MatrixXd source_flow_front(const Eigen::ArrayXd &released,
+                                      const Eigen::ArrayXd &slope) const;
+
     /** Shares of the cell in the volume, and in the heat above the melting temperature.
      */
     double volume() const;

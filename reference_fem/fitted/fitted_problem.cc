@@ -71,6 +71,8 @@ namespace meltfront::reference_fem::fitted
       flux_account = n_unknowns++;
     if(laws.power)
       source_account = n_unknowns++;
+    if(laws.volumetric_source.value)
+      volumetric_account = n_unknowns++;
     if(laws.displacement != 0)
       outflow_account = n_unknowns++;
   }
@@ -101,6 +103,9 @@ namespace meltfront::reference_fem::fitted
       if(wall.boundary && wall.boundary->kind == BoundaryKind::heat_transfer)
         for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
           dynamic.add(flux_account, rays.node(ray, wall.level));
+    if(volumetric_account != RayMesh::none && rays.has_front())
+      for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+        dynamic.add(volumetric_account, rays.front_node(ray));
     if(outflow_account != RayMesh::none)
       for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
       {
@@ -227,6 +232,9 @@ namespace meltfront::reference_fem::fitted
         bytes += sizeof(double)
                  * (at_centre->value.size() + at_centre->across.size()
                     + at_centre->rays.size());
+      break;
+    case cases::Effect::volumetric_source:
+      rows.push_back(volumetric_account);
       break;
     case cases::Effect::liquid_motion:
       rows.push_back(outflow_account);
@@ -368,8 +376,9 @@ namespace meltfront::reference_fem::fitted
     for(const unsigned int account : {flux_account, outflow_account})
       if(account != RayMesh::none)
         result.walls += u[account];
-    if(source_account != RayMesh::none)
-      result.sources = u[source_account];
+    for(const unsigned int account : {source_account, volumetric_account})
+      if(account != RayMesh::none)
+        result.sources += u[account];
     return result;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -26,7 +26,8 @@ namespace meltfront::reference_fem::fitted
    * The Stefan problem on a mesh of rays that carries its front:
    *
    *   d/dclock int rho e phi = - int rho e (x' - u) . grad phi
-   *                            - dt/dclock [int k grad T . grad phi - walls - sources]
+   *                            - dt/dclock [int k grad T . grad phi - walls - sources
+   *                                         - int q phi]
    *
    * for all test functions phi, those of the front's nodes included: the sum over all of
    * them is the heat balance. Unknowns are theta = T - T_m - S by node (S the field of a
@@ -144,6 +145,9 @@ namespace meltfront::reference_fem::fitted
     void add_flux(const Wall &wall, double clock, const dealii::Vector<double> &u,
                   dealii::Vector<double> &flow, Matrices *matrices) const;
     void add_source(double clock, dealii::Vector<double> &flow) const;
+    void add_volumetric_source(unsigned int surface_cell, unsigned int layer, double time,
+                               const CellIntegrals &integrals,
+                               dealii::Vector<double> &flow, Matrices *matrices) const;
     void add_outflow(const dealii::Vector<double> &u, const dealii::Vector<double> &rate,
                      dealii::Vector<double> &flow, Matrices *matrices) const;
 
@@ -154,7 +158,7 @@ namespace meltfront::reference_fem::fitted
     std::optional<CellTables> at_centre; ///< of the innermost layer with a source
     std::array<Wall, 2> walls;
     unsigned int flux_account = RayMesh::none, source_account = RayMesh::none,
-                 outflow_account = RayMesh::none;
+                 volumetric_account = RayMesh::none, outflow_account = RayMesh::none;
     unsigned int n_unknowns = 0;
     std::vector<double> level_fixed, level_carried; ///< r = fixed + carried h by level
     double total_measure = 0;                       ///< of the surface at r = 1

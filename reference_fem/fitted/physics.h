@@ -83,6 +83,8 @@ namespace meltfront::reference_fem::fitted
     double melting_temperature = 0;
     /** Heat that a source at the centre gives off (W, W/m); empty without one. */
     std::function<double(double time)> power;
+    /** Heat released throughout (W/m^3); without a value where there is none. */
+    cases::Field volumetric_source;
     /** 1 - rho_solid/rho_liquid: how fast liquid beyond the front moves outward, of the
      * front's speed. */
     double displacement = 0;

@@ -33,6 +33,9 @@ namespace meltfront::reference_fem::fitted
       if(options.dimension > 1)
         throw cases::Refusal("fem-fitted needs a front to start from in more than one "
                              "dimension; this scene starts in one phase");
+      if(effects.contains(cases::Effect::volumetric_source))
+        throw cases::Refusal("fem-fitted needs a front to start from where heat is "
+                             "released throughout; this scene starts in one phase");
       const RunSegment segment = one_phase_stretch({scene, effects, options, rays});
       problem = segment.problem;
       initial_state = segment.state;

@@ -182,6 +182,8 @@ namespace meltfront::reference_fem::fitted
     set_walls(scene, physics);
     if(effects.contains(Effect::heat_sources))
       set_source(scene, physics);
+    if(effects.contains(Effect::volumetric_source))
+      physics.volumetric_source = *scene.volumetric_source;
     if(effects.contains(Effect::liquid_motion))
     {
       if(!solid_inside)

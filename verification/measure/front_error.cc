@@ -1,3 +1,4 @@
+#include <verification/measure/formulas/front_displacement.h>
 #include <verification/measure/formulas/run_statistics.h>
 #include <verification/measure/measure.h>
 
@@ -8,7 +9,8 @@ namespace meltfront::verification
   namespace
   {
     /** The front found less the exact one (m): by latent heat but where another reading
-     * is named. */
+     * is named. Of an exact front that no one coordinate gives, its mean displacement and
+     * the volume that is in the wrong phase, over the front's area. */
     class FrontError : public Measure
     {
     public:
@@ -16,6 +18,9 @@ namespace meltfront::verification
 
       void observe(const Sighting &sighting) override
       {
+        const auto &solution = run.the_case.exact;
+        if(solution && solution->has_front() && !solution->depends_on_one_coordinate())
+          return displace(sighting, *solution);
         const FrontReading &found = sighting.front;
         const double exact = sighting.exact_front, time = sighting.snapshot.time;
         if(sighting.at_end)
@@ -43,6 +48,7 @@ namespace meltfront::verification
         all["front_isotherm_rms"] = isotherm.root_mean_square();
         all["front_max_ice_rms"] = max_ice.root_mean_square();
         all["front_heat_loss_rms"] = heat_loss.root_mean_square();
+        all["front_mismatch_rms"] = mismatch.mean_over_time();
         if(run.the_case.measurement.front_floor > 0)
           all["front_floor"] = run.the_case.measurement.front_floor;
         if(!run.the_case.exact)
@@ -56,7 +62,20 @@ namespace meltfront::verification
       }
 
     private:
-      ErrorStatistics front, late_front, isotherm, max_ice, heat_loss;
+      void displace(const Sighting &sighting, const cases::ExactSolution &solution)
+      {
+        if(!sighting.front_counts && !sighting.at_end)
+          return;
+        const FrontDisplacement found = front_displacement(sighting.snapshot, solution);
+        if(sighting.at_end)
+          values["front_end"] = std::abs(found.mean);
+        if(!sighting.front_counts)
+          return;
+        front.add(found.mean);
+        mismatch.add(found.mismatch);
+      }
+
+      ErrorStatistics mismatch, front, late_front, isotherm, max_ice, heat_loss;
     };
   } // namespace
 
@@ -75,6 +94,7 @@ namespace meltfront::verification
                         when_asked, 1),
          error_quantity("front_end_relative", "front, end", "relative", when_asked, 1),
          error_quantity("front_max", "front, maximum", "m", when_asked),
+         error_quantity("front_mismatch_rms", "in the wrong phase, RMS", "m", always),
          hidden_quantity("front_rms_relative"), hidden_quantity("front_end_position"),
          hidden_quantity("front_floor")},
         MeasuredScenes::with_heat,

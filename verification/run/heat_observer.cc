@@ -67,14 +67,15 @@ namespace meltfront::verification
     sighting.bounds = checks->bounds();
     // Where no phase changes there is no front to read.
     const bool changes_phase = scene.changes_phase();
+    const bool one_coordinate = !exact || exact->depends_on_one_coordinate();
     sighting.solid_volume = changes_phase ? solid_volume(snapshot) : nan;
-    sighting.front
-        = changes_phase ? reader->read(snapshot) : FrontReading{nan, nan, nan, nan};
+    sighting.front = changes_phase && one_coordinate ? reader->read(snapshot)
+                                                     : FrontReading{nan, nan, nan, nan};
     sighting.coordinates = &reader->coordinates(snapshot);
     sighting.exact_front = exact_front(snapshot.time);
     // Steps that are wanted for an intermediate time only would weigh its neighbourhood.
     sighting.front_counts = (sighting.in_series || the_case.measurement.samples == 0)
-                            && !std::isnan(sighting.exact_front)
+                            && (!one_coordinate || !std::isnan(sighting.exact_front))
                             && !(snapshot.step == 0 && sighting.exact_front == 0);
     observe_with_all(sighting);
     if(sighting.in_series)

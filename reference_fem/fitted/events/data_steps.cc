@@ -248,6 +248,30 @@ namespace meltfront::reference_fem::fitted
       const Phase &phase = problem.physics().phases[layer.phase];
       return spacing * spacing / 3 * phase.capacity / phase.conductivity;
     }
+
+    /** Heat released throughout, at some places along some of the rays. */
+    void add_volumetric_source(const FittedProblem &problem, TimeData &data)
+    {
+      const cases::Field &field = problem.physics().volumetric_source;
+      if(!field.value || field.constant)
+        return;
+      data.breakpoints.insert(data.breakpoints.end(), field.breakpoints.begin(),
+                              field.breakpoints.end());
+      constexpr int places = 3;
+      const RayMesh &mesh = problem.mesh();
+      const unsigned int n = mesh.surface.n_rays(),
+                         looked_at = std::min(n, rays_looked_at);
+      for(unsigned int k = 0; k < looked_at; ++k)
+        for(int i = 0; i < places; ++i)
+        {
+          const double share = (i + 0.5) / places;
+          data.values.push_back(
+              [&field, place = mesh.position(
+                           k * n / looked_at,
+                           mesh.inner + share * (mesh.outer - mesh.inner))](double time)
+              { return field(place, time); });
+        }
+    }
   } // namespace
 
   TimeData data_of(const FittedProblem &problem, const dealii::Vector<double> &u)
@@ -282,6 +306,7 @@ namespace meltfront::reference_fem::fitted
     }
     if(physics.power)
       data.values.push_back(physics.power);
+    add_volumetric_source(problem, data);
     std::ranges::sort(data.breakpoints);
     return data;
   }

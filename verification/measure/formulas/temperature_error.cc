@@ -19,7 +19,7 @@ namespace meltfront::verification
                            const cases::Snapshot &snapshot, double coordinate,
                            std::size_t site)
   {
-    return exact.has_front()
+    return exact.depends_on_one_coordinate()
                ? exact.temperature(coordinate, snapshot.time)
                : exact.temperature(site_position(snapshot, site), snapshot.time);
   }

@@ -16,11 +16,14 @@ namespace meltfront::verification
       return boundary.exact ? "temperature of the exact solution"
                             : "fixed temperature " + boundary.value.expression;
     case cases::BoundaryKind::flux:
-      return "heat flux inward " + boundary.value.expression;
+      return boundary.exact ? "heat flux of the exact solution"
+                            : "heat flux inward " + boundary.value.expression;
     case cases::BoundaryKind::heat_transfer:
-      return fmt::format("heat transfer with the ambient temperature {}, coefficient "
-                         "{:.6g}",
-                         boundary.value.expression, boundary.heat_transfer_coefficient);
+      return fmt::format(
+          "heat transfer with the ambient temperature {}, coefficient {:.6g}",
+          boundary.exact ? "that makes the exact solution's flux"
+                         : boundary.value.expression,
+          boundary.heat_transfer_coefficient);
     default:
       return cases::to_string(boundary.kind);
     }
