@@ -87,8 +87,8 @@ namespace meltfront::cases
     virtual FrontDerivatives derivatives(const Position &position, double time) const = 0;
 
     /**
-     * Distance to the front (m), negative in the solid: closed for plane, disk and ball.
-     * For the others see distance_to_front().
+     * Distance to the front (m), negative in the solid: closed for plane, disk and ball,
+     * by a search for the others, see manufactured::distance_to_front().
      */
     virtual double signed_distance(const Position &position, double time) const;
 

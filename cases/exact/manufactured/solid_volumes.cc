@@ -18,8 +18,7 @@ namespace meltfront::cases::manufactured
   {
     using std::numbers::pi;
 
-    /** Half the square of the finger's half width, or of what is missing to a width: x^2
-     * (1 - x/0.6)/2 + neck. */
+    /** Of the finger; negative where there is none. */
     double square_of_half_width(double x, double neck)
     {
       return x * x * (0.5 - x / 1.2) + neck;
