@@ -1,6 +1,7 @@
 #include <cases/exact_solution.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace meltfront::cases
 {
@@ -14,5 +15,10 @@ namespace meltfront::cases
     const double split = std::clamp(front(time), lower, upper);
     return solid_at_origin() ? volume_between(symmetry(), lower, split)
                              : volume_between(symmetry(), split, upper);
+  }
+
+  double ExactSolution::solid_volume(double) const
+  {
+    return std::numeric_limits<double>::quiet_NaN();
   }
 } // namespace meltfront::cases

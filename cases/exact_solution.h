@@ -11,9 +11,11 @@ namespace meltfront::cases
    * What is known exactly of a scene: temperature, front and heat content at any point
    * and time.
    *
-   * Solutions with a front are symmetric: they depend on one coordinate, x in a planar
-   * scene and the distance r from the axis or the centre in a cylindrical or spherical
-   * one. Without a front only the temperature at a point is asked for.
+   * Most solutions with a front are symmetric: they depend on one coordinate, x in a
+   * planar scene and the distance r from the axis or the centre in a cylindrical or
+   * spherical one. Of those that depends_on_one_coordinate() excepts, all that takes a
+   * coordinate is not a number. Without a front only the temperature at a point is asked
+   * for.
    */
   class ExactSolution
   {
@@ -25,10 +27,16 @@ namespace meltfront::cases
 
     virtual Symmetry symmetry() const = 0;
 
-    /** Whether there is a front, and with it all that depends on one coordinate. */
+    /** Whether there is a front. */
     virtual bool has_front() const
     {
       return true;
+    }
+
+    /** Whether there is a front at one coordinate, and with it all that takes one. */
+    virtual bool depends_on_one_coordinate() const
+    {
+      return has_front();
     }
 
     /** First time at which it may be evaluated (s); usually 0. */
@@ -56,6 +64,16 @@ namespace meltfront::cases
      */
     virtual double solid_volume(double lower, double upper, double time) const;
 
+    /** The solid's volume in the solution's whole domain (m, m^2, m^3); not a number
+     * where that is unknown. */
+    virtual double solid_volume(double time) const;
+
+    /** Heat released at a point per volume and time (W/m^3). */
+    virtual double volumetric_source(const Position &, double) const
+    {
+      return 0;
+    }
+
     /** Whether solid and liquid are mixed behind the front: the front is then where the
      * first crystals stand. */
     virtual bool mushy() const
@@ -78,8 +96,9 @@ namespace meltfront::cases
       return temperature(coordinate(symmetry(), position), time);
     }
 
-    /** Signed distance to the front (m): negative in the phase that holds the origin. */
-    double signed_distance(const Position &position, double time) const
+    /** Signed distance to the front (m): negative in the phase that holds the origin, or
+     * rather in the solid if solid_at_origin(). */
+    virtual double signed_distance(const Position &position, double time) const
     {
       return coordinate(symmetry(), position) - front(time);
     }

@@ -1,0 +1,250 @@
+#include <cases/error.h>
+#include <cases/exact/manufactured/formulas.h>
+#include <cases/exact/manufactured/front_family.h>
+#include <cases/exact/manufactured/jet.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    using manufactured::Jet;
+    using manufactured::TimeJet;
+
+    /** Where the coefficients stand of x_i x_j^n dt^time. */
+    template <int dim>
+    constexpr auto places(int n, int time)
+    {
+      std::array<std::array<std::size_t, dim>, dim> table{};
+      for(int i = 0; i < dim; ++i)
+        for(int j = 0; j < dim; ++j)
+        {
+          std::array<int, 3> exponents{};
+          exponents[i] = 1;
+          exponents[j] += n;
+          table[i][j] = manufactured::Monomials<dim>::index({exponents, time});
+        }
+      return table;
+    }
+
+    template <int dim>
+    FrontDerivatives derivatives_of(const Jet<dim> &f)
+    {
+      using Terms = manufactured::Monomials<dim>;
+      static constexpr auto second = places<dim>(1, 0), second_rate = places<dim>(1, 1),
+                            third = places<dim>(2, 0);
+      FrontDerivatives result;
+      result.value = f.c[0];
+      result.rate = f.c[Terms::timeless];
+      result.acceleration = 2 * f.c[Terms::count - 1];
+      for(int i = 0; i < dim; ++i)
+      {
+        result.gradient[i] = f.c[1 + i];
+        result.gradient_rate[i] = f.c[Terms::timeless + 1 + i];
+        result.laplacian += 2 * f.c[second[i][i]];
+        result.laplacian_rate += 2 * f.c[second_rate[i][i]];
+        for(int j = 0; j < dim; ++j)
+        {
+          result.hessian[i][j] = (i == j ? 2 : 1) * f.c[second[i][j]];
+          result.laplacian_gradient[i] += (i == j ? 6 : 2) * f.c[third[i][j]];
+        }
+      }
+      return result;
+    }
+
+    /** A formula in its lengths and times, seen in metres and seconds; dim is that of the
+     * formula, which for a slab is more than the family's. */
+    template <typename Formula, int dim>
+    class FormulaFamily : public FrontFamily
+    {
+    public:
+      FormulaFamily(const FamilyParameters &parameters, const Formula &formula)
+        : FrontFamily(parameters)
+        , formula(formula)
+        , scale(parameters.length_scale)
+      {
+      }
+
+      double kappa() const override
+      {
+        return Formula::kappa / scale;
+      }
+
+      double level_set(const Position &position, double time) const override
+      {
+        std::array<double, dim> x;
+        for(int d = 0; d < dim; ++d)
+          x[d] = position[d] / scale;
+        return scale * formula(x, time / period());
+      }
+
+      FrontDerivatives derivatives(const Position &position, double time) const override
+      {
+        std::array<Jet<dim>, dim> x;
+        for(int d = 0; d < dim; ++d)
+          x[d] = Jet<dim>::variable(d, position[d] / scale, 1 / scale);
+        return derivatives_of(scale * formula(x, tau(time)));
+      }
+
+      double signed_distance(const Position &position, double time) const override
+      {
+        if constexpr(has_place)
+          return position[0] - scale * formula.place(time / period());
+        else if constexpr(has_uniform_curvature)
+          return std::hypot(position[0], position[1], dim == 3 ? position[2] : 0)
+                 - scale * formula.radius(time / period());
+        else
+          return FrontFamily::signed_distance(position, time);
+      }
+
+      double solid_volume(double time) const override
+      {
+        const double unscaled = formula.solid_volume(time / period(), dimension());
+        return unscaled * (dimension() == 1 ? scale : scale * scale)
+               * (dimension() == 3 ? scale : 1);
+      }
+
+      std::optional<UniformCurvature> uniform_curvature(double time) const override
+      {
+        if constexpr(has_place)
+          return UniformCurvature{0, 0};
+        else if constexpr(has_uniform_curvature)
+        {
+          const TimeJet k
+              = TimeJet(dim - 1) / (TimeJet(scale) * formula.radius(tau(time)));
+          return UniformCurvature{k.c[0], k.c[1]};
+        }
+        else
+          return FrontFamily::uniform_curvature(time);
+      }
+
+      std::pair<Position, Position> domain() const override
+      {
+        std::pair<Position, Position> box{};
+        for(int d = 0; d < dimension(); ++d)
+        {
+          box.first[d] = scale * Formula::lower[d];
+          box.second[d] = scale * Formula::upper[d];
+        }
+        return box;
+      }
+
+      bool merges() const override
+      {
+        return has_saddle;
+      }
+
+    protected:
+      const char *what() const override
+      {
+        return Formula::what;
+      }
+
+    private:
+      static constexpr bool has_place = std::is_same_v<Formula, manufactured::Plane>;
+      static constexpr bool has_uniform_curvature
+          = std::is_same_v<Formula, manufactured::Disk>;
+      static constexpr bool has_saddle
+          = std::is_same_v<
+                Formula,
+                manufactured::TwoDisks> || std::is_same_v<Formula, manufactured::Finger>;
+
+      Formula formula;
+      double scale;
+
+      TimeJet tau(double time) const
+      {
+        return {time / period(), 1 / period(), 0};
+      }
+    };
+
+    using Family = std::shared_ptr<const FrontFamily>;
+
+    template <typename Formula>
+    Family in_two_or_three(const FamilyParameters &parameters, const Formula &formula)
+    {
+      if(parameters.dimension == 3)
+        return std::make_shared<FormulaFamily<Formula, 3>>(parameters, formula);
+      return std::make_shared<FormulaFamily<Formula, 2>>(parameters, formula);
+    }
+
+    struct Entry
+    {
+      int least_dimension, greatest_dimension;
+      std::function<Family(const FamilyParameters &)> make;
+    };
+
+    const std::map<std::string, Entry> &families()
+    {
+      using namespace manufactured;
+      using Parameters = FamilyParameters;
+      static const std::map<std::string, Entry> all{
+          {"plane",
+           {1, 3, [](const Parameters &p) { return in_two_or_three(p, Plane()); }}},
+          {"disk",
+           {2, 3, [](const Parameters &p) { return in_two_or_three(p, Disk()); }}},
+          {"star-3",
+           {2, 2,
+            [](const Parameters &p) {
+              return std::make_shared<FormulaFamily<Star, 2>>(p, three_pointed_star());
+            }}},
+          {"star-5",
+           {2, 2,
+            [](const Parameters &p) {
+              return std::make_shared<FormulaFamily<Star, 2>>(p, five_pointed_star());
+            }}},
+          {"ellipse",
+           {2, 3, [](const Parameters &p) { return in_two_or_three(p, Ellipse()); }}},
+          {"two-disks",
+           {2, 3,
+            [](const Parameters &p) { return in_two_or_three(p, TwoDisks{p.power}); }}},
+          {"finger", {2, 3, [](const Parameters &p) {
+                        return in_two_or_three(p, Finger{p.power});
+                      }}}};
+      return all;
+    }
+
+    void require_positive(double value, const std::string &name, const char *what)
+    {
+      if(!(value > 0) || !std::isfinite(value))
+        throw InputError(fmt::format("moving front '{}': the {} must be positive, not {}",
+                                     name, what, value));
+    }
+  } // namespace
+
+  std::vector<std::string> front_family_names()
+  {
+    std::vector<std::string> names;
+    for(const auto &[name, entry] : families())
+      names.push_back(name);
+    return names;
+  }
+
+  std::shared_ptr<const FrontFamily> make_front_family(const FamilyParameters &parameters)
+  {
+    const std::string &name = parameters.name;
+    const auto found = families().find(name);
+    if(found == families().end())
+      throw InputError(fmt::format("no moving front is named '{}', only {}", name,
+                                   fmt::join(front_family_names(), ", ")));
+    const Entry &entry = found->second;
+    if(parameters.dimension < entry.least_dimension
+       || parameters.dimension > entry.greatest_dimension)
+      throw InputError(fmt::format(
+          "moving front '{}': the dimension must be from {} to {}, not {}", name,
+          entry.least_dimension, entry.greatest_dimension, parameters.dimension));
+    require_positive(parameters.period, name, "period");
+    require_positive(parameters.length_scale, name, "length scale");
+    if(parameters.power < 2)
+      throw InputError(fmt::format(
+          "moving front '{}': the power of the merge must be at least 2, not {}", name,
+          parameters.power));
+    return entry.make(parameters);
+  }
+} // namespace meltfront::cases

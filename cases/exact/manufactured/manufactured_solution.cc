@@ -1,0 +1,238 @@
+#include <cases/error.h>
+#include <cases/exact/check_material.h>
+#include <cases/exact/manufactured/manufactured_solution.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace meltfront::cases
+{
+  namespace
+  {
+    using Vector = std::array<double, 3>;
+
+    constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+    const char *const solution_name = "manufactured solution";
+
+    /** Of D, which has no unit: as good as zero, where squares of its inverse overflow.
+     */
+    constexpr double vanishing = 1e-60;
+
+    double product(const Vector &a, const Vector &b)
+    {
+      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+
+    Vector product(const std::array<Vector, 3> &matrix, const Vector &a)
+    {
+      return {product(matrix[0], a), product(matrix[1], a), product(matrix[2], a)};
+    }
+
+    double square_norm(const std::array<Vector, 3> &matrix)
+    {
+      return product(matrix[0], matrix[0]) + product(matrix[1], matrix[1])
+             + product(matrix[2], matrix[2]);
+    }
+
+    const Material &checked(const Material &material, const FrontFamily &family,
+                            double base_flux, double rounding)
+    {
+      check_material(material, solution_name);
+      const auto require_positive = [](double value, const char *what)
+      {
+        if(!(value > 0) || !std::isfinite(value))
+          throw InputError(fmt::format("{}: the {} must be positive, not {}",
+                                       solution_name, what, value));
+      };
+      require_positive(base_flux, "base flux");
+      require_positive(rounding, "rounding of the flux");
+      if(material.gibbs_thomson_coefficient != 0 && !family.uniform_curvature(0))
+        throw InputError(
+            fmt::format("{}: the Gibbs-Thomson effect is known only for fronts "
+                        "of uniform curvature, not for '{}'",
+                        solution_name, family.name()));
+      return material;
+    }
+  } // namespace
+
+  /** b_j of a phase and what its derivatives are made of; gradients with those of f. */
+  struct ManufacturedSolution::Profile
+  {
+    double side;        ///< of f: -1 in the solid, 1 in the liquid
+    double square;      ///< |grad f|^2
+    double denominator; ///< D
+    double latent_flux; ///< J
+    double flux;        ///< b
+    double slope;       ///< db/dJ
+    double bend;        ///< d2b/dJ2
+    Vector D_gradient;
+    Vector J_gradient;
+  };
+
+  ManufacturedSolution::ManufacturedSolution(const Material &material,
+                                             std::shared_ptr<const FrontFamily> family,
+                                             double base_flux, double rounding)
+    : material(checked(material, *family, base_flux, rounding))
+    , the_family(std::move(family))
+    , base_flux(base_flux)
+    , rounding(rounding)
+  {
+  }
+
+  ManufacturedSolution::ManufacturedSolution(const Material &material,
+                                             std::shared_ptr<const FrontFamily> family,
+                                             double base_flux)
+    : ManufacturedSolution(material, std::move(family), base_flux, base_flux)
+  {
+  }
+
+  const FrontFamily &ManufacturedSolution::family() const
+  {
+    return *the_family;
+  }
+
+  std::string ManufacturedSolution::description() const
+  {
+    return fmt::format("{}: {}, base flux {:.12g} W/m^2, rounding {:.12g} W/m^2",
+                       solution_name, the_family->description(), base_flux, rounding);
+  }
+
+  Symmetry ManufacturedSolution::symmetry() const
+  {
+    return Symmetry::none;
+  }
+
+  bool ManufacturedSolution::depends_on_one_coordinate() const
+  {
+    return false;
+  }
+
+  const PhaseProperties &ManufacturedSolution::phase(const FrontDerivatives &f) const
+  {
+    return f.value < 0 ? material.solid : material.liquid;
+  }
+
+  ManufacturedSolution::Profile
+  ManufacturedSolution::profile(const FrontDerivatives &f) const
+  {
+    Profile p;
+    p.side = f.value < 0 ? -1 : 1;
+    const double kappa = p.side * the_family->kappa();
+    const double latent_heat = material.solid.density * material.latent_heat;
+    p.square = f.square_of_gradient();
+    p.denominator = p.square + kappa * f.value;
+    p.latent_flux = p.denominator > vanishing ? -latent_heat * f.rate / p.denominator : 0;
+    const double root = std::hypot(p.latent_flux, rounding);
+    p.flux = base_flux + (root - p.side * p.latent_flux) / 2;
+    p.slope = (p.latent_flux / root - p.side) / 2;
+    p.bend = rounding * rounding / (2 * root * root * root);
+    const Vector turning = product(f.hessian, f.gradient);
+    for(int d = 0; d < 3; ++d)
+    {
+      p.D_gradient[d] = 2 * turning[d] + kappa * f.gradient[d];
+      p.J_gradient[d]
+          = p.denominator > vanishing
+                ? -(latent_heat * f.gradient_rate[d] + p.latent_flux * p.D_gradient[d])
+                      / p.denominator
+                : 0;
+    }
+    return p;
+  }
+
+  double ManufacturedSolution::temperature(const Position &position, double time) const
+  {
+    const FrontDerivatives f = the_family->derivatives(position, time);
+    const auto curvature = the_family->uniform_curvature(time);
+    const double theta
+        = curvature ? -material.gibbs_thomson_coefficient * curvature->value : 0;
+    return material.melting_temperature + theta
+           + profile(f).flux * f.value / phase(f).conductivity;
+  }
+
+  double ManufacturedSolution::volumetric_source(const Position &position,
+                                                 double time) const
+  {
+    const FrontDerivatives f = the_family->derivatives(position, time);
+    const Profile p = profile(f);
+    if(p.denominator <= vanishing)
+      return 0;
+    const double kappa = p.side * the_family->kappa();
+    const double latent_heat = material.solid.density * material.latent_heat;
+    const double D_laplacian
+        = 2 * (square_norm(f.hessian) + product(f.gradient, f.laplacian_gradient))
+          + kappa * f.laplacian;
+    const double D_rate = 2 * product(f.gradient, f.gradient_rate) + kappa * f.rate;
+    const double J_laplacian
+        = -(latent_heat * f.laplacian_rate + 2 * product(p.J_gradient, p.D_gradient)
+            + p.latent_flux * D_laplacian)
+          / p.denominator;
+    const double J_rate
+        = -(latent_heat * f.acceleration + p.latent_flux * D_rate) / p.denominator;
+
+    const double heating = p.slope * J_rate * f.value + p.flux * f.rate;
+    const double conduction
+        = p.flux * f.laplacian + 2 * p.slope * product(p.J_gradient, f.gradient)
+          + f.value
+                * (p.slope * J_laplacian + p.bend * product(p.J_gradient, p.J_gradient));
+    const auto curvature = the_family->uniform_curvature(time);
+    const double theta_rate
+        = curvature ? -material.gibbs_thomson_coefficient * curvature->rate : 0;
+    return phase(f).volumetric_heat_capacity()
+               * (theta_rate + heating / phase(f).conductivity)
+           - conduction;
+  }
+
+  ManufacturedSolution::Vector ManufacturedSolution::heat_flux(const Position &position,
+                                                               double time) const
+  {
+    const FrontDerivatives f = the_family->derivatives(position, time);
+    const Profile p = profile(f);
+    Vector flux;
+    for(int d = 0; d < 3; ++d)
+      flux[d] = p.flux * f.gradient[d] + f.value * p.slope * p.J_gradient[d];
+    return flux;
+  }
+
+  double ManufacturedSolution::level_set(const Position &position, double time) const
+  {
+    return the_family->level_set(position, time);
+  }
+
+  double ManufacturedSolution::signed_distance(const Position &position,
+                                               double time) const
+  {
+    return the_family->signed_distance(position, time);
+  }
+
+  double ManufacturedSolution::curvature(const Position &position, double time) const
+  {
+    return the_family->derivatives(position, time).curvature();
+  }
+
+  double ManufacturedSolution::solid_volume(double time) const
+  {
+    return the_family->solid_volume(time);
+  }
+
+  double ManufacturedSolution::temperature(double, double) const
+  {
+    return not_a_number;
+  }
+
+  double ManufacturedSolution::front(double) const
+  {
+    return not_a_number;
+  }
+
+  double ManufacturedSolution::heat_content(double, double, double) const
+  {
+    return not_a_number;
+  }
+
+  double ManufacturedSolution::solid_fraction(double, double) const
+  {
+    return not_a_number;
+  }
+} // namespace meltfront::cases
