@@ -109,6 +109,7 @@ namespace meltfront::reference_fem::cut
     heat.set_front(state, signed_distance_to_zeros(*state.mesh, level_set));
     require_resolved();
     heat.project(state, temperature);
+    unknowns_at_start = heat.unknowns;
     step_number = found.time > scene.start_time ? 1 : 0;
     check(state);
     damp_jump(

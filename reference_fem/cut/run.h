@@ -88,6 +88,7 @@ namespace meltfront::reference_fem::cut
     cases::TemperatureBounds bounds;
     std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
     std::string start_in_words;
+    long unknowns_at_start = 0;
 
     std::optional<State> older;
     double last_step = 0;

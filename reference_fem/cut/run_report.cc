@@ -15,7 +15,7 @@ namespace meltfront::reference_fem::cut
     result.spacing = state.mesh->spacing;
     result.time_step
         = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
-    result.unknowns = heat.unknowns;
+    result.unknowns = unknowns_at_start;
     result.parameters = {
         {"elements",
          fmt::format("degree {}, each phase on the cells that it cuts", options.degree),

@@ -11,11 +11,11 @@ namespace meltfront::particles::rkpm_tracked
     result.dimension = 2;
     result.spacing = nodes.spacing;
     result.time_step = (scene.end_time - scene.start_time) / parameters.steps;
-    result.unknowns = static_cast<long>(nodes.size() + state.front.size());
+    result.unknowns = static_cast<long>(nodes.size() + front_at_start);
     result.parameters
         = {{"start", start_in_words, ""},
            {"nodes", fmt::format("{}", nodes.size()), "1"},
-           {"front particles at the start", fmt::format("{}", state.front.size()), "1"},
+           {"front particles at the start", fmt::format("{}", front_at_start), "1"},
            {"basis order", fmt::format("{}", parameters.basis_order), "1"},
            {"largest condition number of moment matrices at the front's start",
             fmt::format("{:.3g}", condition), "1"},

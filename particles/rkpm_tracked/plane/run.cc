@@ -127,6 +127,7 @@ namespace meltfront::particles::rkpm_tracked
     heat.expand(state);
     marked.seed(state.front, heat.settings.solid_beyond);
     condition = heat.worst_condition(state);
+    front_at_start = state.front.size();
     step_number = found.time > scene.start_time ? 1 : 0;
     check(state);
   }

@@ -81,6 +81,7 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
     double released_heat = 0;        ///< throughout the domain (J/m)
     std::string start_in_words;
+    std::size_t front_at_start = 0; ///< particles
     PlaneState state;
     std::optional<PlaneState> older;
     double last_step = 0;
