@@ -21,4 +21,9 @@ namespace meltfront::cases
   {
     return std::numeric_limits<double>::quiet_NaN();
   }
+
+  double ExactSolution::front_area(double) const
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 } // namespace meltfront::cases

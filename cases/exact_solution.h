@@ -68,6 +68,10 @@ namespace meltfront::cases
      * where that is unknown. */
     virtual double solid_volume(double time) const;
 
+    /** Area of the front in the solution's whole domain (1, m, m^2); not a number where
+     * that is unknown. */
+    virtual double front_area(double time) const;
+
     /** Heat released at a point per volume and time (W/m^3). */
     virtual double volumetric_source(const Position &, double) const
     {
@@ -83,6 +87,12 @@ namespace meltfront::cases
 
     /** Mass fraction of solid: 0 or 1 but in a mush. */
     virtual double solid_fraction(double coordinate, double time) const;
+
+    /** The same at a point of space. */
+    virtual double solid_fraction(const Position &position, double time) const
+    {
+      return solid_fraction(coordinate(symmetry(), position), time);
+    }
 
     /** Mass of the first solute over all the mass at a coordinate. */
     virtual double concentration(double, double) const

@@ -94,7 +94,7 @@ namespace meltfront::verification
                         when_asked, 1),
          error_quantity("front_end_relative", "front, end", "relative", when_asked, 1),
          error_quantity("front_max", "front, maximum", "m", when_asked),
-         error_quantity("front_mismatch_rms", "in the wrong phase, RMS", "m", always),
+         error_quantity("front_mismatch_rms", "in the wrong phase, RMS", "m", when_asked),
          hidden_quantity("front_rms_relative"), hidden_quantity("front_end_position"),
          hidden_quantity("front_floor")},
         MeasuredScenes::with_heat,

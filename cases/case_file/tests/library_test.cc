@@ -170,7 +170,7 @@ TEST(Library, ExactSolutionsSatisfyTheirHeldWallsAndInitialStates)
     for(const double share : {0.11, 0.37, 0.73, 0.99})
     {
       const double x = inner + share * (side - inner);
-      EXPECT_NEAR(c.exact->temperature(x, scene.start_time),
+      EXPECT_NEAR(c.exact->temperature(Position{x, 0, 0}, scene.start_time),
                   scene.initial.temperature({x, 0, 0}, scene.start_time), 1e-9 * span)
           << name;
     }

@@ -1,9 +1,12 @@
 #include <cases/error.h>
 #include <cases/exact/check_material.h>
+#include <cases/exact/heat_quadrature.h>
+#include <cases/exact/manufactured/front_area.h>
 #include <cases/exact/manufactured/manufactured_solution.h>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +37,17 @@ namespace meltfront::cases
     {
       return product(matrix[0], matrix[0]) + product(matrix[1], matrix[1])
              + product(matrix[2], matrix[2]);
+    }
+
+    /** Fronts of uniform curvature are at one coordinate. */
+    Symmetry symmetry_of(const FrontFamily &family)
+    {
+      const auto curvature = family.uniform_curvature(0);
+      if(!curvature)
+        return Symmetry::none;
+      return curvature->value == 0     ? Symmetry::planar
+             : family.dimension() == 2 ? Symmetry::cylindrical
+                                       : Symmetry::spherical;
     }
 
     const Material &checked(const Material &material, const FrontFamily &family,
@@ -78,6 +92,7 @@ namespace meltfront::cases
     , the_family(std::move(family))
     , base_flux(base_flux)
     , rounding(rounding)
+    , the_symmetry(symmetry_of(*the_family))
   {
   }
 
@@ -101,12 +116,12 @@ namespace meltfront::cases
 
   Symmetry ManufacturedSolution::symmetry() const
   {
-    return Symmetry::none;
+    return the_symmetry;
   }
 
   bool ManufacturedSolution::depends_on_one_coordinate() const
   {
-    return false;
+    return the_symmetry != Symmetry::none;
   }
 
   const PhaseProperties &ManufacturedSolution::phase(const FrontDerivatives &f) const
@@ -216,23 +231,50 @@ namespace meltfront::cases
     return the_family->solid_volume(time);
   }
 
-  double ManufacturedSolution::temperature(double, double) const
+  double ManufacturedSolution::solid_fraction(const Position &position, double time) const
   {
-    return not_a_number;
+    return level_set(position, time) < 0;
   }
 
-  double ManufacturedSolution::front(double) const
+  double ManufacturedSolution::front_area(double time) const
   {
-    return not_a_number;
+    return manufactured::front_area(*the_family, time);
   }
 
-  double ManufacturedSolution::heat_content(double, double, double) const
+  double ManufacturedSolution::temperature(double coordinate, double time) const
   {
-    return not_a_number;
+    return depends_on_one_coordinate() ? temperature(Position{coordinate, 0, 0}, time)
+                                       : not_a_number;
   }
 
-  double ManufacturedSolution::solid_fraction(double, double) const
+  double ManufacturedSolution::front(double time) const
   {
-    return not_a_number;
+    return depends_on_one_coordinate() ? -signed_distance({}, time) : not_a_number;
+  }
+
+  double ManufacturedSolution::heat_content(double lower, double upper, double time) const
+  {
+    if(!depends_on_one_coordinate())
+      return not_a_number;
+    const double split = std::clamp(front(time), lower, upper);
+    // Of a panel, its share of the length over which the temperature is smooth.
+    const double panel = the_family->parameters().length_scale / 8;
+    const auto sensible = [&](double from, double to)
+    {
+      return integrate_panels(
+          the_symmetry, from, to,
+          [&](double r) { return temperature(r, time) - material.melting_temperature; },
+          [panel](double) { return panel; });
+    };
+    return material.solid.volumetric_heat_capacity() * sensible(lower, split)
+           + material.liquid.volumetric_heat_capacity() * sensible(split, upper)
+           + material.solid.density * material.latent_heat
+                 * volume_between(the_symmetry, split, upper);
+  }
+
+  double ManufacturedSolution::solid_fraction(double coordinate, double time) const
+  {
+    return depends_on_one_coordinate() ? solid_fraction(Position{coordinate, 0, 0}, time)
+                                       : not_a_number;
   }
 } // namespace meltfront::cases

@@ -31,7 +31,8 @@ namespace meltfront::cases
    * The latent heat per volume is rho_s L everywhere (nothing flows); each phase has its
    * own rho_j c_j. The source jumps at the front and is taken by the sign of f.
    *
-   * What takes a coordinate instead of a position is not a number.
+   * Plane, disk and ball are solutions of one coordinate; of the others what takes a
+   * coordinate instead of a position is not a number.
    */
   class ManufacturedSolution : public ExactSolution
   {
@@ -58,7 +59,8 @@ namespace meltfront::cases
     const FrontFamily &family() const;
     std::string description() const override;
 
-    /** Symmetry::none: the measure is that of the family's dimension. */
+    /** That of plane, disk and ball; of the others Symmetry::none, whose measure is that
+     * of the family's dimension. */
     Symmetry symmetry() const override;
     bool depends_on_one_coordinate() const override;
 
@@ -86,7 +88,14 @@ namespace meltfront::cases
     /** Within the family's domain. */
     double solid_volume(double time) const override;
 
-    /** Not a number, as the three below: the front is not at one coordinate. */
+    /** The share of phases by the sign of f: 0 or 1. */
+    double solid_fraction(const Position &position, double time) const override;
+
+    /** By distances to the front at the nodes of a grid of the family's domain: its area,
+     * or its length in the plane, to about 1e-3 (m^(d-1)). */
+    double front_area(double time) const override;
+
+    // Of plane, disk and ball; else not a number.
     double temperature(double coordinate, double time) const override;
     double front(double time) const override;
     double heat_content(double lower, double upper, double time) const override;
@@ -99,6 +108,7 @@ namespace meltfront::cases
     std::shared_ptr<const FrontFamily> the_family;
     double base_flux;
     double rounding;
+    Symmetry the_symmetry;
 
     Profile profile(const FrontDerivatives &f) const;
     const PhaseProperties &phase(const FrontDerivatives &f) const;

@@ -142,6 +142,20 @@ namespace meltfront::reference_fem::fitted
       EXPECT_LT(worst_difference(FrontSurface::sphere(2, 1), 0, laws, 0.1), 1e-7);
     }
 
+    TEST(FittedDerivatives, MatchDifferencesWithHeatReleasedThroughout)
+    {
+      Physics laws = physics();
+      laws.volumetric_source = {"", [](const cases::Position &p, double time) {
+                                  return 5 * std::sin(3 * p[0] + 2 * p[1] - p[2] + time);
+                                }};
+      EXPECT_LT(worst_difference(FrontSurface::point(3, 2, 0), 0.2, laws, 0), 1e-7);
+      EXPECT_LT(worst_difference(FrontSurface::point(3, 12.6, 2), 0, laws, 0), 1e-7);
+      EXPECT_LT(worst_difference(FrontSurface::line(3, 2, 0, 1, false), 0, laws, 0.1),
+                1e-7);
+      EXPECT_LT(worst_difference(FrontSurface::circle(3, 4), 0, laws, 0.1), 1e-7);
+      EXPECT_LT(worst_difference(FrontSurface::sphere(2, 1), 0.2, laws, 0.1), 1e-7);
+    }
+
     TEST(FittedProblem, FlowsSumToNothingWhateverTheState)
     {
       // All heat is accounted for: test functions add up to one.
