@@ -187,6 +187,12 @@ namespace meltfront::cases
                    "an exchange of heat");
     }
 
+    EffectDecision radiating_wall(const Scene &scene)
+    {
+      return walls(scene, Effect::radiating_wall, BoundaryKind::radiation,
+                   "an exchange of heat by radiation");
+    }
+
     EffectDecision gibbs_thomson(const Scene &scene)
     {
       const double coefficient = scene.material.gibbs_thomson_coefficient;
@@ -300,6 +306,10 @@ namespace meltfront::cases
         {Effect::robin_wall, "robin_wall",
          "Walls that exchange heat with their surroundings.", robin_wall,
          [](Scene &scene) { insulate(scene, BoundaryKind::heat_transfer); }},
+        {Effect::radiating_wall, "radiating_wall",
+         "Walls that radiate heat to their surroundings, by the fourth power of the "
+         "absolute temperature.",
+         radiating_wall, [](Scene &scene) { insulate(scene, BoundaryKind::radiation); }},
         {Effect::gibbs_thomson, "gibbs_thomson",
          "The melting temperature of a curved front is lowered or raised.", gibbs_thomson,
          [](Scene &scene) { scene.material.gibbs_thomson_coefficient = 0; }},

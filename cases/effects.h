@@ -26,6 +26,7 @@ namespace meltfront::cases
     volumetric_source,   ///< heat is released throughout the domain
     inclusion,           ///< a region conducts otherwise than the rest
     robin_wall,          ///< a wall exchanges heat with its surroundings
+    radiating_wall,      ///< a wall radiates heat to its surroundings
     gibbs_thomson,       ///< a curved front melts at another temperature
     gravity,             ///< weight of a solid's particles, whose effects begin here
     base,                ///< a floor throws particles back

@@ -4,6 +4,7 @@
 #include <cases/numbers.h>
 #include <cases/scene.h>
 #include <cases/temperature_slack.h>
+#include <cases/wall_law.h>
 
 #include <fmt/format.h>
 
@@ -46,8 +47,8 @@ namespace meltfront::cases
 
   const char *to_string(BoundaryKind kind)
   {
-    constexpr const char *names[]
-        = {"insulated", "fixed temperature", "flux", "periodic", "heat transfer"};
+    constexpr const char *names[] = {"insulated", "fixed temperature", "flux",
+                                     "periodic",  "heat transfer",     "radiation"};
     static_assert(std::size(names) == n_boundary_kinds);
     return names[static_cast<std::size_t>(kind)];
   }
@@ -169,7 +170,7 @@ namespace meltfront::cases
     {
       const Boundary &boundary = scene.boundary(side);
       if(boundary.kind == BoundaryKind::fixed_temperature
-         || boundary.kind == BoundaryKind::heat_transfer)
+         || exchanges_heat(boundary.kind))
         visit_wall_values(scene, side, boundary.value, include);
     }
     for(const Side side : scene.sides())
@@ -186,7 +187,7 @@ namespace meltfront::cases
                       {
                         return boundary
                                && (boundary->kind == BoundaryKind::fixed_temperature
-                                   || boundary->kind == BoundaryKind::heat_transfer)
+                                   || exchanges_heat(boundary->kind))
                                && !boundary->value.constant;
                       });
     const double slack

@@ -81,10 +81,11 @@ namespace meltfront::cases
                        ///< exact solution
     flux,              ///< `value` is the heat flux into the domain, W/m^2
     periodic,
-    heat_transfer ///< the flux into the domain is the coefficient times the difference
-                  ///< of `value`, the ambient temperature, from the wall's (Robin)
+    heat_transfer, ///< the flux into the domain is the coefficient times the difference
+                   ///< of `value`, the ambient temperature, from the wall's (Robin)
+    radiation      ///< the same of the fourth powers of the absolute temperatures
   };
-  inline constexpr std::size_t n_boundary_kinds = 5;
+  inline constexpr std::size_t n_boundary_kinds = 6;
 
   /** The words for it in case files, `heat transfer`. */
   const char *to_string(BoundaryKind kind);
@@ -95,6 +96,10 @@ namespace meltfront::cases
     Field value;        ///< temperature, flux or ambient temperature, empty otherwise
     bool exact = false; ///< `value` is taken from the exact solution
     double heat_transfer_coefficient = 0; ///< of BoundaryKind::heat_transfer, W/(m^2 K)
+    /** Of BoundaryKind::radiation: emissivity times the constant of Stefan and Boltzmann
+     * (W/(m^2 K^4)), and absolute zero on the scene's scale of temperature. */
+    double emission_coefficient = 0;
+    double absolute_zero = 0;
   };
 
   /** Names of the sides of a slab or a box; a ball and an outline have the one side

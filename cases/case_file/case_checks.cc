@@ -1,6 +1,7 @@
 #include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_checks.h>
 #include <cases/case_file/key_builders.h>
+#include <cases/wall_law.h>
 
 #include <fmt/format.h>
 
@@ -107,6 +108,20 @@ namespace meltfront::cases
       for(int d = 0; d < domain.dimension; ++d)
         text += fmt::format("{}{} = {:.6g}", d == 0 ? "" : ", ", "xyz"[d], p[d]);
       return text;
+    }
+
+    /** What radiates, and what is radiated at, is warmer than absolute zero. */
+    void check_absolute(const PrmFile &prm, const Scene &scene, Side side,
+                        const Position &p, double time)
+    {
+      const Boundary &wall = scene.boundary(side);
+      for(const double temperature :
+          {wall.value(p, time), scene.initial.temperature(p, scene.start_time)})
+        if(!(temperature > wall.absolute_zero))
+          throw prm.error(wall_keys(side), "absolute zero",
+                          fmt::format("is {:.6g}, and the wall radiates between "
+                                      "temperatures of which one is {:.6g}",
+                                      wall.absolute_zero, temperature));
     }
 
     /** Values at points that a symmetric scene cannot tell apart must agree. */
@@ -240,16 +255,7 @@ namespace meltfront::cases
     private:
       double wanted_flux(const Boundary &boundary, const Position &p, double time) const
       {
-        switch(boundary.kind)
-        {
-        case BoundaryKind::flux:
-          return boundary.value(p, time);
-        case BoundaryKind::heat_transfer:
-          return boundary.heat_transfer_coefficient
-                 * (boundary.value(p, time) - exact.temperature(p, time));
-        default:
-          return 0;
-        }
+        return heat_through(boundary, p, time, exact.temperature(p, time)).flux;
       }
 
       double conductivity_at(const Position &p, double time) const
@@ -317,6 +323,7 @@ namespace meltfront::cases
     case BoundaryKind::flux:
       return "flux";
     case BoundaryKind::heat_transfer:
+    case BoundaryKind::radiation:
       return "ambient temperature";
     default:
       return "temperature";
@@ -356,8 +363,12 @@ namespace meltfront::cases
       {
         const double time = sampled_time(scene, i);
         for(const Position &p : wall_points(scene.domain, side))
+        {
           check_finite(prm, scene, boundary.value, p, time, wall_keys(side),
                        value_key(boundary));
+          if(boundary.kind == BoundaryKind::radiation)
+            check_absolute(prm, scene, side, p, time);
+        }
         if(round)
           check_symmetric(prm, scene, boundary.value, wall_radius(scene.domain, side),
                           time, wall_keys(side), value_key(boundary));

@@ -131,10 +131,11 @@ namespace meltfront::cases
             wall,
             word_key("kind", "insulated",
                      {"insulated", "fixed temperature", "exact", "flux", "periodic",
-                      "heat transfer"},
+                      "heat transfer", "radiation"},
                      "What holds at the wall; exact: the exact solution's "
                      "temperature; heat transfer: a flux that the wall's difference "
-                     "from the ambient temperature drives."));
+                     "from the ambient temperature drives; radiation: the same with the "
+                     "fourth powers of the absolute temperatures."));
         prm.declare(wall, text_key("ambient temperature",
                                    "Temperature of the surroundings: expression of x, "
                                    "y, z, t; exact: that which makes the flux the exact "
@@ -142,6 +143,16 @@ namespace meltfront::cases
         prm.declare(wall,
                     number_key("heat transfer coefficient", "", "W/(m^2 K)",
                                "Heat flux per difference of temperature.", above_zero));
+        prm.declare(wall, number_key("emissivity", "", "",
+                                     "Of a wall that radiates: the share of a black "
+                                     "body's radiation.",
+                                     above_zero));
+        prm.declare(wall, number_key("Stefan-Boltzmann constant", "5.670374419e-8",
+                                     "W/(m^2 K^4)",
+                                     "In normalised scenes another number.", above_zero));
+        prm.declare(wall, number_key("absolute zero", "", "K",
+                                     "Of a wall that radiates: on the scene's scale of "
+                                     "temperature, -273.15 for degrees Celsius."));
         prm.declare(wall, text_key("temperature", "Expression of x, y, z, t (K)."));
         prm.declare(wall,
                     text_key("flux", "Heat flux into the domain, expression of x, y, "

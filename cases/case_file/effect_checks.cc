@@ -54,6 +54,7 @@ namespace meltfront::cases
              "'fixed temperature' or 'exact'"),
         wall(scene, Effect::wall_flux, BoundaryKind::flux, "'flux'"),
         wall(scene, Effect::robin_wall, BoundaryKind::heat_transfer, "'heat transfer'"),
+        wall(scene, Effect::radiating_wall, BoundaryKind::radiation, "'radiation'"),
         front,
         key(prm, Effect::gibbs_thomson, material, "Gibbs-Thomson coefficient"),
         key(prm, Effect::phase_conductivity, liquid, "conductivity"),

@@ -124,6 +124,19 @@ namespace meltfront::cases
       return sides;
     }
 
+    Boundary radiating_wall(const PrmFile &prm, const std::string &here,
+                            const Field &ambient)
+    {
+      prm.forbid(here, "heat transfer coefficient", "the wall's kind is 'radiation'");
+      for(const char *key : {"emissivity", "absolute zero"})
+        prm.require(here, key, "a wall of kind 'radiation' needs it");
+      Boundary wall{BoundaryKind::radiation, ambient, !ambient.value};
+      wall.emission_coefficient = prm.get_number(here, "emissivity")
+                                  * prm.get_number(here, "Stefan-Boltzmann constant");
+      wall.absolute_zero = prm.get_number(here, "absolute zero");
+      return wall;
+    }
+
     Boundary read_wall(const PrmFile &prm, Side side, const Domain &domain)
     {
       const std::string here = wall_keys(side);
@@ -143,7 +156,12 @@ namespace meltfront::cases
       };
       const Field temperature = value("temperature", "fixed temperature");
       const Field flux = value("flux", "flux");
-      const Field ambient = value("ambient temperature", "heat transfer");
+      const Field ambient = value("ambient temperature",
+                                  kind == "radiation" ? "radiation" : "heat transfer");
+      if(kind == "radiation")
+        return radiating_wall(prm, here, ambient);
+      for(const char *key : {"emissivity", "Stefan-Boltzmann constant", "absolute zero"})
+        prm.forbid(here, key, fmt::format("the wall's kind is '{}'", kind));
       if(kind == "heat transfer")
       {
         prm.require(here, "heat transfer coefficient",
@@ -330,6 +348,17 @@ namespace meltfront::cases
       };
       if(boundary.kind == BoundaryKind::flux)
         boundary.value = {exact_value, flux};
+      else if(boundary.kind == BoundaryKind::radiation)
+        boundary.value
+            = {exact_value,
+               [flux, exact = known.solution, coefficient = boundary.emission_coefficient,
+                zero = boundary.absolute_zero](const Position &p, double time)
+               {
+                 const double own = exact->temperature(p, time) - zero;
+                 return zero
+                        + std::sqrt(std::sqrt(own * own * own * own
+                                              + flux(p, time) / coefficient));
+               }};
       else
         boundary.value
             = {exact_value, [flux, exact = known.solution,

@@ -1,4 +1,5 @@
 #include <cases/stopwatch.h>
+#include <cases/wall_law.h>
 #include <particles/sph/conduction_rows.h>
 
 #include <algorithm>
@@ -54,9 +55,14 @@ namespace meltfront::particles
             link_to_edges(a);
           link_to_ghosts(a);
         }
-        normalise_flux_areas();
+        normalise_areas(result.flux_points, result.flux_links);
+        normalise_areas(result.exchange_points, result.exchange_links);
         for(const WallLink &link : result.temperature_links)
           row_sum[link.row] += link.strength;
+        // At most what a wall of given temperature would exchange.
+        for(std::size_t i = 0; i < result.exchange_links.size(); ++i)
+          row_sum[result.exchange_links[i].row]
+              += result.exchange_links[i].strength / result.exchange_depths[i];
         for(const std::uint32_t a : dis.dirichlet)
           row_sum[a] = 0;
         result.wall_cells = dis.wall_cells;
@@ -215,7 +221,7 @@ namespace meltfront::particles
                            const auto &[boundary, d, coordinate] = dis.walls[w];
                            const double depth
                                = std::abs(dis.particles.position[d][b] - coordinate);
-                           if(boundary->kind == BoundaryKind::flux)
+                           if(cases::prescribes_heat(boundary->kind))
                              to_flux[w] += 2 * depth * image;
                            if(boundary->kind == BoundaryKind::fixed_temperature
                               && antisymmetric(mirrors))
@@ -233,7 +239,7 @@ namespace meltfront::particles
         {
           add_link(result.temperature_points, result.temperature_links, a, dis.walls[w],
                    to_temperature[w]);
-          add_link(result.flux_points, result.flux_links, a, dis.walls[w], to_flux[w]);
+          add_heat_link(a, dis.walls[w], to_flux[w]);
         }
       }
 
@@ -245,6 +251,18 @@ namespace meltfront::particles
           if(wall.boundary->kind == BoundaryKind::flux && dis.on_wall(wall, a))
             add_link(result.flux_points, result.flux_links, a, wall,
                      dis.particle_volume / dis.spacing);
+      }
+
+      /** A particle's share of the area of a wall through which heat is to flow. */
+      void add_heat_link(std::size_t a, const PlaneWall &wall, double strength)
+      {
+        if(!cases::exchanges_heat(wall.boundary->kind))
+          return add_link(result.flux_points, result.flux_links, a, wall, strength);
+        add_link(result.exchange_points, result.exchange_links, a, wall, strength);
+        if(strength > 0)
+          result.exchange_depths.push_back(std::max(
+              std::abs(dis.particles.position[wall.direction][a] - wall.coordinate),
+              shallowest * dis.spacing));
       }
 
       void add_link(std::vector<WallPoint> &points, std::vector<WallLink> &links,
@@ -281,7 +299,8 @@ namespace meltfront::particles
           const double distance = std::hypot(place[0], place[1], place[2]);
           const RoundWall &wall = dis.nearest_round_wall(distance);
           const cases::Boundary &boundary = *wall.boundary;
-          const bool flux = boundary.kind == BoundaryKind::flux;
+          const bool flux = cases::prescribes_heat(boundary.kind),
+                     exchange = cases::exchanges_heat(boundary.kind);
           if(!wall.known_beyond())
           {
             const double depth
@@ -292,28 +311,35 @@ namespace meltfront::particles
             for(double &x : place)
               x *= wall.radius / distance;
           }
-          auto &points = flux ? result.flux_points : result.temperature_points;
-          auto &links = flux ? result.flux_links : result.temperature_links;
+          auto &points = exchange ? result.exchange_points
+                         : flux   ? result.flux_points
+                                  : result.temperature_points;
+          auto &links = exchange ? result.exchange_links
+                        : flux   ? result.flux_links
+                                 : result.temperature_links;
+          if(exchange)
+            result.exchange_depths.push_back(
+                std::max(wall.conductive_depth(own_distance, dis.dimension),
+                         shallowest * dis.spacing));
           links.push_back({static_cast<std::uint32_t>(a),
                            static_cast<std::uint32_t>(points.size()), g});
           points.push_back({&boundary, place});
         }
       }
 
-      /** Make the areas of the particles that share a wall's flux add up to the wall. */
-      void normalise_flux_areas()
+      /** Make the areas of the particles that share a wall's heat add up to the wall. */
+      void normalise_areas(const std::vector<WallPoint> &points,
+                           std::vector<WallLink> &links) const
       {
         for(const cases::Side side : dis.scene.sides())
         {
           const cases::Boundary &boundary = dis.scene.boundary(side);
-          if(boundary.kind != BoundaryKind::flux)
-            continue;
           double sum = 0;
-          for(const WallLink &link : result.flux_links)
-            if(result.flux_points[link.point].boundary == &boundary)
+          for(const WallLink &link : links)
+            if(points[link.point].boundary == &boundary)
               sum += link.strength;
-          for(WallLink &link : result.flux_links)
-            if(result.flux_points[link.point].boundary == &boundary)
+          for(WallLink &link : links)
+            if(points[link.point].boundary == &boundary)
               link.strength *= wall_area(side) / sum;
         }
       }

@@ -69,6 +69,11 @@ namespace meltfront::particles
     std::vector<WallLink> temperature_links;
     std::vector<WallPoint> flux_points;
     std::vector<WallLink> flux_links;
+    /** To walls that exchange heat with their surroundings: as to a flux, with the depth
+     * of the particle behind the wall by link (m). */
+    std::vector<WallPoint> exchange_points;
+    std::vector<WallLink> exchange_links;
+    std::vector<double> exchange_depths;
     /** Of an inclusion: its coefficients are part of the rows, and cost set-up only. */
     cases::EffectCost inclusion_cost{cases::Effect::inclusion};
   };

@@ -1,3 +1,4 @@
+#include <cases/error.h>
 #include <particles/sph/heat_flow.h>
 #include <particles/sph/time/time_stepping.h>
 
@@ -46,6 +47,13 @@ namespace meltfront::particles
       wall_temperature.emplace(dis, conduction, variable);
     if(effects.contains(Effect::wall_flux))
       wall_flux.emplace(dis, conduction);
+    if(effects.contains(Effect::robin_wall) || effects.contains(Effect::radiating_wall))
+    {
+      if(dis.layout != LatticeLayout::cell_centred)
+        throw cases::Refusal("particles on the walls (layout = edge) exchange no heat "
+                             "with surroundings; layout = cell does");
+      wall_exchange.emplace(dis, conduction);
+    }
   }
 
   void HeatFlow::prepare_step(double begin, double end)
@@ -58,6 +66,8 @@ namespace meltfront::particles
       wall_temperature->prepare_step(begin, end);
     if(wall_flux)
       wall_flux->prepare_step(begin, end);
+    if(wall_exchange)
+      wall_exchange->prepare_step(begin, end);
   }
 
   double HeatFlow::hold_walls(double fraction, std::span<double> enthalpy)
@@ -114,6 +124,8 @@ namespace meltfront::particles
     double through_walls = 0;
     if(wall_flux)
       through_walls += wall_flux->add(fraction, flow, scale());
+    if(wall_exchange)
+      through_walls += wall_exchange->add(fraction, enthalpy, flow, scale());
     if(wall_temperature)
       through_walls += wall_flow(state, fraction, flow);
     conduction.take_per_cell(flow);
@@ -158,6 +170,8 @@ namespace meltfront::particles
       per_evaluation += wall_temperature->size();
     if(wall_flux)
       per_evaluation += wall_flux->size();
+    if(wall_exchange)
+      per_evaluation += wall_exchange->size();
     return evaluations * static_cast<long>(per_evaluation)
            + (front_exchange ? front_exchange->work() : 0);
   }
@@ -190,6 +204,9 @@ namespace meltfront::particles
       add(wall_temperature->cost());
     if(wall_flux)
       add(wall_flux->cost());
+    for(const Effect effect : {Effect::robin_wall, Effect::radiating_wall})
+      if(effects.contains(effect))
+        add(wall_exchange->cost(effect));
     return costs;
   }
 } // namespace meltfront::particles

@@ -6,6 +6,7 @@
 #include <particles/sph/heat_sources.h>
 #include <particles/sph/phase_map.h>
 #include <particles/sph/volumetric_source.h>
+#include <particles/sph/wall_exchange.h>
 #include <particles/sph/wall_flux.h>
 #include <particles/sph/wall_temperature.h>
 
@@ -137,6 +138,7 @@ namespace meltfront::particles
     std::optional<VolumetricSource> volumetric_source;
     std::optional<WallTemperature> wall_temperature;
     std::optional<WallFlux> wall_flux;
+    std::optional<WallExchange> wall_exchange;
     Derivative derivative;
     long evaluations = 0;
   };

@@ -42,6 +42,8 @@ namespace meltfront::particles
                                 });
     else if(wall_temperature)
       differentiate_walls(PlainDerivative(), fraction);
+    if(wall_exchange)
+      wall_exchange->differentiate(fraction, enthalpy, derivative.wall_diagonal, scale());
     for(std::size_t a = 0; a < n; ++a)
       derivative.diagonal[a] += derivative.wall_diagonal[a];
     conduction.take_per_cell(derivative.diagonal);

@@ -16,20 +16,29 @@ namespace meltfront::particles
       {
       }
 
+      /** As published, particles lie on the walls and exchange no heat with surroundings.
+       */
       std::vector<cases::Capabilities> capabilities() const override
       {
         using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
-        const std::vector<BoundaryKind> of_box{
-            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
-            BoundaryKind::periodic};
-        const std::vector<BoundaryKind> round{
+        std::vector<BoundaryKind> round{
             BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux};
+        std::vector<Effect> effects{
+            Effect::phase_change,        Effect::phase_conductivity,
+            Effect::phase_heat_capacity, Effect::heat_sources,
+            Effect::wall_temperature,    Effect::wall_flux,
+            Effect::volumetric_source,   Effect::inclusion};
+        if(policy.corrected_form.empty())
+        {
+          round.insert(round.end(),
+                       {BoundaryKind::heat_transfer, BoundaryKind::radiation});
+          effects.insert(effects.end(), {Effect::robin_wall, Effect::radiating_wall});
+        }
+        std::vector<BoundaryKind> of_box = round;
+        of_box.push_back(BoundaryKind::periodic);
         return {{.form = {},
                  .problems = {cases::ProblemKind::stefan},
-                 .effects = {Effect::phase_change, Effect::phase_conductivity,
-                             Effect::phase_heat_capacity, Effect::heat_sources,
-                             Effect::wall_temperature, Effect::wall_flux,
-                             Effect::volumetric_source, Effect::inclusion},
+                 .effects = effects,
                  .shapes = {{DomainShape::slab, {1}, of_box},
                             {DomainShape::box, {2, 3}, of_box},
                             {DomainShape::ball, {2, 3}, round},

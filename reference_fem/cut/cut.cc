@@ -24,19 +24,21 @@ namespace meltfront::reference_fem
       {
         using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
         const std::vector<BoundaryKind> walls{
-            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux};
-        return {{.form = {},
-                 .problems = {cases::ProblemKind::stefan},
-                 .effects = {Effect::phase_change, Effect::phase_conductivity,
-                             Effect::phase_heat_capacity, Effect::heat_sources,
-                             Effect::wall_temperature, Effect::wall_flux,
-                             Effect::volumetric_source},
-                 .shapes = {{DomainShape::box, {2}, walls},
-                            {DomainShape::ball, {2}, walls},
-                            {DomainShape::shell, {2}, walls}},
-                 .front_origins = {FrontOrigin::initial_front, FrontOrigin::source},
-                 .overshoot = cut::overshoot,
-                 .conserves_heat = false}};
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+            BoundaryKind::heat_transfer, BoundaryKind::radiation};
+        return {
+            {.form = {},
+             .problems = {cases::ProblemKind::stefan},
+             .effects = {Effect::phase_change, Effect::phase_conductivity,
+                         Effect::phase_heat_capacity, Effect::heat_sources,
+                         Effect::wall_temperature, Effect::wall_flux, Effect::robin_wall,
+                         Effect::radiating_wall, Effect::volumetric_source},
+             .shapes = {{DomainShape::box, {2}, walls},
+                        {DomainShape::ball, {2}, walls},
+                        {DomainShape::shell, {2}, walls}},
+             .front_origins = {FrontOrigin::initial_front, FrontOrigin::source},
+             .overshoot = cut::overshoot,
+             .conserves_heat = false}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

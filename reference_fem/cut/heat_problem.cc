@@ -78,8 +78,9 @@ namespace meltfront::reference_fem::cut
   {
     /** What is prescribed brings in its integral over time: the rate of it is the time
      * scheme's own derivative of the integral, over whole steps. */
-    double rate_of(const cases::TimeMean &mean, const cases::Position &position,
-                   const State &state, const State *before, const State *older)
+    template <typename Mean>
+    double rate_of(Mean &mean, const cases::Position &position, const State &state,
+                   const State *before, const State *older)
     {
       if(!before || mean.steady())
         return mean(position, state.time, state.time);
@@ -124,7 +125,7 @@ namespace meltfront::reference_fem::cut
     PhaseEquation result;
     result.front_value = [this, solid, melting, time](const Point &point)
     { return solid ? melting - sink_value(point, time) : melting; };
-    result.wall = [this, solid, conductivity, time, &state, before,
+    result.wall = [this, phase, solid, conductivity, time, &state, before,
                    older](const WallPoint &wall) -> WallCondition
     {
       const cases::Boundary &boundary = scene.boundary(wall.side);
@@ -139,17 +140,42 @@ namespace meltfront::reference_fem::cut
                                           : boundary.value(place, time);
                           })
                           - (solid ? sink_value(wall.position, time) : 0)};
+      const double singular
+          = solid && !sinks.places.empty()
+                ? conductivity * (sinks.gradient(wall.position, time) * wall.point.normal)
+                : 0;
+      if(cases::exchanges_heat(boundary.kind))
+      {
+        const cases::HeatThroughWall through
+            = meter.measure([&] { return exchange(wall, phase, state, before); });
+        return {false, through.flux - singular, through.slope};
+      }
       const double flux
           = boundary.kind == cases::BoundaryKind::flux ? meter.measure(
                 [&] { return flux_in(wall.side, place, state, before, older); })
                                                        : 0;
-      return {false, flux
-                         - (solid ? conductivity
-                                        * (sinks.gradient(wall.position, time)
-                                           * wall.point.normal)
-                                  : 0)};
+      return {false, flux - singular};
     };
     return result;
+  }
+
+  /** What a wall exchanges with its surroundings, as a linear law of the unknown: its
+   * tangent at the temperature before. Of a linear law that is the law itself. */
+  cases::HeatThroughWall HeatProblem::exchange(const WallPoint &wall, Phase phase,
+                                               const State &state,
+                                               const State *before) const
+  {
+    const cases::Boundary &boundary = scene.boundary(wall.side);
+    const cases::Position place = position(wall.position);
+    const double given
+        = before ? cases::value_at_end(boundary.value, place, before->time, state.time)
+                 : boundary.value(place, state.time);
+    const double about = before ? temperature(*before, phase, wall.cell, wall.point.unit)
+                                : scene.initial.temperature(place, scene.start_time);
+    const cases::HeatThroughWall through = cases::heat_through(boundary, given, about);
+    const double singular
+        = phase == Phase::solid ? sink_value(wall.position, state.time) : 0;
+    return {through.flux + through.slope * (singular - about), through.slope};
   }
 
   double HeatProblem::sink_value(const Point &point, double time) const
@@ -180,11 +206,15 @@ namespace meltfront::reference_fem::cut
     case Effect::heat_sources:
       return meters.sinks.cost(effect, sinks.places.size() * sizeof(Point));
     case Effect::volumetric_source:
-      return meters.released.cost(effect, sizeof *released);
+      return meters.released.cost(effect, released->bytes());
     case Effect::wall_temperature:
       return of_wall(BoundaryKind::fixed_temperature);
     case Effect::wall_flux:
       return of_wall(BoundaryKind::flux);
+    case Effect::robin_wall:
+      return of_wall(BoundaryKind::heat_transfer);
+    case Effect::radiating_wall:
+      return of_wall(BoundaryKind::radiation);
     default:
       return {effect, solves, 0, 0};
     }

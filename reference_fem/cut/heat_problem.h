@@ -3,8 +3,10 @@
 
 #include <cases/effect_meter.h>
 #include <cases/time_integral.h>
+#include <cases/wall_law.h>
 #include <reference_fem/cut/front_speed.h>
 #include <reference_fem/cut/phase_problem.h>
+#include <reference_fem/cut/released_heat.h>
 #include <reference_fem/cut/sink_field.h>
 
 #include <array>
@@ -112,6 +114,8 @@ namespace meltfront::reference_fem::cut
                              const State *older) const;
     double flux_in(cases::Side side, const cases::Position &position, const State &state,
                    const State *before, const State *older) const;
+    cases::HeatThroughWall exchange(const WallPoint &wall, Phase phase,
+                                    const State &state, const State *before) const;
     double flux_power(const State &state, const State &before, const State *older) const;
     PointFunction source(Phase phase, const State &state, const State &before,
                          const State *older) const;
@@ -128,7 +132,7 @@ namespace meltfront::reference_fem::cut
     double smoothing;
     std::array<std::optional<cases::TimeMean>, cases::n_sides> fluxes; ///< of walls
     bool fluxes_vary = false;
-    std::optional<cases::TimeMean> released; ///< throughout the domain
+    mutable std::optional<ReleasedHeat> released;
   };
 } // namespace meltfront::reference_fem::cut
 

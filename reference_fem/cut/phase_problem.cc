@@ -247,9 +247,14 @@ namespace meltfront::reference_fem::cut
       const WallCondition condition = equation.wall(wall);
       if(condition.fixes_temperature)
         add_condition(equation, cell, wall.point, condition.value, system);
-      else if(condition.value != 0)
-        system.add(cell.dofs, LocalVector(wall.point.weight * condition.value
-                                          * shape_values(mesh.element, wall.point.unit)));
+      else if(condition.value != 0 || condition.slope != 0)
+      {
+        const LocalVector shape = shape_values(mesh.element, wall.point.unit);
+        system.add(cell.dofs, LocalVector(wall.point.weight * condition.value * shape));
+        if(condition.slope != 0)
+          system.add(cell.dofs, LocalMatrix(-wall.point.weight * condition.slope * shape
+                                            * shape.transpose()));
+      }
     }
   }
 
@@ -330,9 +335,11 @@ namespace meltfront::reference_fem::cut
       const Cell &cell = mesh.cells[wall.cell];
       const WallCondition condition = equation.wall(wall);
       double flux = condition.value;
+      const LocalVector values = gather(solution, cell.dofs);
+      if(condition.slope != 0)
+        flux += condition.slope * shape_values(mesh.element, wall.point.unit).dot(values);
       if(condition.fixes_temperature)
       {
-        const LocalVector values = gather(solution, cell.dofs);
         const auto [shape, derivative] = trace(cell, wall.point);
         flux = equation.conductivity * derivative.dot(values)
                - penalty(equation, cell) * (shape.dot(values) - condition.value);

@@ -14,6 +14,7 @@ namespace meltfront::reference_fem::cut
   {
     bool fixes_temperature = false;
     double value = 0; ///< temperature, or heat flux into the domain (W/m^2)
+    double slope = 0; ///< by which the flux grows with the unknown (W/(m^2 K)), <= 0
   };
 
   /**

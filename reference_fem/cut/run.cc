@@ -115,7 +115,7 @@ namespace meltfront::reference_fem::cut
     damp_jump(
         [&](const WallPoint &wall)
         {
-          return scene.boundary(wall.side).kind == cases::BoundaryKind::flux
+          return cases::prescribes_heat(scene.boundary(wall.side).kind)
                      ? 0
                      : temperature(wall.position);
         },
@@ -127,11 +127,25 @@ namespace meltfront::reference_fem::cut
   double CutRun::worth(const cases::Boundary &boundary, double datum) const
   {
     using cases::BoundaryKind;
+    if(boundary.kind == BoundaryKind::fixed_temperature)
+      return std::abs(datum);
     const double across_cell = state.mesh->spacing
                                / std::min(scene.material.solid.conductivity,
                                           scene.material.liquid.conductivity);
-    return std::abs(datum)
-           * (boundary.kind == BoundaryKind::fixed_temperature ? 1 : across_cell);
+    return std::abs(datum) * across_cell;
+  }
+
+  /** What a wall prescribes where its value is given: a temperature, or the flux by its
+   * law at the temperature that it has. */
+  double CutRun::datum(const WallPoint &wall, double given) const
+  {
+    const cases::Boundary &boundary = scene.boundary(wall.side);
+    return cases::exchanges_heat(boundary.kind)
+               ? cases::heat_through(
+                     boundary, given,
+                     heat.temperature(state, wall.phase, wall.cell, wall.point.unit))
+                     .flux
+               : given;
   }
 
   /** Damp the coming steps if data of walls at a time differ from what is there before.
@@ -146,9 +160,9 @@ namespace meltfront::reference_fem::cut
       if(boundary.kind == cases::BoundaryKind::insulated
          || boundary.kind == cases::BoundaryKind::periodic)
         continue;
-      const double given = boundary.value(position(wall.position), time),
+      const double given = datum(wall, boundary.value(position(wall.position), time)),
                    was = before(wall),
-                   rest = boundary.kind == cases::BoundaryKind::flux
+                   rest = cases::prescribes_heat(boundary.kind)
                               ? 0
                               : scene.material.melting_temperature;
       largest = std::max(largest, worth(boundary, given - was));
@@ -331,8 +345,9 @@ namespace meltfront::reference_fem::cut
       damp_jump(
           [&](const WallPoint &wall)
           {
-            return cases::value_at_end(scene.boundary(wall.side).value,
-                                       position(wall.position), step_began, state.time);
+            return datum(wall, cases::value_at_end(scene.boundary(wall.side).value,
+                                                   position(wall.position), step_began,
+                                                   state.time));
           },
           state.time + just_after * (scene.end_time - scene.start_time));
     }

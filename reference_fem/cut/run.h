@@ -41,6 +41,7 @@ namespace meltfront::reference_fem::cut
     double next_step() const;
     double damping_step() const;
     void damp_jump(const std::function<double(const WallPoint &)> &before, double time);
+    double datum(const WallPoint &wall, double given) const;
     double worth(const cases::Boundary &boundary, double datum) const;
     std::array<double, 2> depths(const State &of) const;
     bool attempt(double step, bool last_chance, State &next);

@@ -26,17 +26,20 @@ namespace meltfront::reference_fem
       {
         using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
         const std::vector<BoundaryKind> of_box{
-            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
-            BoundaryKind::periodic};
+            BoundaryKind::insulated,     BoundaryKind::fixed_temperature,
+            BoundaryKind::flux,          BoundaryKind::periodic,
+            BoundaryKind::heat_transfer, BoundaryKind::radiation};
         const std::vector<BoundaryKind> walls{
-            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux};
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+            BoundaryKind::heat_transfer, BoundaryKind::radiation};
         return {{.form = {},
                  .problems = {cases::ProblemKind::stefan},
-                 .effects = {Effect::phase_change, Effect::phase_conductivity,
-                             Effect::phase_heat_capacity, Effect::heat_sources,
-                             Effect::wall_temperature, Effect::wall_flux, Effect::solute,
-                             Effect::solute_diffusion, Effect::eutectic,
-                             Effect::volumetric_source, Effect::inclusion},
+                 .effects
+                 = {Effect::phase_change, Effect::phase_conductivity,
+                    Effect::phase_heat_capacity, Effect::heat_sources,
+                    Effect::wall_temperature, Effect::wall_flux, Effect::solute,
+                    Effect::solute_diffusion, Effect::eutectic, Effect::volumetric_source,
+                    Effect::inclusion, Effect::robin_wall, Effect::radiating_wall},
                  .shapes = {{DomainShape::slab, {1}, walls},
                             {DomainShape::box, {2, 3}, of_box},
                             {DomainShape::ball, {2, 3}, walls},

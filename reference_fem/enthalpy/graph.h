@@ -66,18 +66,29 @@ namespace meltfront::reference_fem
       return slope(u) * u;
     }
 
-    /** The root u of the inclusion volume H(u) + stiffness u = heat. */
-    double resolve(double heat, double volume, double stiffness) const
+    /** The root u of the inclusion volume H(u) + transfer (T - T_m) + stiffness u = heat,
+     * all factors >= 0. */
+    double resolve(double heat, double volume, double stiffness,
+                   double transfer = 0) const
     {
       if(heat < 0)
-        return heat / (volume * slope(-1) + stiffness);
+        return heat / (volume * slope(-1) + stiffness + transfer * excess_slope(-1));
       if constexpr(latent)
       {
         heat -= volume * volumetric_latent_heat;
         if(heat <= 0)
           return 0;
       }
-      return heat / (volume * slope(1) + stiffness);
+      return heat / (volume * slope(1) + stiffness + transfer * excess_slope(1));
+    }
+
+    /** d(T - T_m)/du; the liquid's at u = 0. */
+    double excess_slope(double u) const
+    {
+      if constexpr(two_slopes)
+        if(u >= 0)
+          return 1 / liquid_conductivity;
+      return 1 / solid_conductivity;
     }
 
     /** T - T_m (K) where Kirchhoff's variable is u. */

@@ -37,7 +37,7 @@ namespace meltfront::reference_fem
 
   /** Fill heat_capacity, active and residual; returns the heat that changes a typical
    * active node by one kelvin. */
-  double MushNewton::linearise(const CompensatedVector &u,
+  double MushNewton::linearise(double, const CompensatedVector &u,
                                const std::vector<double> &heat)
   {
     double heat_per_kelvin = 0;

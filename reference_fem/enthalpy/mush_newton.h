@@ -46,6 +46,7 @@ namespace meltfront::reference_fem
   private:
     friend class StepNewton<MushNewton>;
     static constexpr bool jumps = true;
+    static constexpr bool exchanges = false;
 
     double excess(double u) const
     {
@@ -69,7 +70,8 @@ namespace meltfront::reference_fem
 
     bool relax(std::size_t i, double c, const std::vector<double> &rhs,
                CompensatedVector &u);
-    double linearise(const CompensatedVector &u, const std::vector<double> &heat);
+    double linearise(double c, const CompensatedVector &u,
+                     const std::vector<double> &heat);
     void descend(double c, CompensatedVector &u, const std::vector<double> &heat);
     void project(const CompensatedVector &u);
     double line_search(double c, const CompensatedVector &u,

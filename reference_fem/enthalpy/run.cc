@@ -55,6 +55,8 @@ namespace meltfront::reference_fem
       flux.emplace(scene, mesh);
     if(effects.contains(Effect::wall_temperature))
       walls.emplace(scene, mesh).mark(free);
+    if(effects.contains(Effect::robin_wall) || effects.contains(Effect::radiating_wall))
+      exchange.emplace(scene, mesh, free);
 
     make_solver();
     enthalpy = alloy ? alloy->initial_enthalpy()
@@ -84,6 +86,9 @@ namespace meltfront::reference_fem
                                      make_linear_solver(mesh.conduction));
       return;
     }
+    if(exchange)
+      throw cases::Refusal("fem-enthalpy exchanges heat with the surroundings of pure "
+                           "substances only, not of alloys");
     auto for_alloy
         = std::make_unique<AlloySolver>(scene, effects, mesh, free, make_linear_solver);
     alloy = for_alloy.get();
@@ -91,9 +96,10 @@ namespace meltfront::reference_fem
     bounds = alloy->bounds(bounds);
   }
 
-  StepProblem EnthalpyRun::problem() const
+  StepProblem EnthalpyRun::problem()
   {
-    return {alloy ? alloy->conduction_matrix() : mesh.conduction, mesh.volume, free};
+    return {alloy ? alloy->conduction_matrix() : mesh.conduction, mesh.volume, free,
+            exchange ? &*exchange : nullptr};
   }
 
   StepFormula EnthalpyRun::formula(double next) const
@@ -125,6 +131,8 @@ namespace meltfront::reference_fem
       sources->add_load(step, rhs);
     step_released_heat = release ? release->add_load(step, rhs) : 0;
     step_flux_heat = flux ? flux->add_load(step, rhs) : 0;
+    if(exchange)
+      exchange->begin(step);
     predict(step.next);
     if(alloy)
       alloy->begin(step, enthalpy);
@@ -145,6 +153,10 @@ namespace meltfront::reference_fem
     for(std::size_t i = 0; i < enthalpy.size(); ++i)
       enthalpy[i] = free[i] ? heat[i] / mesh.volume[i] : enthalpy_before[i];
     double entered = step_flux_heat;
+    if(exchange)
+      entered += step.c
+                 * exchange->power([this](std::size_t i)
+                                   { return solver->temperature_excess(u[i]); });
     if(walls)
       entered += walls->react(
           step, problem(), u, rhs, enthalpy,

@@ -61,7 +61,7 @@ namespace meltfront::reference_fem
 
     std::string mesh_in_words() const;
     void make_solver();
-    StepProblem problem() const;
+    StepProblem problem();
     StepFormula formula(double next) const;
     void predict(double next);
     StepOutcome attempt(const StepFormula &step);
@@ -93,6 +93,7 @@ namespace meltfront::reference_fem
     std::optional<VolumetricSource> release;
     std::optional<WallTemperature> walls;
     std::optional<WallFlux> flux;
+    std::optional<WallExchange> exchange;
     cases::TemperatureBounds bounds;
     bool obeys_maximum_principle; ///< discretely, whatever the spacing
     double slack;                 ///< of temperatures, over the span of their bounds

@@ -165,6 +165,10 @@ namespace meltfront::reference_fem
       case cases::Effect::wall_flux:
         result.push_back(flux->cost());
         break;
+      case cases::Effect::robin_wall:
+      case cases::Effect::radiating_wall:
+        result.push_back(exchange->cost(decision.effect));
+        break;
       default:
         // Kirchhoff's variable makes the phases' differences a second slope of the
         // graph: two numbers, and no time that could be told apart.

@@ -15,13 +15,14 @@ namespace meltfront::reference_fem
    * the sweeps, and how far a state is off the graph.
    *
    * Solver derives from it and gives: `jumps` (whether its graph does, so that sweeps are
-   * needed); `excess(u)`, T - T_m (K); `excess_at_enthalpy(i, H)`, the same by a node's
-   * enthalpy per volume (J/m^3); `latent_temperature()`, L/c (K); `same_side(i, u, t)`,
-   * whether an unknown is in the region of its graph that a temperature excess tells;
-   * `relax(i, c, rhs, u)`, which solves one node's inclusion and tells whether it moved
-   * to another region; `linearise(u, heat)`, which fills heat_capacity, active and
-   * residual and returns the heat that changes a typical active node by one kelvin (J);
-   * `descend(c, u, heat)`, which goes along the direction.
+   * needed); `exchanges` (whether walls exchange heat); `excess(u)`, T - T_m (K);
+   * `excess_at_enthalpy(i, H)`, the same by a node's enthalpy per volume (J/m^3);
+   * `latent_temperature()`, L/c (K); `same_side(i, u, t)`, whether an unknown is in the
+   * region of its graph that a temperature excess tells; `relax(i, c, rhs, u)`, which
+   * solves one node's inclusion and tells whether it moved to another region;
+   * `linearise(c, u, heat)`, which fills heat_capacity, active and residual and returns
+   * the heat that changes a typical active node by one kelvin (J); `descend(c, u, heat)`,
+   * which goes along the direction.
    */
   template <class Solver>
   class StepNewton
@@ -46,6 +47,8 @@ namespace meltfront::reference_fem
       StepOutcome outcome;
       for(;; ++outcome.iterations)
       {
+        if constexpr(Solver::exchanges)
+          problem.exchange->follow([&](std::size_t i) { return solver().excess(u[i]); });
         recover_heat(c, rhs, u, heat);
         const Consistency state = compare(u, heat);
         outcome.graph_inconsistency = state.distance;
@@ -63,7 +66,7 @@ namespace meltfront::reference_fem
               ++sweeps;
             recover_heat(c, rhs, u, heat);
           }
-        const double heat_per_kelvin = solver().linearise(u, heat);
+        const double heat_per_kelvin = solver().linearise(c, u, heat);
         linear_solver.solve({heat_capacity, c, active, residual,
                              safety * NonlinearSolver::target_inconsistency * state.scale
                                  * heat_per_kelvin},
@@ -112,6 +115,14 @@ namespace meltfront::reference_fem
         if(problem.free[i])
           heat[i]
               = static_cast<double>(rhs[i] + c * problem.conduction.exact_inflow(i, u));
+      if constexpr(Solver::exchanges)
+        problem.exchange->visit(
+            [&](std::size_t i)
+            {
+              heat[i] += c
+                         * (problem.exchange->supply[i]
+                            - problem.exchange->transfer[i] * solver().excess(u[i]));
+            });
       entries_touched += problem.conduction.entries();
     }
 

@@ -8,9 +8,10 @@ namespace meltfront::reference_fem
 {
   namespace
   {
-    template <class Graph>
+    /** @tparam with_exchange walls exchange heat with their surroundings */
+    template <class Graph, bool with_exchange>
     class TruncatedNewton : public NonlinearSolver,
-                            private StepNewton<TruncatedNewton<Graph>>
+                            private StepNewton<TruncatedNewton<Graph, with_exchange>>
     {
     public:
       TruncatedNewton(const StepProblem &problem, const cases::Material &material,
@@ -55,12 +56,13 @@ namespace meltfront::reference_fem
       }
 
     private:
-      using Base = StepNewton<TruncatedNewton<Graph>>;
+      using Base = StepNewton<TruncatedNewton<Graph, with_exchange>>;
       friend Base;
       using Base::active, Base::cost, Base::direction, Base::entries_touched,
           Base::heat_capacity, Base::problem, Base::residual;
 
       static constexpr bool jumps = Graph::jumps;
+      static constexpr bool exchanges = with_exchange;
 
       double excess(double u) const
       {
@@ -82,9 +84,16 @@ namespace meltfront::reference_fem
         return (u > 0) == (recovered > 0) && (u < 0) == (recovered < 0);
       }
 
+      /** Of the heat that walls take over a step, by Kirchhoff's variable. */
+      double exchange_slope(std::size_t i, double c, double u) const
+      {
+        return c * problem.exchange->transfer[i] * graph.excess_slope(u);
+      }
+
       bool relax(std::size_t i, double c, const std::vector<double> &rhs,
                  CompensatedVector &u);
-      double linearise(const CompensatedVector &u, const std::vector<double> &heat);
+      double linearise(double c, const CompensatedVector &u,
+                       const std::vector<double> &heat);
       void descend(double c, CompensatedVector &u, const std::vector<double> &heat);
       bool project(const CompensatedVector &u);
       double line_search(double c, const CompensatedVector &u);
@@ -95,19 +104,27 @@ namespace meltfront::reference_fem
     };
 
     /** Solve one node's inclusion; true if it moved on, off or over the jump. */
-    template <class Graph>
-    bool TruncatedNewton<Graph>::relax(std::size_t i, double c,
-                                       const std::vector<double> &rhs,
-                                       CompensatedVector &u)
+    template <class Graph, bool with_exchange>
+    bool TruncatedNewton<Graph, with_exchange>::relax(std::size_t i, double c,
+                                                      const std::vector<double> &rhs,
+                                                      CompensatedVector &u)
     {
       const double volume = problem.volume[i];
       const double stiffness = c * problem.conduction.diagonal[i];
-      const double supply = rhs[i] + c * problem.conduction.inflow(i, u);
+      double supply = rhs[i] + c * problem.conduction.inflow(i, u);
+      if constexpr(exchanges)
+        supply += c * problem.exchange->supply[i];
       if(u[i] != 0)
       {
         // As an increment, which the compensated sum keeps exactly.
-        const double change = (supply - volume * graph.enthalpy(u[i]))
-                              / (volume * graph.slope(u[i]) + stiffness);
+        double missing = supply - volume * graph.enthalpy(u[i]),
+               slope = volume * graph.slope(u[i]) + stiffness;
+        if constexpr(exchanges)
+        {
+          missing -= c * problem.exchange->transfer[i] * excess(u[i]);
+          slope += exchange_slope(i, c, u[i]);
+        }
+        const double change = missing / slope;
         if((u[i] + change) * u[i] > 0)
         {
           u.add(i, change);
@@ -115,15 +132,21 @@ namespace meltfront::reference_fem
         }
       }
       const double before = u[i];
-      u.set(i, graph.resolve(supply + stiffness * before, volume, stiffness));
+      supply += stiffness * before;
+      if constexpr(exchanges)
+        u.set(i, graph.resolve(supply, volume, stiffness,
+                               c * problem.exchange->transfer[i]));
+      else
+        u.set(i, graph.resolve(supply, volume, stiffness));
       return before != 0 || u[i] != 0;
     }
 
     /** Fill heat_capacity, active and residual; returns the heat that changes a typical
      * active node by one kelvin. */
-    template <class Graph>
-    double TruncatedNewton<Graph>::linearise(const CompensatedVector &u,
-                                             const std::vector<double> &heat)
+    template <class Graph, bool with_exchange>
+    double
+    TruncatedNewton<Graph, with_exchange>::linearise(double c, const CompensatedVector &u,
+                                                     const std::vector<double> &heat)
     {
       double heat_per_kelvin = 0;
       long nodes = 0;
@@ -142,6 +165,8 @@ namespace meltfront::reference_fem
         }
         const double volume = problem.volume[i];
         heat_capacity[i] = volume * graph.slope(u[i]);
+        if constexpr(exchanges)
+          heat_capacity[i] += exchange_slope(i, c, u[i]);
         residual[i] = heat[i] - volume * graph.enthalpy(u[i]);
         heat_per_kelvin += std::pow(volume * graph.capacity(u[i]), 2);
         ++nodes;
@@ -152,8 +177,8 @@ namespace meltfront::reference_fem
     }
 
     /** Cut the direction off where it passes the jump; false where it never does. */
-    template <class Graph>
-    bool TruncatedNewton<Graph>::project(const CompensatedVector &u)
+    template <class Graph, bool with_exchange>
+    bool TruncatedNewton<Graph, with_exchange>::project(const CompensatedVector &u)
     {
       bool cut = false;
       for(std::size_t i = 0; i < u.size(); ++i)
@@ -170,8 +195,9 @@ namespace meltfront::reference_fem
      * The minimum over 0 <= length <= 1 of J(u + length d). Its derivative is continuous,
      * increasing and linear between the lengths at which a node changes phase.
      */
-    template <class Graph>
-    double TruncatedNewton<Graph>::line_search(double c, const CompensatedVector &u)
+    template <class Graph, bool with_exchange>
+    double TruncatedNewton<Graph, with_exchange>::line_search(double c,
+                                                              const CompensatedVector &u)
     {
       struct Kink
       {
@@ -190,9 +216,12 @@ namespace meltfront::reference_fem
         if constexpr(!Graph::jumps)
         {
           const double length = -u[i] / d;
-          if(length > 0 && length < 1)
-            kinks.push_back({length, problem.volume[i] * d * d
-                                         * (graph.slope(-u[i]) - graph.slope(u[i]))});
+          if(!(length > 0 && length < 1))
+            continue;
+          double change = problem.volume[i] * (graph.slope(-u[i]) - graph.slope(u[i]));
+          if constexpr(exchanges)
+            change += exchange_slope(i, c, -u[i]) - exchange_slope(i, c, u[i]);
+          kinks.push_back({length, d * d * change});
         }
       }
       entries_touched += problem.conduction.entries();
@@ -213,8 +242,9 @@ namespace meltfront::reference_fem
       return slope > 0 ? std::min(1., length - derivative / slope) : 1.;
     }
 
-    template <class Graph>
-    void TruncatedNewton<Graph>::advance(double length, CompensatedVector &u) const
+    template <class Graph, bool with_exchange>
+    void TruncatedNewton<Graph, with_exchange>::advance(double length,
+                                                        CompensatedVector &u) const
     {
       for(std::size_t i = 0; i < u.size(); ++i)
       {
@@ -228,9 +258,9 @@ namespace meltfront::reference_fem
       }
     }
 
-    template <class Graph>
-    void TruncatedNewton<Graph>::descend(double c, CompensatedVector &u,
-                                         const std::vector<double> &)
+    template <class Graph, bool with_exchange>
+    void TruncatedNewton<Graph, with_exchange>::descend(double c, CompensatedVector &u,
+                                                        const std::vector<double> &)
     {
       double length = 1;
       if constexpr(!Graph::linear)
@@ -244,8 +274,11 @@ namespace meltfront::reference_fem
                                           const cases::Material &material,
                                           std::unique_ptr<LinearSolver> linear_solver)
     {
-      return std::make_unique<TruncatedNewton<Graph>>(problem, material,
-                                                      std::move(linear_solver));
+      if(problem.exchange)
+        return std::make_unique<TruncatedNewton<Graph, true>>(problem, material,
+                                                              std::move(linear_solver));
+      return std::make_unique<TruncatedNewton<Graph, false>>(problem, material,
+                                                             std::move(linear_solver));
     }
   } // namespace
 

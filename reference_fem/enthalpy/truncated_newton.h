@@ -6,6 +6,7 @@
 #include <reference_fem/enthalpy/compensated_vector.h>
 #include <reference_fem/enthalpy/conduction_matrix.h>
 #include <reference_fem/enthalpy/linear_solver.h>
+#include <reference_fem/enthalpy/wall_exchange.h>
 
 #include <memory>
 #include <vector>
@@ -33,12 +34,13 @@ namespace meltfront::reference_fem
     const ConductionMatrix &conduction;
     const std::vector<double> &volume; ///< by node, the lumped mass
     const std::vector<char> &free;     ///< 0 where a wall prescribes the temperature
+    WallExchange *exchange = nullptr;  ///< null: walls exchange no heat
   };
 
   /**
    * Solves, for all free nodes i, the inclusion of an implicit step
    *
-   *   volume_i H(u_i) + c (K u)_i = rhs_i
+   *   volume_i H(u_i) + c (K u)_i = rhs_i + c (what the walls exchange)
    *
    * with H the enthalpy graph: the minimum of the convex functional
    * J(u) = sum volume_i Psi(u_i) + c/2 u'Ku - rhs'u, Psi' = H.

@@ -10,6 +10,16 @@ namespace meltfront::reference_fem::fitted
   using cases::BoundaryKind;
   using dealii::Vector;
 
+  namespace
+  {
+    cases::Effect effect_of(BoundaryKind wall)
+    {
+      return wall == BoundaryKind::flux        ? cases::Effect::wall_flux
+             : wall == BoundaryKind::radiation ? cases::Effect::radiating_wall
+                                               : cases::Effect::robin_wall;
+    }
+  } // namespace
+
   struct FittedProblem::Matrices
   {
     dealii::SparseMatrix<double> &mass, &flow, &rate;
@@ -112,11 +122,9 @@ namespace meltfront::reference_fem::fitted
   {
     for(const Wall &wall : walls)
     {
-      if(wall.boundary && by_flux(*wall.boundary))
+      if(wall.boundary && cases::prescribes_heat(wall.boundary->kind))
       {
-        const Metered meter(*this, wall.boundary->kind == BoundaryKind::flux
-                                       ? cases::Effect::wall_flux
-                                       : cases::Effect::robin_wall);
+        const Metered meter(*this, effect_of(wall.boundary->kind));
         add_flux(wall, clock, u, flow, matrices);
       }
       if(wall.first_account != RayMesh::none)
@@ -188,16 +196,17 @@ namespace meltfront::reference_fem::fitted
         double temperature = field;
         for(std::size_t a = 0; a < nodes.size(); ++a)
           temperature += surface_rule.value(q, a) * u[nodes[a]];
-        const WallFlux flux = flux_through(*wall.boundary, position, time, temperature);
+        const cases::HeatThroughWall through
+            = cases::heat_through(*wall.boundary, position, time, temperature);
         const double weight = cell.weight[q] * area;
         for(std::size_t a = 0; a < nodes.size(); ++a)
-          flow[nodes[a]] += weight * flux.value * surface_rule.value(q, a);
-        flow[flux_account] -= weight * flux.value;
-        if(!matrices || flux.slope == 0)
+          flow[nodes[a]] += weight * through.flux * surface_rule.value(q, a);
+        flow[flux_account] -= weight * through.flux;
+        if(!matrices || through.slope == 0)
           continue;
         for(std::size_t b = 0; b < nodes.size(); ++b)
         {
-          const double by_b = weight * flux.slope * surface_rule.value(q, b);
+          const double by_b = weight * through.slope * surface_rule.value(q, b);
           for(std::size_t a = 0; a < nodes.size(); ++a)
             matrices->flow.add(nodes[a], nodes[b], surface_rule.value(q, a) * by_b);
           matrices->flow.add(flux_account, nodes[b], -by_b);

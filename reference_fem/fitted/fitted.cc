@@ -15,7 +15,7 @@ namespace meltfront::reference_fem
 
     const std::vector<BoundaryKind> walls{
         BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
-        BoundaryKind::heat_transfer};
+        BoundaryKind::heat_transfer, BoundaryKind::radiation};
 
     /** The form that follows fronts from their start to their end. */
     cases::Capabilities along_line()
@@ -26,8 +26,8 @@ namespace meltfront::reference_fem
               .effects = {Effect::phase_change, Effect::phase_conductivity,
                           Effect::phase_heat_capacity, Effect::heat_sources,
                           Effect::wall_temperature, Effect::wall_flux, Effect::robin_wall,
-                          Effect::volumetric_source, Effect::liquid_motion,
-                          Effect::metastable_phase},
+                          Effect::radiating_wall, Effect::volumetric_source,
+                          Effect::liquid_motion, Effect::metastable_phase},
               .shapes = {{DomainShape::slab, {1}, walls},
                          {DomainShape::ball, {2, 3}, walls},
                          {DomainShape::shell, {2, 3}, walls}},
@@ -47,7 +47,8 @@ namespace meltfront::reference_fem
               .effects = {Effect::phase_change, Effect::phase_conductivity,
                           Effect::phase_heat_capacity, Effect::heat_sources,
                           Effect::wall_temperature, Effect::wall_flux, Effect::robin_wall,
-                          Effect::volumetric_source, Effect::metastable_phase},
+                          Effect::radiating_wall, Effect::volumetric_source,
+                          Effect::metastable_phase},
               .shapes = {{DomainShape::box, {2, 3}, of_box},
                          {DomainShape::ball, {2, 3}, walls},
                          {DomainShape::shell, {2, 3}, walls}},

@@ -60,7 +60,7 @@ namespace meltfront::reference_fem::fitted
     {
       if(!wall.boundary)
         continue;
-      flux = flux || by_flux(*wall.boundary);
+      flux = flux || cases::prescribes_heat(wall.boundary->kind);
       if(wall.boundary->kind == BoundaryKind::fixed_temperature)
       {
         wall.first_account = n_unknowns;
@@ -100,7 +100,7 @@ namespace meltfront::reference_fem::fitted
         dynamic.add(wall.first_account + ray, rays.node(ray, wall.level));
       }
     for(const Wall &wall : walls)
-      if(wall.boundary && wall.boundary->kind == BoundaryKind::heat_transfer)
+      if(wall.boundary && cases::exchanges_heat(wall.boundary->kind))
         for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
           dynamic.add(flux_account, rays.node(ray, wall.level));
     if(volumetric_account != RayMesh::none && rays.has_front())
@@ -224,6 +224,7 @@ namespace meltfront::reference_fem::fitted
       break;
     case cases::Effect::wall_flux:
     case cases::Effect::robin_wall:
+    case cases::Effect::radiating_wall:
       rows.push_back(flux_account);
       break;
     case cases::Effect::heat_sources:

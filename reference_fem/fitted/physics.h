@@ -1,7 +1,7 @@
 #ifndef meltfront_reference_fem_fitted_physics_h
 #define meltfront_reference_fem_fitted_physics_h
 
-#include <cases/scene.h>
+#include <cases/wall_law.h>
 
 #include <array>
 #include <cmath>
@@ -42,38 +42,6 @@ namespace meltfront::reference_fem::fitted
       return root ? std::sqrt(std::max(time - origin, 0.)) : time;
     }
   };
-
-  /** Heat that flows in through a wall by its law (W/m^2), and its derivative with
-   * respect to the wall's temperature (W/(m^2 K)). */
-  struct WallFlux
-  {
-    double value = 0, slope = 0;
-  };
-
-  /** Whether a wall's law prescribes the heat that flows in, which may be none. */
-  inline bool by_flux(const cases::Boundary &wall)
-  {
-    return wall.kind == cases::BoundaryKind::flux
-           || wall.kind == cases::BoundaryKind::heat_transfer;
-  }
-
-  /** What flows in at a place of a wall that has a temperature (not one that is
-   * prescribed): q, or h (T_ambient - T). */
-  inline WallFlux flux_through(const cases::Boundary &wall,
-                               const cases::Position &position, double time,
-                               double temperature)
-  {
-    switch(wall.kind)
-    {
-    case cases::BoundaryKind::flux:
-      return {wall.value(position, time), 0};
-    case cases::BoundaryKind::heat_transfer:
-      return {wall.heat_transfer_coefficient * (wall.value(position, time) - temperature),
-              -wall.heat_transfer_coefficient};
-    default:
-      return {};
-    }
-  }
 
   /** What holds in the domain and on the two walls that the rays end at. */
   struct Physics

@@ -64,21 +64,20 @@ namespace meltfront::reference_fem::fitted
    */
   void FittedRun::refuse_start_at_melting_wall() const
   {
-    using cases::BoundaryKind;
     constexpr double round_off = 1e-12;
     const Physics &physics = problem->physics();
     const RayMesh &mesh = problem->mesh();
     for(const bool inner : {true, false})
     {
       const cases::Boundary &wall = inner ? physics.inner_wall : physics.outer_wall;
-      if(wall.kind != BoundaryKind::flux && wall.kind != BoundaryKind::heat_transfer)
+      if(!cases::prescribes_heat(wall.kind))
         continue;
       const double excess
           = problem->wall_excess(inner, 0, scene.start_time, initial_state);
       const double flux
-          = flux_through(wall, mesh.position(0, inner ? mesh.inner : mesh.outer),
-                         scene.start_time, physics.melting_temperature + excess)
-                .value;
+          = cases::heat_through(wall, mesh.position(0, inner ? mesh.inner : mesh.outer),
+                                scene.start_time, physics.melting_temperature + excess)
+                .flux;
       if(std::abs(excess) <= round_off * physics.temperature_scale
          && (physics.phases[0].solid ? flux > 0 : flux < 0))
         throw cases::Refusal(fmt::format("{} cannot start a front at a wall that is at "

@@ -104,7 +104,8 @@ namespace meltfront::reference_fem::fitted
     }
     const double excess = problem.wall_excess(inner, ray, time, u);
     const double flux
-        = flux_through(wall, place, time, physics.melting_temperature + excess).value;
+        = cases::heat_through(wall, place, time, physics.melting_temperature + excess)
+              .flux;
     // Elements overshoot also at a wall; it passes the melting temperature where heat
     // leads it there.
     return beyond(solid, excess)

@@ -200,11 +200,12 @@ namespace meltfront::reference_fem::fitted
                  - direction * outflow)
               / (2 * latent);
     const RayMesh &mesh = result.problem->mesh();
-    const double gradient = held ? -excess / width
-                                 : -flux_through(wall_law, mesh.position(0, wall), time,
-                                                 scene.material.melting_temperature)
-                                           .value
-                                       / new_phase.conductivity;
+    const double gradient
+        = held ? -excess / width
+               : -cases::heat_through(wall_law, mesh.position(0, wall), time,
+                                      scene.material.melting_temperature)
+                         .flux
+                     / new_phase.conductivity;
     const auto state_with = [&](const double front)
     {
       return result.problem->state(

@@ -24,6 +24,12 @@ namespace meltfront::verification
           boundary.exact ? "that makes the exact solution's flux"
                          : boundary.value.expression,
           boundary.heat_transfer_coefficient);
+    case cases::BoundaryKind::radiation:
+      return fmt::format("radiation with the ambient temperature {}, emissivity times "
+                         "Stefan-Boltzmann constant {:.6g}",
+                         boundary.exact ? "that makes the exact solution's flux"
+                                        : boundary.value.expression,
+                         boundary.emission_coefficient);
     default:
       return cases::to_string(boundary.kind);
     }

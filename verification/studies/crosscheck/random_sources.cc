@@ -34,8 +34,6 @@ namespace meltfront::verification
 
   void SceneMaker::choose_volumetric_source()
   {
-    if(!random.chance(problem == Problem::steady ? 0.8 : 0.5))
-      return;
     const double length = substance.length;
     const double density = random_sign() * substance.solid_conductivity
                            * substance.temperature_scale / (length * length)
@@ -47,5 +45,6 @@ namespace meltfront::verification
               : "";
     draft.set("Scene/Volumetric source", "power density",
               fmt::format("{}({})", wave, course.expression), course.simpler);
+    unbounded = true;
   }
 } // namespace meltfront::verification

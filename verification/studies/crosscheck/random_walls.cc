@@ -52,14 +52,28 @@ namespace meltfront::verification
     default:
     {
       const Course course = over_time(wall_temperature(), wall_temperature());
-      draft.set(here, "kind", "heat transfer");
+      const double coefficient
+          = substance.conductivity() / substance.length * random.log_uniform(0.3, 100);
+      const bool radiates = problem != Problem::steady && random.chance(0.3);
+      draft.set(here, "kind", radiates ? "radiation" : "heat transfer");
       draft.set(here, "ambient temperature", course.expression, course.simpler);
-      draft.set(here, "heat transfer coefficient",
-                words(substance.conductivity() / substance.length
-                      * random.log_uniform(0.3, 100)));
       held = unbounded = true;
+      if(!radiates)
+        draft.set(here, "heat transfer coefficient", words(coefficient));
+      else
+        radiate(here, coefficient);
     }
     }
+  }
+
+  /** As strongly as heat transfer at the melting temperature. */
+  void SceneMaker::radiate(const std::string &here, double coefficient)
+  {
+    const double absolute = 4 * substance.temperature_scale;
+    draft.set(here, "absolute zero", words(substance.melting_temperature - absolute));
+    draft.set(here, "emissivity", "1");
+    draft.set(here, "Stefan-Boltzmann constant",
+              words(coefficient / (4 * absolute * absolute * absolute)));
   }
 
   void SceneMaker::hold(const std::string &here, const std::string &side)

@@ -31,11 +31,14 @@ namespace meltfront::verification
     choose_walls();
     if(changes_phase())
       choose_sources();
-    else
-    {
+    const double released = problem == Problem::steady  ? 0.8
+                            : problem == Problem::pure  ? 0.12
+                            : problem == Problem::alloy ? 0
+                                                        : 0.5;
+    if(random.chance(released))
       choose_volumetric_source();
+    if(!changes_phase())
       choose_inclusion();
-    }
     if(problem == Problem::alloy)
       choose_solute();
     return draft;

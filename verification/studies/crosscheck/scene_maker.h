@@ -73,6 +73,7 @@ namespace meltfront::verification
     // In random_walls.cc:
     void choose_walls();
     void choose_wall(const std::string &here, const std::string &side);
+    void radiate(const std::string &here, double coefficient);
     void hold(const std::string &here, const std::string &side);
 
     /** More often than not on the other side of the melting point than the start. */

@@ -12,8 +12,6 @@ namespace meltfront::verification::claims
         cases::Side;
     using std::numbers::pi;
 
-    constexpr double transfer_coefficient = 3;
-
     cases::PhaseProperties material()
     {
       return {.conductivity = 2, .specific_heat_capacity = 0.8, .density = 1.5};
@@ -127,12 +125,9 @@ namespace meltfront::verification::claims
       };
       if(kind == BoundaryKind::flux)
         return {.kind = kind, .value = field(flux)};
-      return {.kind = kind,
-              .value = field(
-                  [wave, flux](const Position &p, double time)
-                  { return wave.at(p, time) + flux(p, time) / transfer_coefficient; }),
-              .exact = false,
-              .heat_transfer_coefficient = transfer_coefficient};
+      return surrounded(
+          kind, [wave](const Position &p, double time) { return wave.at(p, time); },
+          flux);
     }
 
     int resolution_of(int dimension)

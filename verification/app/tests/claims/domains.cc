@@ -8,6 +8,11 @@ namespace meltfront::verification::claims
   namespace
   {
     constexpr double depth = 0.5, inner_radius = 0.4;
+
+    /** Of walls that radiate: so that it is felt, and absolute temperatures stay
+     * positive.
+     */
+    constexpr double emission_coefficient = 0.2, absolute_zero = -4;
   } // namespace
 
   cases::Domain domain_of(cases::DomainShape shape, int dimension, bool round_outline)
@@ -80,6 +85,30 @@ namespace meltfront::verification::claims
   {
     return {.kind = cases::BoundaryKind::fixed_temperature,
             .value = field(std::move(temperature))};
+  }
+
+  cases::Boundary surrounded(cases::BoundaryKind kind, Value temperature, Value flux)
+  {
+    cases::Boundary result;
+    result.kind = kind;
+    if(kind == cases::BoundaryKind::heat_transfer)
+    {
+      result.heat_transfer_coefficient = transfer_coefficient;
+      result.value = field(
+          [temperature, flux](const cases::Position &p, double time)
+          { return temperature(p, time) + flux(p, time) / transfer_coefficient; });
+      return result;
+    }
+    result.emission_coefficient = emission_coefficient;
+    result.absolute_zero = absolute_zero;
+    result.value = field(
+        [temperature, flux](const cases::Position &p, double time)
+        {
+          const double own = std::pow(temperature(p, time) - absolute_zero, 4);
+          return absolute_zero
+                 + std::pow(own + flux(p, time) / emission_coefficient, 0.25);
+        });
+    return result;
   }
 
   cases::Position normal(const cases::Domain &domain, cases::Side side,

@@ -24,6 +24,13 @@ namespace meltfront::verification::claims
 
   cases::Boundary held_at(Value temperature);
 
+  /** Of walls that exchange heat with their surroundings (W/(m^2 K)). */
+  inline constexpr double transfer_coefficient = 3;
+
+  /** A wall whose surroundings are as warm as they must be for it to let a flux in at its
+   * temperature, by heat transfer or radiation. */
+  cases::Boundary surrounded(cases::BoundaryKind kind, Value temperature, Value flux);
+
   /** Unit normal out of a domain at a point of its wall. */
   cases::Position normal(const cases::Domain &domain, cases::Side side,
                          const cases::Position &point);

@@ -4,6 +4,7 @@
 #include <cases/exact/line_sink.h>
 #include <cases/exact/oracle.h>
 #include <cases/exact/planar_neumann.h>
+#include <cases/wall_law.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
 
@@ -17,8 +18,6 @@ namespace meltfront::verification::claims
     using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::Position,
         cases::Side, cases::Symmetry;
     using std::numbers::pi;
-
-    constexpr double transfer_coefficient = 3;
 
     int resolution_of(int dimension)
     {
@@ -149,22 +148,18 @@ namespace meltfront::verification::claims
 
     /** The surroundings are as warm as they must be for the wall to take up a given flux.
      */
-    Trial with_transfer(FrontScene of, double strength)
+    Trial with_surroundings(FrontScene of, BoundaryKind kind, double strength)
     {
       complete(of);
       of.problem.outer_wall = {BoundaryKind::flux, [strength](double time)
                                { return growing_flux(strength, time); }};
       const auto oracle = std::make_shared<const cases::SpectralOracle>(of.problem);
-      wall(of.trial.scene, far_side(of.trial.scene.domain))
-          = {.kind = BoundaryKind::heat_transfer,
-             .value = field(
-                 [oracle, strength](const Position &, double time)
-                 {
-                   return oracle->temperature(1., time)
-                          + growing_flux(strength, time) / transfer_coefficient;
-                 }),
-             .exact = false,
-             .heat_transfer_coefficient = transfer_coefficient};
+      wall(of.trial.scene, far_side(of.trial.scene.domain)) = surrounded(
+          kind,
+          [oracle](const Position &, double time)
+          { return oracle->temperature(1., time); },
+          [strength](const Position &, double time)
+          { return growing_flux(strength, time); });
       of.trial.judge = solution_judge(of.trial.scene, oracle);
       return of.trial;
     }
@@ -267,8 +262,8 @@ namespace meltfront::verification::claims
     FrontScene of = front_scene(shape, dimension, symmetric);
     if(kind == BoundaryKind::flux)
       return with_flux(std::move(of), moderate_flux);
-    if(kind == BoundaryKind::heat_transfer)
-      return with_transfer(std::move(of), moderate_flux);
+    if(cases::exchanges_heat(kind))
+      return with_surroundings(std::move(of), kind, moderate_flux);
     if(kind == BoundaryKind::fixed_temperature)
       wall(of.trial.scene, far_side(of.trial.scene.domain))
           = held_at([](const Position &, double) { return 1.; });
@@ -333,9 +328,14 @@ namespace meltfront::verification::claims
       return EffectTrials{with_flux(front_scene(shape, dimension, false), 0),
                           with_flux(front_scene(shape, dimension, false), strong_flux)};
     case Effect::robin_wall:
+    case Effect::radiating_wall:
+    {
+      const auto kind = effect == Effect::robin_wall ? BoundaryKind::heat_transfer
+                                                     : BoundaryKind::radiation;
       return EffectTrials{
-          with_transfer(front_scene(shape, dimension, false), 0),
-          with_transfer(front_scene(shape, dimension, false), strong_flux)};
+          with_surroundings(front_scene(shape, dimension, false), kind, 0),
+          with_surroundings(front_scene(shape, dimension, false), kind, strong_flux)};
+    }
     case Effect::volumetric_source:
       return EffectTrials{released_front(shape, dimension, false),
                           released_front(shape, dimension, true)};
