@@ -109,7 +109,8 @@ TEST(BadCase, Walls)
             "the wall's kind is 'insulated'");
   EXPECT_EQ(about_slab("set kind = insulated", "set kind = isolated"),
             "a.prm:30: key 'kind' in subsection 'Scene/Walls/x_max' needs one of "
-            "insulated, fixed temperature, exact, flux, periodic, heat transfer, not "
+            "insulated, fixed temperature, exact, flux, periodic, heat transfer, "
+            "radiation, not "
             "'isolated'; the "
             "nearest is 'insulated'");
   EXPECT_EQ(about_slab("set kind = insulated", "set kind = periodic"),

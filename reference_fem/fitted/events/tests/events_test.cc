@@ -157,11 +157,10 @@ namespace meltfront::reference_fem::fitted
       EXPECT_LE(fine.worst_budget_defect(), 1e-12);
     }
 
-    TEST(LateStart, IsFoundToRoundOff)
+    std::vector<Event> events_of(const cases::Scene &scene, const int n)
     {
-      const cases::Scene scene = cooled_bar(0.2);
       cases::Resolution resolution;
-      resolution.n = 16;
+      resolution.n = n;
       resolution.options = cases::Options(cases::options_of(RunOptions()));
       const cases::EffectSet effects = cases::effects_called_for(scene);
       const RunOptions options = options_for(scene, resolution);
@@ -170,9 +169,57 @@ namespace meltfront::reference_fem::fitted
                         {[](const RunSegment &) {},
                          [](long, double, const dealii::Vector<double> &, bool) {}});
       timeline.run(one_phase_stretch(setting));
-      ASSERT_EQ(timeline.events().size(), 1u);
-      EXPECT_NEAR(timeline.events()[0].time, 0.1, 1e-13);
-      EXPECT_NE(timeline.events()[0].text.find("x_min"), std::string::npos);
+      return timeline.events();
+    }
+
+    TEST(LateStart, IsFoundToRoundOff)
+    {
+      const std::vector<Event> events = events_of(cooled_bar(0.2), 16);
+      ASSERT_EQ(events.size(), 1u);
+      EXPECT_NEAR(events[0].time, 0.1, 1e-13);
+      EXPECT_NE(events[0].text.find("x_min"), std::string::npos);
+    }
+
+    /** Liquid at 0.5 that surroundings at -1 cool until it freezes at 0. */
+    cases::Scene cooled_by_transfer(double end)
+    {
+      cases::Scene scene = slab(unit_material(), 10, 0.5, 0, end);
+      cases::Boundary wall;
+      wall.kind = cases::BoundaryKind::heat_transfer;
+      wall.value = cases::Field::uniform(-1);
+      wall.heat_transfer_coefficient = 1;
+      set_boundary(scene, Side::x_min, wall);
+      return scene;
+    }
+
+    /** The wall of a half space is at the melting temperature when exp(tau^2) erfc(tau) =
+     * 2/3, tau^2 = h^2 alpha t/k^2. */
+    TEST(LateStart, AtAWallThatTransfersHeatIsThatOfTheHalfSpace)
+    {
+      const double onset = 0.165649071093950;
+      const std::vector<Event> events = events_of(cooled_by_transfer(0.2), 160);
+      ASSERT_EQ(events.size(), 1u);
+      EXPECT_NEAR(events[0].time, onset, 1e-8);
+      // A time of one after it, by second-order meshes that were extrapolated.
+      EXPECT_NEAR(run(cooled_by_transfer(onset + 1), 80).first_front.back(), 0.33844,
+                  1e-5);
+    }
+
+    /** The surface temperature's integral equation, summed as a series in the root of the
+     * time. */
+    TEST(LateStart, AtAWallThatRadiatesIsThatOfTheHalfSpace)
+    {
+      cases::Material material = unit_material();
+      material.melting_temperature = 1;
+      cases::Scene scene = slab(material, 3, 1.2, 0, 0.05);
+      cases::Boundary wall;
+      wall.kind = cases::BoundaryKind::radiation;
+      wall.value = cases::Field::uniform(0.5);
+      wall.emission_coefficient = 1;
+      set_boundary(scene, Side::x_min, wall);
+      const std::vector<Event> events = events_of(scene, 160);
+      ASSERT_EQ(events.size(), 1u);
+      EXPECT_NEAR(events[0].time, 0.0272189375434, 1e-8);
     }
 
     TEST(LateStart, AgreesWithTheEnthalpyMethod)

@@ -35,7 +35,7 @@ namespace meltfront::verification::claims
     if(method == "fem-fitted")
       adapt_fitted(form, trial);
     if(method == "fem-cut")
-      trial.n = shape == DomainShape::shell ? 24 : trial.scene.sources.empty() ? 16 : 40;
+      trial.n = !trial.scene.sources.empty() ? 40 : trial.scene.domain.round() ? 24 : 16;
     if(method == "rkpm-tracked" && form == "along a line" && dimension > 1)
       trial.n = 28;
     if(method == "sph-mixture" && shape == DomainShape::ball && dimension == 3)
