@@ -33,6 +33,8 @@ namespace
     scene.boundaries[1] = Boundary{BoundaryKind::flux, Field::uniform(7)};
     scene.boundaries[2]
         = Boundary{BoundaryKind::heat_transfer, Field::uniform(0), false, 1};
+    scene.boundaries[3]
+        = Boundary{BoundaryKind::radiation, Field::uniform(0), false, 0, 1};
     scene.volumetric_source = Field::uniform(1);
     scene.inclusion = Inclusion{Field::uniform(-1), 3};
     scene.sources.resize(2);

@@ -9,7 +9,21 @@ namespace meltfront::cases::manufactured
   namespace
   {
     /** Half the layer's thickness, in cells. */
-    constexpr double half_width = 2.5;
+    constexpr double half_width = 1.5;
+
+    /** From the front, up to the square of the distance over its radius of curvature
+     * where it is within the trusted range. */
+    double distance(const FrontDerivatives &f, double trusted)
+    {
+      const double square = f.square_of_gradient(), plain = f.value / std::sqrt(square);
+      if(!(std::abs(plain) < trusted))
+        return plain;
+      double bend = 0;
+      for(int i = 0; i < 3; ++i)
+        for(int j = 0; j < 3; ++j)
+          bend += f.gradient[i] * f.hessian[i][j] * f.gradient[j];
+      return plain * (1 + f.value * bend / (2 * square * square));
+    }
 
     /** A layer of integral one about zero. */
     double layer(double distance, double width)
@@ -24,7 +38,7 @@ namespace meltfront::cases::manufactured
   {
     const auto [lower, upper] = family.domain();
     const int dimension = family.dimension();
-    const double cell = (upper[0] - lower[0]) / (dimension == 3 ? 40 : 160);
+    const double cell = (upper[0] - lower[0]) / (dimension == 3 ? 48 : 160);
     std::array<int, 3> cells{1, 1, 1};
     double volume = 1;
     for(int d = 0; d < dimension; ++d)
@@ -42,7 +56,7 @@ namespace meltfront::cases::manufactured
           for(int d = 0; d < dimension; ++d)
             p[d] = lower[d] + (upper[d] - lower[d]) * (number[d] + 0.5) / cells[d];
           const FrontDerivatives f = family.derivatives(p, time);
-          area += layer(f.value / std::sqrt(f.square_of_gradient()), half_width * cell);
+          area += layer(distance(f, 2 * half_width * cell), half_width * cell);
         }
     return area * volume;
   }
