@@ -12,6 +12,11 @@ namespace meltfront::particles::rkpm_tracked
   /** The word that a user types. */
   inline constexpr const char *method_name = "rkpm-tracked";
 
+  /** Of heat released throughout: a phase that it takes beyond the melting temperature by
+   * more than this share of the largest difference from it, farther than so many spacings
+   * from the fronts, melts or freezes there, where no front is followed. */
+  inline constexpr double beyond_by_release = 1e-2, spacings_from_fronts = 2;
+
   /** Collocation keeps the maximum principle in the limit only. Slabs with walls and
    * starts that jump do not overshoot along a line at n = 10, 20, 40. In the plane a body
    * that vanishes is a few spacings wide whatever these are: about the remains of a ring

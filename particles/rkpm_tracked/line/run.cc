@@ -230,6 +230,31 @@ namespace meltfront::particles::rkpm_tracked
           relax_nodes(step);
       }
 
+      /** @throws cases::Refusal where the heat released melts or freezes away from
+       * fronts.
+       */
+      void check_release(const LineState &state) const
+      {
+        const double melting = scene.material.melting_temperature;
+        double scale = 0;
+        for(const double value : state.temperature)
+          scale = std::max(scale, std::abs(value - melting));
+        for(std::size_t i = 0; i < problem.nodes.size(); ++i)
+        {
+          const double x = problem.nodes[i], excess = state.temperature[i] - melting;
+          const bool solid = state.solid(state.interval_of(x));
+          const bool near = std::ranges::any_of(
+              state.fronts, [&](double front)
+              { return std::abs(front - x) < spacings_from_fronts * problem.spacing; });
+          if(!near && (solid ? excess : -excess) > beyond_by_release * scale)
+            throw cases::Refusal(fmt::format(
+                "{} follows fronts from where they start; at t = {:.6g} the heat "
+                "released "
+                "throughout {} at x = {:.6g} away from them",
+                method_name, state.time, solid ? "melts solid" : "freezes liquid", x));
+        }
+      }
+
       void check(const LineState &state)
       {
         const long step = first_step + stepper.steps();
@@ -238,6 +263,8 @@ namespace meltfront::particles::rkpm_tracked
         cases::check_temperature(bounds, *lowest, *highest, method_name, step, state.time,
                                  cases::allowed_overshoot(overshoot_along_line,
                                                           problem.spacing, scene.domain));
+        if(problem.volumetric_source && !problem.metastable)
+          check_release(state);
         const LineHeat heat = heat_of(problem, state);
         largest_heat = std::max({largest_heat, std::abs(heat.sensible) + heat.latent,
                                  std::abs(walls + booked), std::abs(released)});

@@ -119,6 +119,30 @@ namespace meltfront::particles::rkpm_tracked
     }
   }
 
+  /** @throws cases::Refusal where the heat released melts or freezes away from fronts. */
+  void PlaneRun::check_release(const PlaneState &checked, double scale) const
+  {
+    if(cases::metastable_initial_phase(scene))
+      return;
+    const double reach = spacings_from_fronts * nodes.spacing;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      if(checked.phase[i] == NodePhase::front)
+        continue;
+      const bool solid = checked.phase[i] == NodePhase::solid;
+      const double excess
+          = heat.temperature(checked, i) - scene.material.melting_temperature;
+      if((solid ? excess : -excess) > beyond_by_release * scale
+         && std::abs(heat.front_index().signed_distance(nodes.position[i], reach))
+                >= reach)
+        throw cases::Refusal(fmt::format(
+            "{} follows fronts from where they start; at t = {:.6g} the heat released "
+            "throughout {} at ({:.6g}, {:.6g}) away from them",
+            method_name, checked.time, solid ? "melts solid" : "freezes liquid",
+            nodes.position[i].x(), nodes.position[i].y()));
+    }
+  }
+
   void PlaneRun::check(const PlaneState &checked) const
   {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -136,6 +160,9 @@ namespace meltfront::particles::rkpm_tracked
       highest = std::max(highest, value);
     }
     cases::require_sinks(scene, checked.time, method_name);
+    if(scene.volumetric_source)
+      check_release(checked, std::max(highest - scene.material.melting_temperature,
+                                      scene.material.melting_temperature - lowest));
     cases::check_temperature(
         bounds, lowest, highest, method_name, step_number, checked.time,
         cases::allowed_overshoot(overshoot_in_plane, nodes.spacing, scene.domain));

@@ -51,6 +51,7 @@ namespace meltfront::particles::rkpm_tracked
     TopologySettings topology_settings() const;
     void warn_of_ripples();
     void settle_nodes();
+    void check_release(const PlaneState &checked, double scale) const;
     void check(const PlaneState &checked) const;
     void check_resolved() const;
     std::string unresolved_phase() const;
