@@ -282,6 +282,19 @@ namespace
       EXPECT_EQ(one.temperature[i], three.temperature[i]);
   }
 
+  // Solid at -0.1 up to x = 0.5, liquid beyond: what is released melts the solid away
+  // from the front, where a second one would start.
+  TEST(PlaneRun, RefusesReleasedHeatThatMeltsAwayFromTheFront)
+  {
+    cases::Scene scene = insulated_box(
+        {1, 0.5, 0}, [](const cases::Position &p) { return p[0] - 0.5; },
+        [](const cases::Position &p) { return p[0] < 0.5 ? -0.1 : 0.1; }, 0.1);
+    scene.volumetric_source = cases::Field::uniform(-0.01);
+    EXPECT_NO_THROW(run_plane(scene, 20));
+    scene.volumetric_source = cases::Field::uniform(10);
+    EXPECT_THROW(run_plane(scene, 20), cases::Refusal);
+  }
+
   TEST(PlaneRun, RefusesWhatItCannotTreat)
   {
     const cases::Scene sink = line_sink_annulus();
