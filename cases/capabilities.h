@@ -30,8 +30,8 @@ namespace meltfront::cases
   /**
    * The ways in which fronts are certain to come to be in a scene that conducts heat, in
    * the order of the enumeration; empty where the scene's data do not tell (a wall that
-   * gives off heat may or may not freeze what it borders). An alloy has a mush and no
-   * front: none is named.
+   * gives off heat may or may not freeze what it borders). An alloy, or a material with a
+   * melting range, has a mush and no front: none is named.
    */
   std::vector<FrontOrigin> front_origins(const Scene &scene);
 

@@ -36,13 +36,17 @@ namespace meltfront::cases
           "the material has no latent heat");
     }
 
+    constexpr const char *at_melting = " (at the melting temperature)";
+
     EffectDecision phase_conductivity(const Scene &scene)
     {
       const double solid = scene.material.solid.conductivity;
       const double liquid = scene.material.liquid.conductivity;
-      return decide(Effect::phase_conductivity, solid != liquid,
-                    fmt::format("the solid conducts {:.6g} W/(m K), the liquid {:.6g}",
-                                solid, liquid),
+      const bool curves_differ = scene.material.solid.conductivity_curve
+                                 != scene.material.liquid.conductivity_curve;
+      return decide(Effect::phase_conductivity, solid != liquid || curves_differ,
+                    fmt::format("the solid conducts {:.6g} W/(m K), the liquid {:.6g}{}",
+                                solid, liquid, curves_differ ? at_melting : ""),
                     fmt::format("both phases conduct {:.6g} W/(m K)", solid));
     }
 
@@ -50,9 +54,11 @@ namespace meltfront::cases
     {
       const double solid = scene.material.solid.specific_heat_capacity;
       const double liquid = scene.material.liquid.specific_heat_capacity;
-      return decide(Effect::phase_heat_capacity, solid != liquid,
-                    fmt::format("the solid stores {:.6g} J/(kg K), the liquid {:.6g}",
-                                solid, liquid),
+      const bool curves_differ = scene.material.solid.heat_capacity_curve
+                                 != scene.material.liquid.heat_capacity_curve;
+      return decide(Effect::phase_heat_capacity, solid != liquid || curves_differ,
+                    fmt::format("the solid stores {:.6g} J/(kg K), the liquid {:.6g}{}",
+                                solid, liquid, curves_differ ? at_melting : ""),
                     fmt::format("both phases store {:.6g} J/(kg K)", solid));
     }
 
@@ -202,6 +208,54 @@ namespace meltfront::cases
           "the melting temperature does not depend on curvature");
     }
 
+    EffectDecision varies(Effect effect, const Material &material, const char *what,
+                          std::shared_ptr<const PropertyCurve> PhaseProperties::*curve)
+    {
+      std::string words;
+      for(const auto &[phase, name] :
+          {std::pair(&material.solid, "solid"), std::pair(&material.liquid, "liquid")})
+        if(phase->*curve)
+          words += fmt::format("{}that of the {} is {}", words.empty() ? "" : ", ", name,
+                               (phase->*curve)->words());
+      return decide(effect, !words.empty(),
+                    fmt::format("the {} depends on temperature: {}", what, words),
+                    fmt::format("no {} depends on temperature", what));
+    }
+
+    EffectDecision variable_conductivity(const Scene &scene)
+    {
+      return varies(Effect::variable_conductivity, scene.material, "conductivity",
+                    &PhaseProperties::conductivity_curve);
+    }
+
+    EffectDecision variable_heat_capacity(const Scene &scene)
+    {
+      return varies(Effect::variable_heat_capacity, scene.material, "heat capacity",
+                    &PhaseProperties::heat_capacity_curve);
+    }
+
+    EffectDecision melting_range(const Scene &scene)
+    {
+      const auto &range = scene.material.melting_range;
+      return decide(Effect::melting_range, range != nullptr,
+                    range ? fmt::format("the material is partly solid from {:.6g} to "
+                                        "{:.6g} ({})",
+                                        range->solidus, range->liquidus, range->words)
+                          : "",
+                    "the material melts at one temperature");
+    }
+
+    EffectDecision moving_source(const Scene &scene)
+    {
+      std::string paths;
+      for(const PointSource &source : scene.sources)
+        if(source.path)
+          paths
+              += fmt::format("{}{}", paths.empty() ? "" : "; ", source.path->expression);
+      return decide(Effect::moving_source, !paths.empty(),
+                    fmt::format("a source moves: {}", paths), "no source moves");
+    }
+
     EffectDecision gravity(const Scene &scene)
     {
       const double gravity = scene.particle_solid->gravity;
@@ -251,13 +305,18 @@ namespace meltfront::cases
         {Effect::phase_conductivity, "phase_conductivity",
          "The phases conduct heat differently.", phase_conductivity,
          [](Scene &scene)
-         { scene.material.liquid.conductivity = scene.material.solid.conductivity; }},
+         {
+           PhaseProperties &liquid = scene.material.liquid;
+           liquid.conductivity = scene.material.solid.conductivity;
+           liquid.conductivity_curve = scene.material.solid.conductivity_curve;
+         }},
         {Effect::phase_heat_capacity, "phase_heat_capacity",
          "The phases store heat differently.", phase_heat_capacity,
          [](Scene &scene)
          {
-           scene.material.liquid.specific_heat_capacity
-               = scene.material.solid.specific_heat_capacity;
+           PhaseProperties &liquid = scene.material.liquid;
+           liquid.specific_heat_capacity = scene.material.solid.specific_heat_capacity;
+           liquid.heat_capacity_curve = scene.material.solid.heat_capacity_curve;
          }},
         {Effect::heat_sources, "heat_sources", "Point or line sources and sinks of heat.",
          heat_sources, [](Scene &scene) { scene.sources.clear(); }},
@@ -313,6 +372,45 @@ namespace meltfront::cases
         {Effect::gibbs_thomson, "gibbs_thomson",
          "The melting temperature of a curved front is lowered or raised.", gibbs_thomson,
          [](Scene &scene) { scene.material.gibbs_thomson_coefficient = 0; }},
+        {Effect::variable_conductivity, "variable_conductivity",
+         "A phase's conductivity depends on temperature; off: it is that at the melting "
+         "temperature.",
+         variable_conductivity,
+         [](Scene &scene)
+         {
+           for(PhaseProperties *phase : {&scene.material.solid, &scene.material.liquid})
+             phase->conductivity_curve.reset();
+         }},
+        {Effect::variable_heat_capacity, "variable_heat_capacity",
+         "A phase's heat capacity depends on temperature; off: it is that at the melting "
+         "temperature.",
+         variable_heat_capacity,
+         [](Scene &scene)
+         {
+           for(PhaseProperties *phase : {&scene.material.solid, &scene.material.liquid})
+             phase->heat_capacity_curve.reset();
+         }},
+        {Effect::melting_range, "melting_range",
+         "The material is partly solid between two temperatures; off: it melts half way "
+         "between them.",
+         melting_range,
+         [](Scene &scene)
+         {
+           Material &material = scene.material;
+           if(material.melting_range)
+             material.melting_temperature
+                 = (material.melting_range->solidus + material.melting_range->liquidus)
+                   / 2;
+           material.melting_range.reset();
+         }},
+        {Effect::moving_source, "moving_source",
+         "Point or line sources that move; off: they stay where they start.",
+         moving_source,
+         [](Scene &scene)
+         {
+           for(PointSource &source : scene.sources)
+             source.path.reset();
+         }},
         {Effect::gravity, "gravity", "Particles of a solid have weight.", gravity,
          [](Scene &scene) { scene.particle_solid->gravity = 0; }},
         {Effect::base, "base", "A floor throws particles back.", base,
@@ -401,6 +499,7 @@ namespace meltfront::cases
     for(const Rule &r : rules)
       if(knows(scene, r.effect) && !effects.contains(r.effect))
         r.leave_out(result);
+    result.material.update_curves();
     return result;
   }
 } // namespace meltfront::cases

@@ -12,26 +12,30 @@ namespace meltfront::cases
   /** A piece of physics that a scene may call for. */
   enum class Effect
   {
-    phase_change,        ///< latent heat is exchanged
-    phase_conductivity,  ///< the phases conduct differently
-    phase_heat_capacity, ///< the phases store heat differently
-    heat_sources,        ///< point or line sources and sinks
-    wall_temperature,    ///< a wall with a prescribed temperature
-    wall_flux,           ///< a wall with a prescribed heat flux
-    liquid_motion,       ///< freezing displaces liquid because the densities differ
-    metastable_phase,    ///< a phase lies beyond the melting temperature
-    solute,              ///< dissolved substance lowers the melting temperature
-    solute_diffusion,    ///< solute spreads in the liquid
-    eutectic,            ///< what is left of the liquid freezes at one temperature
-    volumetric_source,   ///< heat is released throughout the domain
-    inclusion,           ///< a region conducts otherwise than the rest
-    robin_wall,          ///< a wall exchanges heat with its surroundings
-    radiating_wall,      ///< a wall radiates heat to its surroundings
-    gibbs_thomson,       ///< a curved front melts at another temperature
-    gravity,             ///< weight of a solid's particles, whose effects begin here
-    base,                ///< a floor throws particles back
-    hot_base,            ///< a part of the floor throws them back faster than they came
-    point_heating        ///< a source drives particles away from itself
+    phase_change,           ///< latent heat is exchanged
+    phase_conductivity,     ///< the phases conduct differently
+    phase_heat_capacity,    ///< the phases store heat differently
+    heat_sources,           ///< point or line sources and sinks
+    wall_temperature,       ///< a wall with a prescribed temperature
+    wall_flux,              ///< a wall with a prescribed heat flux
+    liquid_motion,          ///< freezing displaces liquid because the densities differ
+    metastable_phase,       ///< a phase lies beyond the melting temperature
+    solute,                 ///< dissolved substance lowers the melting temperature
+    solute_diffusion,       ///< solute spreads in the liquid
+    eutectic,               ///< what is left of the liquid freezes at one temperature
+    volumetric_source,      ///< heat is released throughout the domain
+    inclusion,              ///< a region conducts otherwise than the rest
+    robin_wall,             ///< a wall exchanges heat with its surroundings
+    radiating_wall,         ///< a wall radiates heat to its surroundings
+    gibbs_thomson,          ///< a curved front melts at another temperature
+    variable_conductivity,  ///< a phase's conductivity depends on temperature
+    variable_heat_capacity, ///< a phase's heat capacity depends on temperature
+    melting_range,          ///< the material is partly solid between two temperatures
+    moving_source,          ///< a point or line source moves
+    gravity,                ///< weight of a solid's particles, whose effects begin here
+    base,                   ///< a floor throws particles back
+    hot_base,     ///< a part of the floor throws them back faster than they came
+    point_heating ///< a source drives particles away from itself
   };
   inline constexpr auto n_effects = static_cast<std::size_t>(Effect::point_heating) + 1;
 

@@ -219,7 +219,7 @@ namespace meltfront::cases
   {
     if(!scene.changes_phase())
       return {FrontOrigin::none};
-    if(scene.alloy)
+    if(scene.alloy || scene.material.melting_range)
       return {};
     const Start start(scene);
     std::vector<FrontOrigin> result;
@@ -236,7 +236,7 @@ namespace meltfront::cases
 
   int least_number_of_fronts(const Scene &scene)
   {
-    if(!scene.changes_phase() || scene.alloy)
+    if(!scene.changes_phase() || scene.alloy || scene.material.melting_range)
       return 0;
     const Start start(scene);
     const bool line = scene.symmetry != Symmetry::none;

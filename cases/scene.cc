@@ -31,6 +31,12 @@ namespace meltfront::cases
     return shape == DomainShape::ball || shape == DomainShape::shell;
   }
 
+  bool Domain::rectangular() const
+  {
+    return shape == DomainShape::slab || shape == DomainShape::box
+           || shape == DomainShape::axisymmetric;
+  }
+
   const char *to_string(Side side)
   {
     constexpr const char *names[]
@@ -41,7 +47,8 @@ namespace meltfront::cases
 
   const char *to_string(DomainShape shape)
   {
-    constexpr const char *names[] = {"slab", "box", "ball", "shell", "outline"};
+    constexpr const char *names[]
+        = {"slab", "box", "ball", "shell", "outline", "axisymmetric"};
     return names[static_cast<std::size_t>(shape)];
   }
 

@@ -44,11 +44,14 @@ namespace meltfront::cases
   /** Shape of the domain. */
   enum class DomainShape
   {
-    slab,   ///< planar: 0 <= x <= length, unbounded (periodic) across
-    box,    ///< lower <= (x, y, z) <= upper in `dimension` dimensions
-    ball,   ///< distance from the origin <= radius: a disk in 2D, a ball in 3D
-    shell,  ///< inner radius <= distance from the origin <= radius: an annulus in 2D
-    outline ///< what a closed curve bounds in the plane
+    slab,        ///< planar: 0 <= x <= length, unbounded (periodic) across
+    box,         ///< lower <= (x, y, z) <= upper in `dimension` dimensions
+    ball,        ///< distance from the origin <= radius: a disk in 2D, a ball in 3D
+    shell,       ///< inner radius <= distance from the origin <= radius: an annulus in 2D
+    outline,     ///< what a closed curve bounds in the plane
+    axisymmetric ///< a body about an axis, nothing varies around it: lower <= (x, y) <=
+                 ///< upper, x the distance from the axis and y along it; volumes and
+                 ///< walls are those of the whole body
   };
 
   /** The word for a shape in case files. */
@@ -57,10 +60,11 @@ namespace meltfront::cases
   struct Domain
   {
     DomainShape shape = DomainShape::slab;
-    int dimension = 1;       ///< of the shape: 1 for a slab, 2 or 3 for the others
-    Position lower{};        ///< corner of a box; (0, 0, 0) for a slab (m)
-    Position upper{};        ///< opposite corner of a box; (length, 0, 0) for a slab (m)
-    double radius = 0;       ///< of a ball or a shell (m)
+    int dimension = 1; ///< of the shape: 1 for a slab, 2 or 3 for the others
+    Position lower{};  ///< corner of a box or of the half section of an axisymmetric
+                       ///< body; (left end, 0, 0) for a slab (m)
+    Position upper{};  ///< opposite corner; (right end, 0, 0) for a slab (m)
+    double radius = 0; ///< of a ball or a shell (m)
     double inner_radius = 0; ///< of a shell (m)
     /** Of an outline, whose bounding box lies between `lower` and `upper`; else null. */
     std::shared_ptr<const Outline> outline{};
@@ -68,6 +72,10 @@ namespace meltfront::cases
 
     /** A ball or a shell. */
     bool round() const;
+
+    /** A slab, a box, or the rectangle that is the half section of an axisymmetric body.
+     */
+    bool rectangular() const;
 
     /** The length that a resolution n divides: slab length, box side along x, outer
      * diameter, or the reference length of an outline (m). */
@@ -118,15 +126,28 @@ namespace meltfront::cases
   inline constexpr std::size_t n_sides = 8;
   const char *to_string(Side side);
 
+  /** Where something that moves is at a time. */
+  struct Path
+  {
+    std::string expression; ///< as it was given
+    std::function<Position(double time)> position;
+  };
+
   /** A source of heat at a point: a point in 3D, a line across the plane in 2D; a sink is
    * negative. */
   struct PointSource
   {
-    Position position{};
-    std::string expression;                   ///< the strength as it was given
+    Position position{};    ///< where it starts, and stays unless it has a path
+    std::string expression; ///< the strength as it was given
     std::function<double(double time)> power; ///< W (3D), W/m (2D)
     std::function<double(double time)>
         energy; ///< integral of power from the scene's start (J, J/m)
+    std::optional<Path> path{};
+
+    Position at(double time) const
+    {
+      return path ? path->position(time) : position;
+    }
   };
 
   /** What is asked of a scene. */

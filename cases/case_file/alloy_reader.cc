@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -63,28 +62,10 @@ namespace meltfront::cases
                                "Diffusivity of the solute in the liquid.", 0));
     }
 
-    double read_number(const std::string &text)
-    {
-      double value = 0;
-      const char *end = text.data() + text.size();
-      const auto [stop, error] = std::from_chars(text.data(), end, value);
-      if(text.empty() || error != std::errc() || stop != end || !std::isfinite(value))
-        throw InputError(fmt::format("holds '{}', which is no number", quotable(text)));
-      return value;
-    }
-
     void read_liquidus_table(const std::string &text, double melting, Solute &solute)
     {
-      std::vector<std::pair<double, double>> points;
-      for(const std::string &point : split_list(text, ','))
-      {
-        const std::vector<std::string> parts = split_list(point, ':');
-        if(parts.size() != 2)
-          throw InputError(fmt::format("needs points 'mass fraction: temperature' "
-                                       "separated by commas, not '{}'",
-                                       quotable(point)));
-        points.emplace_back(read_number(parts[0]), read_number(parts[1]));
-      }
+      const std::vector<std::pair<double, double>> points
+          = parse_points(text, "mass fraction: temperature");
       try
       {
         solute.liquidus_curve = liquidus_through(points, melting);

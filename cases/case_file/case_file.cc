@@ -6,6 +6,7 @@
 #include <cases/case_file/criterion_parser.h>
 #include <cases/case_file/effect_checks.h>
 #include <cases/case_file/exact_reader.h>
+#include <cases/case_file/material_reader.h>
 #include <cases/case_file/prm_library.h>
 #include <cases/case_file/scene_reader.h>
 #include <cases/options.h>
@@ -208,6 +209,7 @@ namespace meltfront::cases
       complete_scene(prm, known, c.scene);
       check_effects(prm, c.scene);
       check_fields(prm, c.scene);
+      check_material(prm, c.scene);
       find_scene_breakpoints(prm, c.scene);
       check_alloy(prm, c.scene, sample_points(c.scene.domain));
       check_conduction(prm, c.scene, sample_points(c.scene.domain));

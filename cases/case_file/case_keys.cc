@@ -5,6 +5,7 @@
 #include <cases/case_file/interface_reader.h>
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/manufactured_reader.h>
+#include <cases/case_file/material_reader.h>
 #include <cases/case_file/particle_solid_reader.h>
 #include <cases/effects.h>
 #include <cases/scene.h>
@@ -43,16 +44,22 @@ namespace meltfront::cases
       const std::string domain = "Scene/Domain";
       prm.declare(
           domain,
-          word_key("shape", "", {"slab", "box", "ball", "shell", "outline"},
+          word_key("shape", "",
+                   {"slab", "box", "ball", "shell", "outline", "axisymmetric"},
                    "slab: 0 <= x <= length; box: between two corners; ball: a disk or "
                    "a ball about the origin; shell: that outside of an inner radius; "
-                   "outline: within a closed curve in the plane."));
-      prm.declare(domain,
-                  integer_key("dimension", "1", 1, 3,
-                              "Dimensions of the shape: 1 for a slab, 2 or 3 else."));
+                   "outline: within a closed curve in the plane; axisymmetric: a body "
+                   "about an axis, x the distance from it and y along it, between two "
+                   "corners."));
+      prm.declare(
+          domain,
+          integer_key("dimension", "1", 1, 3,
+                      "Dimensions of the shape: 1 for a slab, 2 of an axisymmetric "
+                      "section, 2 or 3 else."));
       prm.declare(domain, number_key("length", "", "m", "Length of a slab.", above_zero));
       prm.declare(domain, number_key("left end", "0", "m", "Where a slab begins."));
-      prm.declare(domain, numbers_key("lower corner", "m", "Corner of a box."));
+      prm.declare(domain, numbers_key("lower corner", "m",
+                                      "Corner of a box or of an axisymmetric section."));
       prm.declare(domain, numbers_key("upper corner", "m", "Opposite corner of a box."));
       prm.declare(domain,
                   number_key("radius", "", "m",
@@ -78,32 +85,6 @@ namespace meltfront::cases
                      "Length of an outline that a resolution n divides; the larger "
                      "side of its bounding box where not given.",
                      above_zero));
-    }
-
-    void declare_material(PrmFile &prm)
-    {
-      const std::string material = "Scene/Material";
-      prm.declare(material,
-                  number_key("latent heat", "", "J/kg", "Latent heat of melting.", 0));
-      prm.declare(material, number_key("melting temperature", "", "K or degrees Celsius",
-                                       "Temperature at which the phases meet."));
-      prm.declare(material,
-                  number_key("Gibbs-Thomson coefficient", "0", "K m",
-                             "By how much times its curvature the solid's convex surface "
-                             "melts below the melting temperature.",
-                             0));
-      for(const std::string phase : {"Solid", "Liquid"})
-      {
-        const std::string here = material + "/" + phase;
-        const std::string remark
-            = phase == "Liquid" ? " The solid's value where it is not given." : "";
-        prm.declare(here, number_key("conductivity", "", "W/(m K)",
-                                     "Thermal conductivity." + remark, above_zero));
-        prm.declare(here, number_key("specific heat capacity", "", "J/(kg K)",
-                                     "Heat capacity per mass." + remark, above_zero));
-        prm.declare(here,
-                    number_key("density", "", "kg/m^3", "Density." + remark, above_zero));
-      }
     }
 
     void declare_state_and_walls(PrmFile &prm)
@@ -161,7 +142,17 @@ namespace meltfront::cases
       for(int i = 1; i <= most_sources; ++i)
       {
         const std::string source = fmt::format("Scene/Source {}", i);
-        prm.declare(source, numbers_key("position", "m", "Where the source is."));
+        prm.declare(source, text_key("position",
+                                     "Where the source is: as many coordinates as the "
+                                     "domain has dimensions, separated by commas; of "
+                                     "a source that moves, expressions of t (m)."));
+        prm.declare(
+            source,
+            number_key("radius", "", "m",
+                       "Of a Gaussian spot in place of a point: power densities "
+                       "fall as exp(-(d/radius)^2) with the distance d. What lies "
+                       "outside of the domain is not released.",
+                       above_zero));
         prm.declare(source,
                     text_key("power",
                              "Heat released per time, expression of t, negative for "

@@ -24,12 +24,28 @@ namespace meltfront::cases
       belongs("length", "slab");
       if(shape != "slab")
         prm.forbid(domain_keys, "left end", fmt::format("the shape is a {}", shape));
-      belongs("lower corner", "box");
-      belongs("upper corner", "box");
+      const std::string rectangle = shape == "axisymmetric" ? shape : "box";
+      belongs("lower corner", rectangle);
+      belongs("upper corner", rectangle);
       belongs("radius", shape == "shell" ? "shell" : "ball");
       belongs("inner radius", "shell");
       if(shape != "outline")
         forbid_outline_keys(prm, shape);
+    }
+
+    void read_rectangle(const PrmFile &prm, const std::string &shape, Domain &domain)
+    {
+      domain.shape = shape == "box" ? DomainShape::box : DomainShape::axisymmetric;
+      domain.lower = read_position(prm, domain_keys, "lower corner", domain.dimension);
+      domain.upper = read_position(prm, domain_keys, "upper corner", domain.dimension);
+      for(int d = 0; d < domain.dimension; ++d)
+        if(!(domain.lower[d] < domain.upper[d]))
+          throw prm.error(domain_keys, "upper corner",
+                          "must exceed 'lower corner' in every coordinate");
+      if(domain.shape == DomainShape::axisymmetric && domain.lower[0] < 0)
+        throw prm.error(domain_keys, "lower corner",
+                        "cannot lie beyond the axis of an axisymmetric domain: x is the "
+                        "distance from it");
     }
 
     void read_round_shape(const PrmFile &prm, const std::string &shape, Domain &domain)
@@ -77,10 +93,13 @@ namespace meltfront::cases
     domain.dimension = static_cast<int>(prm.get_integer(domain_keys, "dimension"));
     if(shape != "slab")
       prm.require(domain_keys, "dimension",
-                  shape == "outline" ? "an outline needs 2"
-                                     : fmt::format("a {} needs 2 or 3", shape));
-    if(shape == "outline" && domain.dimension != 2)
-      throw prm.error(domain_keys, "dimension", "must be 2 for an outline");
+                  shape == "outline"        ? "an outline needs 2"
+                  : shape == "axisymmetric" ? "an axisymmetric section has 2"
+                                            : fmt::format("a {} needs 2 or 3", shape));
+    if((shape == "outline" || shape == "axisymmetric") && domain.dimension != 2)
+      throw prm.error(domain_keys, "dimension",
+                      fmt::format("must be 2 for an {}",
+                                  shape == "outline" ? shape : "axisymmetric section"));
     if((domain.dimension == 1) != (shape == "slab"))
       throw prm.error(domain_keys, "dimension",
                       shape == "slab" ? "must be 1 for a slab"
@@ -95,15 +114,7 @@ namespace meltfront::cases
     else if(shape == "outline")
       read_outline(prm, domain);
     else
-    {
-      domain.shape = DomainShape::box;
-      domain.lower = read_position(prm, domain_keys, "lower corner", domain.dimension);
-      domain.upper = read_position(prm, domain_keys, "upper corner", domain.dimension);
-      for(int d = 0; d < domain.dimension; ++d)
-        if(!(domain.lower[d] < domain.upper[d]))
-          throw prm.error(domain_keys, "upper corner",
-                          "must exceed 'lower corner' in every coordinate");
-    }
+      read_rectangle(prm, shape, domain);
     return domain;
   }
 
@@ -116,12 +127,15 @@ namespace meltfront::cases
       throw prm.error("Scene", "symmetry",
                       fmt::format("contradicts the domain: {} {} in {} dimension{} is "
                                   "{}, not {}",
-                                  domain.outline ? "an" : "a", shape, domain.dimension,
+                                  domain.outline || shape == "axisymmetric" ? "an" : "a",
+                                  shape, domain.dimension,
                                   domain.dimension == 1 ? "" : "s", valid, word));
     };
     if(domain.shape == DomainShape::slab && symmetry != Symmetry::planar)
       complain("planar");
-    if((domain.shape == DomainShape::box || domain.outline) && symmetry != Symmetry::none)
+    if((domain.shape == DomainShape::box || domain.outline
+        || domain.shape == DomainShape::axisymmetric)
+       && symmetry != Symmetry::none)
       complain("none");
     if(domain.round() && symmetry != Symmetry::none
        && symmetry

@@ -57,6 +57,19 @@ namespace meltfront::cases
         wall(scene, Effect::radiating_wall, BoundaryKind::radiation, "'radiation'"),
         front,
         key(prm, Effect::gibbs_thomson, material, "Gibbs-Thomson coefficient"),
+        {Effect::variable_conductivity,
+         scene.material.solid.conductivity_curve
+             || scene.material.liquid.conductivity_curve,
+         "no conductivity is an expression of T or a table"},
+        {Effect::variable_heat_capacity,
+         scene.material.solid.heat_capacity_curve
+             || scene.material.liquid.heat_capacity_curve,
+         "no specific heat capacity is an expression of T or a table"},
+        key(prm, Effect::melting_range, material, "solidus temperature"),
+        {Effect::moving_source,
+         std::ranges::any_of(scene.sources, [](const PointSource &source)
+                             { return source.path.has_value(); }),
+         "no position of a source is an expression of t"},
         key(prm, Effect::phase_conductivity, liquid, "conductivity"),
         key(prm, Effect::phase_heat_capacity, liquid, "specific heat capacity"),
         key(prm, Effect::liquid_motion, liquid, "density"),

@@ -324,6 +324,10 @@ namespace meltfront::cases
       for(const char *key : far_concentrations)
         prm.forbid(exact_keys, key, "it is a key of the mushy layer");
     }
+    if(scene.domain.shape == DomainShape::axisymmetric && kind != "none"
+       && kind != "formula")
+      throw prm.error(exact_keys, "kind",
+                      fmt::format("cannot be '{}' in an axisymmetric domain", kind));
     if(kind == "manufactured")
       return read_manufactured_solution(prm, scene);
     forbid_manufactured_keys(prm);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <numbers>
@@ -143,6 +144,16 @@ namespace meltfront::cases
       }
     };
 
+    double read_number(const std::string &text)
+    {
+      double value = 0;
+      const char *end = text.data() + text.size();
+      const auto [stop, error] = std::from_chars(text.data(), end, value);
+      if(text.empty() || error != std::errc() || stop != end || !std::isfinite(value))
+        throw InputError(fmt::format("holds '{}', which is no number", quotable(text)));
+      return value;
+    }
+
     /** What the parser says, on one line. */
     std::string reason(const dealii::ExceptionBase &error)
     {
@@ -205,6 +216,21 @@ namespace meltfront::cases
     {
       throw InputError(fmt::format("cannot be parsed: {}", reason(error)));
     }
+  }
+
+  std::vector<std::pair<double, double>> parse_points(const std::string &text,
+                                                      const std::string &form)
+  {
+    std::vector<std::pair<double, double>> points;
+    for(const std::string &point : split_list(text, ','))
+    {
+      const std::vector<std::string> parts = split_list(point, ':');
+      if(parts.size() != 2)
+        throw InputError(fmt::format("needs points '{}' separated by commas, not '{}'",
+                                     form, quotable(point)));
+      points.emplace_back(read_number(parts[0]), read_number(parts[1]));
+    }
+    return points;
   }
 
   std::function<double(double)> integral_from(std::function<double(double)> function,

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace meltfront::cases
@@ -25,6 +26,14 @@ namespace meltfront::cases
    */
   std::function<double(double)> parse_function(const std::string &expression,
                                                const std::string &variable);
+
+  /**
+   * Read the points of a table, `a: b, c: d`.
+   * @param form what a point is, for complaints: `temperature: value`
+   * @throws InputError with the reason alone
+   */
+  std::vector<std::pair<double, double>> parse_points(const std::string &text,
+                                                      const std::string &form);
 
   /**
    * Integral of a function of time from `start`, for times up to `end`: Gauss-Kronrod

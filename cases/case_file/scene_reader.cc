@@ -7,8 +7,10 @@
 #include <cases/case_file/expression.h>
 #include <cases/case_file/interface_reader.h>
 #include <cases/case_file/key_builders.h>
+#include <cases/case_file/material_reader.h>
 #include <cases/case_file/particle_solid_reader.h>
 #include <cases/case_file/scene_reader.h>
+#include <cases/case_file/source_reader.h>
 #include <cases/case_file/times_reader.h>
 #include <cases/sampling.h>
 
@@ -64,52 +66,6 @@ namespace meltfront::cases
         result.push_back(
             positions[i * (positions.size() - 1) / std::max<std::size_t>(taken - 1, 1)]);
       return result;
-    }
-
-    /** Of a steady scene: it conducts, that is all. */
-    Material read_conductor(const PrmFile &prm)
-    {
-      const std::string why = "the scene is steady";
-      for(const char *key :
-          {"latent heat", "melting temperature", "Gibbs-Thomson coefficient"})
-        prm.forbid("Scene/Material", key, why);
-      for(const char *key : {"specific heat capacity", "density"})
-        prm.forbid("Scene/Material/Solid", key, why);
-      if(prm.opened("Scene/Material/Liquid"))
-        throw prm.subsection_error("Scene/Material/Liquid",
-                                   fmt::format("has no meaning here: {}", why));
-      Material material;
-      material.latent_heat = 0;
-      material.solid.conductivity = material.liquid.conductivity
-          = prm.get_number("Scene/Material/Solid", "conductivity");
-      return material;
-    }
-
-    Material read_material(const PrmFile &prm)
-    {
-      if(read_problem(prm) == ProblemKind::poisson)
-        return read_conductor(prm);
-      Material material;
-      material.latent_heat = prm.get_number("Scene/Material", "latent heat");
-      // Without latent heat and without a second phase nothing depends on it.
-      if(material.latent_heat > 0 || prm.opened("Scene/Material/Liquid")
-         || prm.given("Scene/Material", "melting temperature"))
-        material.melting_temperature
-            = prm.get_number("Scene/Material", "melting temperature");
-      material.gibbs_thomson_coefficient
-          = prm.get_number("Scene/Material", "Gibbs-Thomson coefficient");
-      const auto property = [&prm](const std::string &key, double &solid, double &liquid)
-      {
-        solid = prm.get_number("Scene/Material/Solid", key);
-        liquid = prm.given("Scene/Material/Liquid", key)
-                     ? prm.get_number("Scene/Material/Liquid", key)
-                     : solid;
-      };
-      property("conductivity", material.solid.conductivity, material.liquid.conductivity);
-      property("specific heat capacity", material.solid.specific_heat_capacity,
-               material.liquid.specific_heat_capacity);
-      property("density", material.solid.density, material.liquid.density);
-      return material;
     }
 
     std::vector<Side> sides_of(const Domain &domain)
@@ -199,6 +155,10 @@ namespace meltfront::cases
               fmt::format("names a wall that the domain lacks; its walls are {}", names));
         }
       }
+      if(scene.domain.shape == DomainShape::axisymmetric && scene.domain.lower[0] == 0
+         && scene.boundary(Side::x_min).kind != BoundaryKind::insulated)
+        throw prm.error(wall_keys(Side::x_min), "kind",
+                        "must be 'insulated': it is the axis, and no wall");
       for(const Side side : sides)
       {
         if(scene.boundary(side).kind != BoundaryKind::periodic)
@@ -207,6 +167,10 @@ namespace meltfront::cases
           throw prm.error(wall_keys(side), "kind",
                           "cannot be periodic: walls of a ball, a shell or an outline "
                           "face no other");
+        if(scene.domain.shape == DomainShape::axisymmetric
+           && (side == Side::x_min || side == Side::x_max))
+          throw prm.error(wall_keys(side), "kind",
+                          "cannot be periodic across the axis of an axisymmetric domain");
         const auto opposite = static_cast<Side>(static_cast<int>(side) ^ 1);
         if(scene.boundary(opposite).kind != BoundaryKind::periodic)
           throw prm.error(
@@ -239,73 +203,6 @@ namespace meltfront::cases
       if(prm.given(initial_keys, "front"))
         scene.initial.front
             = read_field(prm, initial_keys, "front", coordinates(scene.domain));
-    }
-
-    bool inside(const Domain &domain, const Position &p)
-    {
-      if(domain.outline)
-        return domain.outline->inside(p);
-      if(domain.round())
-      {
-        const double distance = coordinate(Symmetry::spherical, p);
-        return distance >= domain.inner_radius && distance <= domain.radius;
-      }
-      for(int d = 0; d < domain.dimension; ++d)
-        if(p[d] < domain.lower[d] || p[d] > domain.upper[d])
-          return false;
-      return true;
-    }
-
-    PointSource read_source(const PrmFile &prm, const std::string &here,
-                            const Scene &scene)
-    {
-      if(scene.domain.shape == DomainShape::slab)
-        throw prm.subsection_error(here, "has no meaning in a slab; a line or point "
-                                         "source needs a box, a ball or a shell");
-      prm.require(here, "position", "a source needs one");
-      prm.require(here, "power", "a source needs one");
-      PointSource source;
-      source.position = read_position(prm, here, "position", scene.domain.dimension);
-      if(!inside(scene.domain, source.position))
-        throw prm.error(here, "position", "lies outside the domain");
-      if(scene.symmetry != Symmetry::none && source.position != Position{})
-        throw prm.error(here, "position",
-                        fmt::format("contradicts the {} symmetry: it must be the origin",
-                                    prm.get_text("Scene", "symmetry")));
-      source.expression = prm.get_text(here, "power");
-      if(source.expression == "exact")
-        return source;
-      const Field field = read_field(prm, here, "power", "t");
-      source.power = [field](double time) { return field({}, time); };
-      return source;
-    }
-
-    /** The subsections of the file's sources, in the order of Scene::sources. */
-    std::vector<std::string> opened_sources(const PrmFile &prm)
-    {
-      std::vector<std::string> subsections;
-      for(int i = 1; i <= most_sources; ++i)
-        if(const std::string here = fmt::format("Scene/Source {}", i); prm.opened(here))
-          subsections.push_back(here);
-      return subsections;
-    }
-
-    /** The source's energy: the integral of its power, piece by piece between the times
-     * at which that breaks. */
-    void integrate_power(const PrmFile &prm, const std::string &here, const Scene &scene,
-                         PointSource &source)
-    {
-      const double start = scene.start_time;
-      Field field = read_field(prm, here, "power", "t");
-      if(field.constant)
-        source.energy = [power = field({}, 0), start](double time)
-        { return power * (time - start); };
-      else
-      {
-        find_breakpoints_of(prm, here, "power", scene, {Position{}}, field);
-        source.energy
-            = integral_from(source.power, start, scene.end_time, field.breakpoints);
-      }
     }
 
     /** The front of an exact solution as a level set, negative in solid. */
@@ -376,8 +273,7 @@ namespace meltfront::cases
       read_initial_state(prm, scene);
       read_alloy(prm, scene);
       read_conduction(prm, scene);
-      for(const std::string &here : opened_sources(prm))
-        scene.sources.push_back(read_source(prm, here, scene));
+      read_sources(prm, scene);
     }
 
     /** A scene that conducts none has no use for what belongs to heat. */
@@ -463,23 +359,7 @@ namespace meltfront::cases
       else if(known.solution->has_front())
         scene.initial.front = exact_level_set(known.solution);
     }
-    const std::vector<std::string> subsections = opened_sources(prm);
-    for(std::size_t i = 0; i < subsections.size(); ++i)
-    {
-      PointSource &source = scene.sources[i];
-      if(source.expression != "exact")
-      {
-        integrate_power(prm, subsections[i], scene, source);
-        continue;
-      }
-      if(!known.power)
-        throw prm.error(subsections[i], "power",
-                        "is 'exact' but the exact solution is not that of a sink");
-      source.power = known.power;
-      source.energy
-          = [energy = known.energy, before = known.energy(scene.start_time)](double time)
-      { return energy(time) - before; };
-    }
+    complete_sources(prm, known, scene);
   }
 
   void find_scene_breakpoints(const PrmFile &prm, Scene &scene)

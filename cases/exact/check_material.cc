@@ -24,6 +24,10 @@ namespace meltfront::cases
                      "specific heat capacity of the liquid");
     require_positive(material.liquid.density, "density of the liquid");
     require_positive(material.latent_heat, "latent heat");
+    if(material.curves)
+      throw InputError(fmt::format("{}: holds for properties that do not depend on "
+                                   "temperature, and for one melting temperature",
+                                   solution));
     if(!std::isfinite(material.melting_temperature))
       throw InputError(
           fmt::format("{}: the melting temperature must be finite", solution));

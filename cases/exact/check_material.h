@@ -7,7 +7,8 @@
 
 namespace meltfront::cases
 {
-  /** @throws InputError naming the first property that is not a positive number. */
+  /** @throws InputError naming the first property that is not a positive number, or where
+   * properties depend on temperature. */
   void check_material(const Material &material, const std::string &solution);
 
   /** @throws InputError where solid and liquid differ in density. */

@@ -40,6 +40,16 @@ namespace
     scene.sources.resize(2);
     for(PointSource &source : scene.sources)
       source.power = [](double) { return 1.; };
+    scene.sources[1].path = Path{"t", [](double t) { return Position{t, 0, 0}; }};
+    const auto curve = std::make_shared<PropertyCurve>(
+        std::vector<double>{-2, 2}, std::vector<double>{1, 2}, "table");
+    scene.material.solid.conductivity_curve = curve;
+    scene.material.liquid.heat_capacity_curve = curve;
+    scene.material.melting_range = std::make_shared<MeltingRange>(
+        MeltingRange{0, 1,
+                     std::make_shared<PropertyCurve>(std::vector<double>{0, 1},
+                                                     std::vector<double>{1, 0}, "linear"),
+                     "linear"});
     scene.initial.front = Field::uniform(-1); // solid, though too warm
     scene.alloy.emplace();
     scene.alloy->solutes.push_back(
@@ -90,7 +100,11 @@ TEST(Effects, AFullSceneCallsForAllWithReasons)
   EXPECT_EQ(decision(effects, Effect::wall_flux).reason,
             "a heat flux is prescribed on x_max");
   EXPECT_EQ(decision(effects, Effect::phase_conductivity).reason,
-            "the solid conducts 1 W/(m K), the liquid 2");
+            "the solid conducts 1 W/(m K), the liquid 2 (at the melting temperature)");
+  EXPECT_EQ(decision(effects, Effect::variable_heat_capacity).reason,
+            "the heat capacity depends on temperature: that of the liquid is table");
+  EXPECT_EQ(decision(effects, Effect::melting_range).reason,
+            "the material is partly solid from 0 to 1 (linear)");
 }
 
 TEST(Effects, EachPropertyCallsForItsOwnEffectOnly)

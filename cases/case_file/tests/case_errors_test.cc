@@ -33,9 +33,11 @@ TEST(BadCase, PropertiesThatCannotBe)
       about_slab("latent heat = 333500", "latent heat = -1"),
       "a.prm:10: key 'latent heat' in subsection 'Scene/Material' needs a number of "
       "at least 0 (J/kg), not '-1'");
-  EXPECT_EQ(about_slab("specific heat capacity = 2090", "specific heat capacity = big"),
-            "a.prm:14: key 'specific heat capacity' in subsection "
-            "'Scene/Material/Solid' needs a number greater than 0 (J/(kg K)), not 'big'");
+  EXPECT_EQ(
+      about_slab("specific heat capacity = 2090", "specific heat capacity = big"),
+      "a.prm:14: key 'specific heat capacity' in subsection "
+      "'Scene/Material/Solid' needs a number greater than 0 (J/(kg K)), an expression "
+      "of T or points 'T: value, ...', not 'big'");
   EXPECT_EQ(about_slab("      set density = 1000\n", ""),
             "a.prm:12: key 'density' in subsection 'Scene/Material/Solid' is missing: it "
             "needs a number greater than 0 (kg/m^3)");

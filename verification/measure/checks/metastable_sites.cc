@@ -69,6 +69,7 @@ namespace meltfront::verification
     : melting_temperature(scene.material.melting_temperature)
     , eutectic_temperature(scene.alloy ? scene.alloy->eutectic_temperature
                                        : melting_temperature)
+    , range(scene.material.melting_range)
     , at_start(cases::metastable_start(scene))
     , reach(spacings_to_front * spacing)
   {
@@ -81,10 +82,12 @@ namespace meltfront::verification
   {
     const double fraction = snapshot.solid_fraction[site];
     const double temperature = snapshot.temperature[site];
+    if(range && fraction > 0 && fraction < 1)
+      return std::max(range->solidus - temperature, temperature - range->liquidus);
     if((fraction > 0 && fraction < 1)
        || (fraction >= 1 ? at_start.superheat : at_start.undercooling) > 0)
       return 0;
-    double melting = melting_temperature;
+    double melting = range && fraction <= 0 ? range->liquidus : melting_temperature;
     if(diagram)
     {
       const auto content = [&](std::size_t s) {

@@ -43,6 +43,7 @@ namespace meltfront::verification
                   double tolerance) const;
 
     double melting_temperature, eutectic_temperature;
+    std::shared_ptr<const cases::MeltingRange> range;
     cases::MetastableStart at_start;
     std::optional<cases::PhaseDiagram> diagram;
     double reach; ///< distance from a front within which sites are left out (m)

@@ -49,8 +49,8 @@ namespace meltfront::verification
         scene.sources,
         [&](const cases::PointSource &source)
         {
-          return std::hypot(source.position[0] - place[0], source.position[1] - place[1],
-                            source.position[2] - place[2])
+          const cases::Position at = source.at(snapshot.time);
+          return std::hypot(at[0] - place[0], at[1] - place[1], at[2] - place[2])
                  <= reach;
         });
     const PhasesPresent present = phases_present(snapshot);

@@ -48,10 +48,13 @@ namespace meltfront::verification
       return cells_along[domain.dimension - 1];
     }
 
-    bool is_box(const cases::Domain &domain)
+    /** What the points of a rectangle's section stand for: each its circle. */
+    void turn_about_axis(const cases::Domain &domain,
+                         std::vector<QuadraturePoint> &points)
     {
-      return domain.shape == cases::DomainShape::slab
-             || domain.shape == cases::DomainShape::box;
+      if(domain.shape == cases::DomainShape::axisymmetric)
+        for(QuadraturePoint &point : points)
+          point.weight *= 2 * std::numbers::pi * point.place[0];
     }
 
     std::vector<QuadraturePoint> around(double radius, double weight)
@@ -80,6 +83,10 @@ namespace meltfront::verification
     if(domain.round())
       return cases::volume_between(symmetry_of(domain), domain.inner_radius,
                                    domain.radius);
+    if(domain.shape == cases::DomainShape::axisymmetric)
+      return cases::volume_between(cases::Symmetry::cylindrical, domain.lower[0],
+                                   domain.upper[0])
+             * (domain.upper[1] - domain.lower[1]);
     double volume = 1;
     for(int d = 0; d < domain.dimension; ++d)
       volume *= domain.upper[d] - domain.lower[d];
@@ -97,6 +104,15 @@ namespace meltfront::verification
       return domain.dimension == 2 ? 2 * std::numbers::pi * radius
                                    : 4 * std::numbers::pi * radius * radius;
     }
+    if(domain.shape == cases::DomainShape::axisymmetric)
+    {
+      const bool across = side == cases::Side::y_min || side == cases::Side::y_max;
+      const double radius
+          = side == cases::Side::x_min ? domain.lower[0] : domain.upper[0];
+      return across ? cases::volume_between(cases::Symmetry::cylindrical, domain.lower[0],
+                                            domain.upper[0])
+                    : 2 * std::numbers::pi * radius * (domain.upper[1] - domain.lower[1]);
+    }
     double area = 1;
     for(int d = 0; d < domain.dimension; ++d)
       if(d != static_cast<int>(side) / 2)
@@ -107,13 +123,14 @@ namespace meltfront::verification
   std::vector<QuadraturePoint> points_over(const cases::Domain &domain)
   {
     std::vector<QuadraturePoint> points;
-    if(is_box(domain))
+    if(domain.rectangular())
     {
       points.push_back({{}, 1});
       for(int d = 0; d < domain.dimension; ++d)
         points = extruded(
             points, d,
             points_between(domain.lower[d], domain.upper[d], cells_of(domain)));
+      turn_about_axis(domain, points);
     }
     else if(domain.round() && domain.dimension == 2)
       for(const LinePoint &ray :
@@ -129,7 +146,7 @@ namespace meltfront::verification
     if(domain.round() && domain.dimension == 2)
       return around(side == cases::Side::inner ? domain.inner_radius : domain.radius,
                     area_of(domain, side));
-    if(!is_box(domain))
+    if(!domain.rectangular())
       return {};
     const int normal = static_cast<int>(side) / 2;
     std::vector<QuadraturePoint> points{{{}, 1}};
@@ -140,6 +157,7 @@ namespace meltfront::verification
         points = extruded(
             points, d,
             points_between(domain.lower[d], domain.upper[d], cells_of(domain)));
+    turn_about_axis(domain, points);
     return points;
   }
 } // namespace meltfront::verification

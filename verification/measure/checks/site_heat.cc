@@ -5,6 +5,16 @@
 
 namespace meltfront::verification
 {
+  namespace
+  {
+    /** Heat per mass beside the latent heat of what is liquid (J/kg). */
+    double stored_at(const cases::Material &material, double temperature)
+    {
+      const cases::ThermalState state = material.curves->at_temperature(temperature);
+      return state.enthalpy - material.latent_heat * (1 - state.solid_fraction);
+    }
+  } // namespace
+
   SiteHeat heat_of_sites(const cases::Material &material, const cases::Snapshot &snapshot)
   {
     const double of_solid = material.solid.volumetric_heat_capacity();
@@ -17,9 +27,13 @@ namespace meltfront::verification
       if(snapshot.weights[i] == 0)
         continue;
       const double solid = snapshot.solid_fraction[i], liquid = 1 - solid;
-      const double sensible = snapshot.weights[i]
-                              * (solid * of_solid + liquid * of_liquid)
-                              * (snapshot.temperature[i] - material.melting_temperature);
+      const double sensible
+          = snapshot.weights[i]
+            * (material.curves
+                   ? (solid * material.solid.density + liquid * material.liquid.density)
+                         * stored_at(material, snapshot.temperature[i])
+                   : (solid * of_solid + liquid * of_liquid)
+                         * (snapshot.temperature[i] - material.melting_temperature));
       const double latent = snapshot.weights[i] * liquid * of_melting;
       result.stored += sensible;
       result.latent += latent;

@@ -109,6 +109,7 @@ namespace meltfront::verification
     if(scene.particle_solid && !snapshot.heat.conservative)
       entries[principle].reason = entries[phase].reason
           = "the temperature of few particles fluctuates";
+    judge_known_properties(snapshot);
     judge_principle(snapshot);
     judge_phase(snapshot);
     judge_heat(snapshot);

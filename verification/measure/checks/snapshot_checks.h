@@ -44,6 +44,8 @@ namespace meltfront::verification
    * enters and leaves in the whole run; a release in a steady state may lie between
    * that and what the sites sample of it;
    *
+   * Properties that depend on temperature end the run where they are no longer known.
+   *
    * front against phases: the share of tracked points beside which no phase changes, 1
    * where a method that tracks its front reports none between two phases; none may be.
    *
@@ -120,6 +122,7 @@ namespace meltfront::verification
     void include_liquidus(const cases::Snapshot &snapshot);
     double span() const;
     double temperature_of_melting() const;
+    void judge_known_properties(const cases::Snapshot &snapshot) const;
     void judge_principle(const cases::Snapshot &snapshot);
 
     // In phase_checks.cc:

@@ -83,6 +83,21 @@ namespace meltfront::verification
                                  : 0;
   }
 
+  void SnapshotChecks::judge_known_properties(const cases::Snapshot &snapshot) const
+  {
+    if(!scene.material.curves)
+      return;
+    const auto [first, last] = scene.material.known_temperatures();
+    const double slack = entries[principle].bound * span();
+    const auto [lowest, highest] = std::ranges::minmax(snapshot.temperature);
+    if(lowest < first - slack || highest > last + slack)
+      end_run(
+          snapshot, "temperature",
+          fmt::format("ranges from {:.6g} to {:.6g}, and the material's properties are "
+                      "known from {:.6g} to {:.6g} only",
+                      lowest, highest, first, last));
+  }
+
   void SnapshotChecks::judge_principle(const cases::Snapshot &snapshot)
   {
     if(!entries[principle].reason.empty())
