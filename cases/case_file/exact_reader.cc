@@ -3,6 +3,7 @@
 #include <cases/case_file/exact_reader.h>
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/manufactured_reader.h>
+#include <cases/exact/axisymmetric_view.h>
 #include <cases/exact/flux_freezing.h>
 #include <cases/exact/frank.h>
 #include <cases/exact/line_sink.h>
@@ -300,6 +301,36 @@ namespace meltfront::cases
       problem.line_sink = line_sink_strength(prm, scene, start);
       return {construct<SpectralOracle>(prm, problem), true, start.power, start.energy};
     }
+    /** The oracle of the cylindrical scene that an axisymmetric one is along its radius.
+     */
+    KnownSolution in_half_section(const PrmFile &prm, const Scene &scene)
+    {
+      for(const Side side : {Side::y_min, Side::y_max})
+        if(scene.boundary(side).kind != BoundaryKind::insulated
+           && scene.boundary(side).kind != BoundaryKind::periodic)
+          throw prm.error(wall_keys(side), "kind",
+                          "must be insulated or periodic for the oracle, which knows "
+                          "nothing that varies along the axis");
+      Scene disk = scene;
+      disk.symmetry = Symmetry::cylindrical;
+      disk.domain.inner_radius = scene.domain.lower[0];
+      disk.domain.radius = scene.domain.upper[0];
+      disk.domain.shape
+          = disk.domain.inner_radius > 0 ? DomainShape::shell : DomainShape::ball;
+      disk.boundaries = {};
+      const auto wall = [](auto &walls, Side side) -> auto &
+      {
+        return walls[static_cast<std::size_t>(side)];
+      };
+      wall(disk.boundaries, Side::outer) = scene.boundary(Side::x_max);
+      if(disk.domain.inner_radius > 0)
+        wall(disk.boundaries, Side::inner) = scene.boundary(Side::x_min);
+      KnownSolution known = oracle(prm, disk);
+      known.solution = AxisymmetricView::of_cylinder(
+          known.solution, disk.domain.inner_radius, disk.domain.radius,
+          scene.domain.upper[1] - scene.domain.lower[1]);
+      return known;
+    }
   } // namespace
 
   KnownSolution read_exact_solution(const PrmFile &prm, const Scene &scene)
@@ -324,8 +355,10 @@ namespace meltfront::cases
       for(const char *key : far_concentrations)
         prm.forbid(exact_keys, key, "it is a key of the mushy layer");
     }
+    if(scene.domain.shape == DomainShape::axisymmetric && kind == "oracle")
+      return in_half_section(prm, scene);
     if(scene.domain.shape == DomainShape::axisymmetric && kind != "none"
-       && kind != "formula")
+       && kind != "formula" && kind != "manufactured")
       throw prm.error(exact_keys, "kind",
                       fmt::format("cannot be '{}' in an axisymmetric domain", kind));
     if(kind == "manufactured")

@@ -1,8 +1,13 @@
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/manufactured_reader.h>
+#include <cases/exact/axisymmetric_view.h>
 #include <cases/exact/manufactured/manufactured_solution.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
 
 namespace meltfront::cases
 {
@@ -14,13 +19,30 @@ namespace meltfront::cases
         "wall temperature",  "far temperature",          "lambda",     "start",
         "far concentration", "far second concentration", "start time", "initial front"};
 
+    /** Those that are bodies about the x axis in space. */
+    constexpr std::string_view turned_families[] = {"disk", "two-disks", "finger"};
+
+    /** Where the families have a point of a half section: their axis is that of x. */
+    Position in_space(const Position &p)
+    {
+      return {p[1], p[0], 0};
+    }
+
     /** Front and temperature; what they complain of gets file, line and key. */
     std::shared_ptr<const ManufacturedSolution> make_solution(const PrmFile &prm,
                                                               const Scene &scene)
     {
       FamilyParameters parameters;
       parameters.name = prm.get_text(exact_keys, "family");
-      parameters.dimension = scene.domain.dimension;
+      const bool turned = scene.domain.shape == DomainShape::axisymmetric;
+      parameters.dimension = turned ? 3 : scene.domain.dimension;
+      if(turned
+         && std::ranges::find(turned_families, parameters.name)
+                == std::end(turned_families))
+        throw prm.error(exact_keys, "family",
+                        fmt::format("must be one of {} in an axisymmetric domain: bodies "
+                                    "about the axis",
+                                    fmt::join(turned_families, ", ")));
       parameters.period = prm.get_number(exact_keys, "period");
       parameters.length_scale = prm.get_number(exact_keys, "length scale");
       parameters.power = static_cast<int>(prm.get_integer(exact_keys, "contact"));
@@ -38,6 +60,21 @@ namespace meltfront::cases
         throw prm.error(exact_keys, "family",
                         fmt::format("gives no solution: {}", error.what()));
       }
+    }
+    void see_in_half_section(const std::shared_ptr<const ManufacturedSolution> &solution,
+                             KnownSolution &known)
+    {
+      known.solution = std::make_shared<const AxisymmetricView>(
+          solution, in_space,
+          [solution](double time) { return solution->solid_volume(time); },
+          [solution](double time) { return solution->front_area(time); });
+      known.volumetric_source->value = [solution](const Position &p, double time)
+      { return solution->volumetric_source(in_space(p), time); };
+      known.heat_flux = [solution](const Position &p, double time)
+      {
+        const auto flux = solution->heat_flux(in_space(p), time);
+        return std::array<double, 3>{flux[1], flux[0], 0};
+      };
     }
   } // namespace
 
@@ -102,6 +139,8 @@ namespace meltfront::cases
         = solution->family().merge_times(scene.start_time, scene.end_time);
     known.heat_flux = [solution](const Position &p, double time)
     { return solution->heat_flux(p, time); };
+    if(scene.domain.shape == DomainShape::axisymmetric)
+      see_in_half_section(solution, known);
     return known;
   }
 } // namespace meltfront::cases

@@ -5,15 +5,18 @@
 
 namespace meltfront::verification
 {
-  namespace
+  double sensible_heat(const cases::Material &material, double temperature,
+                       double solid_fraction)
   {
-    /** Heat per mass beside the latent heat of what is liquid (J/kg). */
-    double stored_at(const cases::Material &material, double temperature)
+    if(material.curves)
     {
       const cases::ThermalState state = material.curves->at_temperature(temperature);
       return state.enthalpy - material.latent_heat * (1 - state.solid_fraction);
     }
-  } // namespace
+    return (solid_fraction * material.solid.specific_heat_capacity
+            + (1 - solid_fraction) * material.liquid.specific_heat_capacity)
+           * (temperature - material.melting_temperature);
+  }
 
   SiteHeat heat_of_sites(const cases::Material &material, const cases::Snapshot &snapshot)
   {
@@ -31,7 +34,7 @@ namespace meltfront::verification
           = snapshot.weights[i]
             * (material.curves
                    ? (solid * material.solid.density + liquid * material.liquid.density)
-                         * stored_at(material, snapshot.temperature[i])
+                         * sensible_heat(material, snapshot.temperature[i], solid)
                    : (solid * of_solid + liquid * of_liquid)
                          * (snapshot.temperature[i] - material.melting_temperature));
       const double latent = snapshot.weights[i] * liquid * of_melting;

@@ -6,6 +6,8 @@
 #include <verification/report/page/case_runs.h>
 #include <verification/report/tables/table.h>
 
+#include <fmt/format.h>
+
 namespace meltfront::verification
 {
   namespace
@@ -78,6 +80,45 @@ namespace meltfront::verification
              + equation_line("", numbers);
     }
 
+    /** A property as it is given: a number, or what depends on temperature. */
+    std::string property_words(double number,
+                               const std::shared_ptr<const cases::PropertyCurve> &curve)
+    {
+      return curve ? curve->words() : fmt::format("{:.4g}", number);
+    }
+
+    /** Of a material whose properties depend on temperature, or that melts over a range.
+     */
+    Markup equations_of_curves(const StoredCase &record)
+    {
+      const cases::Material &material = record.scene.material;
+      const auto properties = [](const cases::PhaseProperties &phase)
+      {
+        return text(fmt::format(
+            "k(T) = {}, c(T) = {}, ρ = {}",
+            property_words(phase.conductivity, phase.conductivity_curve),
+            property_words(phase.specific_heat_capacity, phase.heat_capacity_curve),
+            fmt::format("{:.4g}", phase.density)));
+      };
+      Markup result = equation_line("heat", math("$ρ($c − L \\d{$f_s}{$T}) \\d{$T}{$t} = "
+                                                 "∇·($k ∇$T)"))
+                      + equation_line("solid", properties(material.solid))
+                      + equation_line("liquid", properties(material.liquid));
+      if(material.melting_range)
+        return result
+               + equation_line(
+                   "melting",
+                   text(fmt::format(
+                       "f_s(T): {}, from {:.6g} (solidus) to {:.6g} (liquidus); "
+                       "k and c are mixed by it",
+                       material.melting_range->words, material.melting_range->solidus,
+                       material.melting_range->liquidus)));
+      return result
+             + equation_line(
+                 "front", text(fmt::format("all latent heat is exchanged at T = {:.6g}",
+                                           material.melting_temperature)));
+    }
+
     Markup conditions(const StoredCase &record)
     {
       Markup rows;
@@ -107,6 +148,9 @@ namespace meltfront::verification
   {
     if(record.scene.alloy)
       return element("div", {{"class", "equations"}}, alloy_equations(record))
+             + conditions(record);
+    if(record.scene.material.curves)
+      return element("div", {{"class", "equations"}}, equations_of_curves(record))
              + conditions(record);
     if(!record.scene.changes_phase())
       return element("div", {{"class", "equations"}}, conduction_equation(record))
@@ -162,8 +206,12 @@ namespace meltfront::verification
                             {prose_number(of_liquid, 4)},
                             {prose_number(of_solid / of_liquid)}});
     };
-    add("conductivity k", "W/(m K)", solid.conductivity, liquid.conductivity);
-    add("heat capacity c", "J/(kg K)", solid.specific_heat_capacity,
+    const std::string at_melting = record.scene.material.varies_with_temperature()
+                                       ? " at the melting temperature"
+                                       : "";
+    add("conductivity k" + at_melting, "W/(m K)", solid.conductivity,
+        liquid.conductivity);
+    add("heat capacity c" + at_melting, "J/(kg K)", solid.specific_heat_capacity,
         liquid.specific_heat_capacity);
     add("density ρ", "kg/m³", solid.density, liquid.density);
     add("diffusivity k/(ρc)", "m²/s", solid.diffusivity(), liquid.diffusivity());

@@ -64,15 +64,17 @@ namespace meltfront::verification
     for(const cases::PointSource &source : scene.sources)
     {
       const auto begin = source.position.begin();
+      const std::string place
+          = source.path ? source.path->expression
+                        : fmt::format(
+                            "{}", fmt::join(begin, begin + std::max(dimension, 1), ", "));
       // "exact" is a word for a number that the exact solution knows.
       const std::string strength
           = source.expression == "exact"
                 ? fmt::format("that of the exact solution, {:.7g}{} at the end",
                               source.power(scene.end_time), unit)
                 : source.expression + unit;
-      result.push_back(fmt::format("at ({}): {}",
-                                   fmt::join(begin, begin + std::max(dimension, 1), ", "),
-                                   strength));
+      result.push_back(fmt::format("at ({}): {}", place, strength));
     }
     return result;
   }

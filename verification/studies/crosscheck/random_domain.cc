@@ -57,6 +57,22 @@ namespace meltfront::verification
     coordinate = radius_or_x();
   }
 
+  bool SceneMaker::turn_about_axis()
+  {
+    if(shape != "box" || shape_dimension != 2 || problem == Problem::steady
+       || draft.has("Scene/Source 1") || draft.has("Scene/Inclusion")
+       || !random.chance(0.15))
+      return false;
+    draft.set("Scene/Domain", "shape", "axisymmetric");
+    // The axis, or a hole about it.
+    if(random.chance(0.7))
+      draft.remove("Scene/Walls/x_min");
+    else
+      draft.set("Scene/Domain", "lower corner",
+                words(substance.length * random.uniform(0.2, 0.5)) + ", 0");
+    return true;
+  }
+
   bool SceneMaker::round() const
   {
     return shape == "ball" || shape == "shell";

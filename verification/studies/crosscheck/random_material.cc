@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 
 namespace meltfront::verification
 {
@@ -43,6 +44,58 @@ namespace meltfront::verification
                           words(first + (length - first) * random.uniform(0.1, 0.3))));
     draft.set(here, "conductivity",
               words(substance.solid_conductivity * random.log_uniform(1e-2, 1e2)));
+  }
+
+  void SceneMaker::vary_properties()
+  {
+    if(!random.chance(0.12) || draft.has("Scene/Inclusion"))
+      return;
+    const double melting = substance.melting_temperature;
+    const double scale = substance.temperature_scale;
+    for(const std::string phase : {"Scene/Material/Solid", "Scene/Material/Liquid"})
+      for(const std::string key : {"conductivity", "specific heat capacity"})
+      {
+        const std::string constant = draft.value(phase, key);
+        if(constant.empty() || !random.chance(0.5))
+          continue;
+        // Known wherever sources and fluxes may drive the temperature.
+        const double value = std::strtod(constant.c_str(), nullptr), far = 1e6 * scale;
+        std::string table = fmt::format("{}: {}", words(melting - far), constant);
+        for(const double shares : {-1., -0.3, 0., 0.4, 1.})
+          table += fmt::format(", {}: {}", words(melting + shares * scale, 12),
+                               words(value * random.log_uniform(0.5, 2)));
+        draft.set(phase, key,
+                  table + fmt::format(", {}: {}", words(melting + far), constant),
+                  {constant});
+      }
+  }
+
+  void SceneMaker::spread_melting()
+  {
+    const std::string here = "Scene/Material";
+    const bool starts_sharp
+        = !draft.value(initial, "front").empty()
+          || !draft.value(initial, "solid fraction at melting").empty()
+          || !draft.value(here, "Gibbs-Thomson coefficient").empty();
+    if(starts_sharp || !random.chance(0.1))
+      return;
+    const double scale = substance.temperature_scale;
+    const double solidus
+        = rounded(substance.melting_temperature - scale * random.uniform(0.05, 0.4));
+    const double liquidus = rounded(solidus + scale * random.uniform(0.1, 0.6));
+    draft.remove(here, "melting temperature");
+    draft.set(here, "solidus temperature", words(solidus));
+    draft.set(here, "liquidus temperature", words(liquidus));
+    if(random.chance(0.6))
+      return;
+    const bool rest = random.chance(0.5); // freezes at the solidus
+    const double middle = solidus + random.uniform(0.2, 0.8) * (liquidus - solidus);
+    draft.set(here, "solid fraction",
+              fmt::format("{}: {}, {}: {}, {}: 0", words(solidus, 12),
+                          rest ? words(random.uniform(0.6, 0.95)) : "1",
+                          words(middle, 12), words(random.uniform(0.1, 0.5)),
+                          words(liquidus, 12)),
+              {"linear"});
   }
 
   void SceneMaker::choose_solute()

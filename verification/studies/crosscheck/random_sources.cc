@@ -32,6 +32,25 @@ namespace meltfront::verification
     }
   }
 
+  void SceneMaker::move_sources()
+  {
+    for(int i = 1; i <= 2; ++i)
+    {
+      const std::string here = fmt::format("Scene/Source {}", i);
+      if(shape != "box" || !draft.has(here) || !random.chance(0.3))
+        continue;
+      const std::string start = draft.value(here, "position");
+      const std::size_t comma = start.find(',');
+      const std::string x = start.substr(0, comma);
+      draft.set(
+          here, "position",
+          fmt::format("{} + {}*t{}", x,
+                      words(substance.length * random.uniform(-0.2, 0.2) / duration),
+                      start.substr(comma)),
+          {start});
+    }
+  }
+
   void SceneMaker::choose_volumetric_source()
   {
     const double length = substance.length;

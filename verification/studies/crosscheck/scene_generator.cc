@@ -41,6 +41,14 @@ namespace meltfront::verification
       choose_inclusion();
     if(problem == Problem::alloy)
       choose_solute();
+    // What was added to the language later comes last: scenes of old seeds that call for
+    // none of it stay what they were.
+    if(problem == Problem::pure || problem == Problem::heat)
+      vary_properties();
+    if(problem == Problem::pure)
+      spread_melting();
+    if(!turn_about_axis())
+      move_sources();
     return draft;
   }
 

@@ -48,6 +48,9 @@ namespace meltfront::verification
 
     // In random_domain.cc:
     void choose_domain();
+
+    /** Make a box in the plane the half section of a body. */
+    bool turn_about_axis();
     bool round() const;
     bool plane_or_less() const;
     std::string radius_or_x() const;
@@ -63,6 +66,12 @@ namespace meltfront::verification
     void choose_material();
     void choose_inclusion();
     void choose_solute();
+
+    /** Let conductivities and heat capacities depend on temperature, by tables. */
+    void vary_properties();
+
+    /** Let it melt over a range of temperatures. */
+    void spread_melting();
 
     // In random_start.cc:
     void choose_start();
@@ -82,6 +91,7 @@ namespace meltfront::verification
     // In random_sources.cc:
     void choose_sources();
     void choose_volumetric_source();
+    void move_sources();
 
     RandomStream random;
     int dimension;

@@ -81,10 +81,8 @@ namespace meltfront::verification
     /** Latent and sensible heat per volume at a site, of phases of one density. */
     double heat_density(const cases::Material &material, double temperature, double solid)
     {
-      const double capacity = solid * material.solid.specific_heat_capacity
-                              + (1 - solid) * material.liquid.specific_heat_capacity;
       return material.solid.density
-             * (capacity * (temperature - material.melting_temperature)
+             * (sensible_heat(material, temperature, solid)
                 + material.latent_heat * (1 - solid));
     }
   } // namespace
