@@ -62,6 +62,23 @@ namespace meltfront::cases
     }
   }
 
+  /** Heat transfer q = coefficient (ambient - T) (W/(m^2 K), K). */
+  struct HeatTransfer
+  {
+    double coefficient = 0, ambient = 0;
+  };
+
+  /** What a wall that exchanges heat does near a temperature: its own law, or the tangent
+   * of radiation there, which makes Newton's method of solving again and again. */
+  inline HeatTransfer heat_transfer_near(const Boundary &wall, double given,
+                                         double temperature)
+  {
+    if(wall.kind == BoundaryKind::heat_transfer)
+      return {wall.heat_transfer_coefficient, given};
+    const HeatThroughWall through = heat_through(wall, given, temperature);
+    return {-through.slope, temperature - through.flux / through.slope};
+  }
+
   /** What flows in through a wall and a layer behind it (W/m^2), its derivatives with
    * respect to the temperature behind the layer (W/(m^2 K)) and the layer's resistance.
    */

@@ -18,7 +18,7 @@ namespace meltfront::particles
 
     const std::vector<BoundaryKind> walls{
         BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
-        BoundaryKind::heat_transfer};
+        BoundaryKind::heat_transfer, BoundaryKind::radiation};
 
     cases::Capabilities along_line()
     {
@@ -29,7 +29,7 @@ namespace meltfront::particles
               = {Effect::phase_change, Effect::phase_conductivity,
                  Effect::phase_heat_capacity, Effect::wall_temperature, Effect::wall_flux,
                  Effect::liquid_motion, Effect::metastable_phase,
-                 Effect::volumetric_source, Effect::robin_wall},
+                 Effect::volumetric_source, Effect::robin_wall, Effect::radiating_wall},
               .shapes = {{DomainShape::slab, {1}, walls},
                          {DomainShape::ball, {2, 3}, walls},
                          {DomainShape::shell, {2, 3}, walls}},
@@ -46,7 +46,8 @@ namespace meltfront::particles
               = {Effect::phase_change, Effect::phase_conductivity,
                  Effect::phase_heat_capacity, Effect::heat_sources,
                  Effect::wall_temperature, Effect::wall_flux, Effect::metastable_phase,
-                 Effect::volumetric_source, Effect::robin_wall, Effect::gibbs_thomson},
+                 Effect::volumetric_source, Effect::robin_wall, Effect::radiating_wall,
+                 Effect::gibbs_thomson},
               .shapes = {{DomainShape::box, {2}, walls},
                          {DomainShape::ball, {2}, walls},
                          {DomainShape::shell, {2}, walls},

@@ -1,3 +1,4 @@
+#include <cases/wall_law.h>
 #include <particles/scattered/given_values.h>
 
 #include <algorithm>
@@ -27,8 +28,7 @@ namespace meltfront::particles
   {
     for(const cases::Side side : scene.sides())
       if(const cases::Boundary &boundary = scene.boundary(side);
-         boundary.kind == cases::BoundaryKind::flux
-         || boundary.kind == cases::BoundaryKind::heat_transfer)
+         cases::prescribes_heat(boundary.kind))
         walls[static_cast<std::size_t>(side)].emplace(boundary.value);
     if(scene.volumetric_source)
       released.emplace(*scene.volumetric_source);

@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/wall_law.h>
 #include <particles/rkpm_tracked/line/collocation.h>
 
 #include <algorithm>
@@ -8,6 +9,10 @@ namespace meltfront::particles::rkpm_tracked
 {
   namespace
   {
+    /** Newton's passes for walls that radiate: few are needed. */
+    constexpr int most_passes = 20;
+    constexpr double same_temperature = 1e-13;
+
     /** Spacings over the thickness of a layer before a front, V h/a: up to the one it is
      * resolved, from the other on it is fitted. */
     constexpr double resolved_peclet = 0.25, unresolved_peclet = 0.75;
@@ -176,10 +181,12 @@ namespace meltfront::particles::rkpm_tracked
       values[j] = outward * conductivity * row.slope[j];
     if(wall.kind == BoundaryKind::flux)
       right_side[point] = wall.value(time);
-    if(wall.kind == BoundaryKind::heat_transfer)
+    if(cases::exchanges_heat(wall.kind))
     {
-      values[point - row.first] += wall.transfer;
-      right_side[point] = wall.transfer * wall.value(time);
+      const cases::HeatTransfer transfer = cases::heat_transfer_near(
+          wall.law, wall.value(time), wall_guess[static_cast<std::size_t>(side)]);
+      values[point - row.first] += transfer.coefficient;
+      right_side[point] = transfer.coefficient * transfer.ambient;
     }
   }
 
@@ -225,6 +232,8 @@ namespace meltfront::particles::rkpm_tracked
       return of_wall(BoundaryKind::flux);
     case cases::Effect::robin_wall:
       return of_wall(BoundaryKind::heat_transfer);
+    case cases::Effect::radiating_wall:
+      return of_wall(BoundaryKind::radiation);
     default:
       return nullptr;
     }
@@ -258,10 +267,16 @@ namespace meltfront::particles::rkpm_tracked
     gather(interval);
     if(cloud.size() < 2)
       throw cases::InputError("rkpm-tracked: a phase needs two points at least");
-    make_rows(interval, terms);
-    fill_matrix();
-    if(!matrix.solve(right_side))
-      throw cases::InputError("rkpm-tracked: the equations of a phase are singular");
+    wall_guess = {temperature.front(), temperature.back()};
+    for(int pass = 0; pass < most_passes; ++pass)
+    {
+      make_rows(interval, terms);
+      fill_matrix();
+      if(!matrix.solve(right_side))
+        throw cases::InputError("rkpm-tracked: the equations of a phase are singular");
+      if(walls_settled(interval))
+        break;
+    }
     for(std::size_t i = first; i < end; ++i)
       temperature[i] = right_side[i - first + offset];
     interpolate_absorbed(interval, temperature);
@@ -270,6 +285,25 @@ namespace meltfront::particles::rkpm_tracked
       if(terms.approach[side] > 0)
         slopes[side] *= slope_over_resolved(interval, side, terms.approach[side]);
     return slopes;
+  }
+
+  /** Whether radiating walls have the temperatures about which their laws were
+   * linearised, which become those just found. */
+  bool LineCollocation::walls_settled(const LineInterval &interval)
+  {
+    bool settled = true;
+    for(const std::size_t side : {0, 1})
+      if(problem.walls[side].radiates()
+         && !(side == 0 ? interval.lower_front : interval.upper_front))
+      {
+        const double found = side == 0 ? right_side.front() : right_side.back();
+        settled = settled
+                  && !(std::abs(found - wall_guess[side])
+                       > same_temperature
+                             * std::abs(found - problem.walls[side].law.absolute_zero));
+        wall_guess[side] = found;
+      }
+    return settled;
   }
 
   /**
@@ -379,16 +413,24 @@ namespace meltfront::particles::rkpm_tracked
     const std::size_t point = side == 0 ? 0 : cloud.size() - 1;
     const LineStencil &row = rows[point];
     const double conductivity = problem.phase(interval.solid).conductivity;
-    const double transfer = problem.walls[side].transfer;
-    double own = transfer, others = 0;
-    for(std::size_t j = 0; j < row.size(); ++j)
+    double value = right_side[point];
+    for(int pass = 0; pass < most_passes; ++pass)
     {
-      const double coefficient = (side == 0 ? -1 : 1) * conductivity * row.slope[j];
-      if(row.first + j == point)
-        own += coefficient;
-      else
-        others += coefficient * right_side[row.first + j];
+      const cases::HeatTransfer transfer
+          = cases::heat_transfer_near(problem.walls[side].law, ambient, value);
+      double own = transfer.coefficient, others = 0;
+      for(std::size_t j = 0; j < row.size(); ++j)
+      {
+        const double coefficient = (side == 0 ? -1 : 1) * conductivity * row.slope[j];
+        if(row.first + j == point)
+          own += coefficient;
+        else
+          others += coefficient * right_side[row.first + j];
+      }
+      value = (transfer.coefficient * transfer.ambient - others) / own;
+      if(!problem.walls[side].radiates())
+        break;
     }
-    return (transfer * ambient - others) / own;
+    return value;
   }
 } // namespace meltfront::particles::rkpm_tracked

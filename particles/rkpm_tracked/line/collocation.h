@@ -57,7 +57,8 @@ namespace meltfront::particles::rkpm_tracked
     EndSlopes slopes(const LineInterval &interval, std::span<const double> temperature);
 
     /** Temperature of a wall (0: lower, 1: upper) beside an interval that exchanges heat
-     * with an ambient temperature, for given temperatures of the other nodes. */
+     * with its surroundings, of an ambient temperature, for given temperatures of the
+     * other nodes. */
     double exchanging_wall(const LineInterval &interval, std::size_t side, double ambient,
                            std::span<const double> temperature);
 
@@ -89,6 +90,7 @@ namespace meltfront::particles::rkpm_tracked
     void add_release(const LineInterval &interval, double time);
     void make_rows(const LineInterval &interval, const StepTerms &terms);
     void fill_matrix();
+    bool walls_settled(const LineInterval &interval);
     void interpolate_absorbed(const LineInterval &interval,
                               std::span<double> temperature) const;
     void gather_values(const LineInterval &interval, std::span<const double> temperature);
@@ -108,6 +110,7 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<std::vector<double>> coefficients;
     std::vector<double> right_side;
     BandMatrix matrix;
+    std::array<double, 2> wall_guess{}; ///< about which radiation is linearised (K)
     long entries = 0;
     cases::EffectMeter release;
     std::array<cases::EffectMeter, cases::n_boundary_kinds> walls;

@@ -22,7 +22,12 @@ namespace meltfront::particles::rkpm_tracked
     std::function<double(double time)> value_after{}; ///< what it jumps to
     /** The mean over a time of a flux, else empty. */
     std::function<double(double begin, double end)> mean_flux{};
-    double transfer = 0; ///< of BoundaryKind::heat_transfer, W/(m^2 K)
+    cases::Boundary law{}; ///< of walls that exchange heat
+
+    bool radiates() const
+    {
+      return kind == cases::BoundaryKind::radiation;
+    }
 
     bool fixed() const
     {

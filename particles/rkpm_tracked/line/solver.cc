@@ -1,3 +1,4 @@
+#include <cases/wall_law.h>
 #include <particles/rkpm_tracked/line/solver.h>
 
 #include <algorithm>
@@ -80,7 +81,7 @@ namespace meltfront::particles::rkpm_tracked
     double &value = side == 0 ? state.temperature.front() : state.temperature.back();
     if(wall.fixed())
       value = wall.value_after(state.time);
-    else if(wall.kind == cases::BoundaryKind::heat_transfer)
+    else if(cases::exchanges_heat(wall.kind))
       value = collocation.exchanging_wall(
           interval(problem, state, side == 0 ? 0 : state.n_intervals() - 1), side,
           wall.value_after(state.time), state.temperature);

@@ -27,7 +27,7 @@ namespace meltfront::particles::rkpm_tracked
       const cases::Boundary &boundary = scene.boundary(side);
       LineWall wall;
       wall.kind = boundary.kind;
-      wall.transfer = boundary.heat_transfer_coefficient;
+      wall.law = boundary;
       if(wall.kind == BoundaryKind::insulated)
         return wall;
       // Far less than any step, far more than round-off.

@@ -316,6 +316,8 @@ namespace meltfront::particles::rkpm_tracked
       return of_wall(BoundaryKind::flux);
     case Effect::robin_wall:
       return of_wall(BoundaryKind::heat_transfer);
+    case Effect::radiating_wall:
+      return of_wall(BoundaryKind::radiation);
     default:
       return {effect, solves, 0, 0};
     }

@@ -2,6 +2,7 @@
 #define meltfront_particles_rkpm_tracked_plane_heat_h
 
 #include <cases/effect_meter.h>
+#include <cases/wall_law.h>
 #include <particles/rkpm_tracked/plane/sinks.h>
 #include <particles/rkpm_tracked/plane/state.h>
 #include <particles/scattered/compressed_rows.h>
@@ -165,6 +166,8 @@ namespace meltfront::particles::rkpm_tracked
     double known_rate(const PlaneStep &step, NodePhase phase, std::size_t node) const;
     void add_wall(const PlaneStep &step, const PlaneState &next, const WallNode &wall);
     void add_front(const PlaneStep &step, const PlaneState &next, std::size_t particle);
+    cases::HeatTransfer transfer_through(const WallPiece &piece, double value,
+                                         const PlaneState &latest, std::uint32_t node);
     void add(NodePhase phase, std::uint32_t column, double weight);
     void finish_row(double right_hand_side);
     void update_expansions(PlaneState &state, std::span<const double> solution);
@@ -189,6 +192,7 @@ namespace meltfront::particles::rkpm_tracked
      * the front is nearer than half a spacing; a film's fits say nothing of second
      * derivatives across it. */
     std::vector<double> wall_areas;
+    std::vector<double> wall_guesses;       ///< about which radiation is linearised (K)
     std::vector<std::size_t> before, after; ///< neighbours along the curves
     /** Curvature of the circle through a particle and its neighbours: its change with
      * their moves is what the matrix holds, where that of the spline for the shortest

@@ -1,3 +1,4 @@
+#include <cases/wall_law.h>
 #include <particles/rkpm_tracked/plane/heat.h>
 
 namespace meltfront::particles::rkpm_tracked
@@ -23,16 +24,20 @@ namespace meltfront::particles::rkpm_tracked
         for(int i = 0; i < wall.n_pieces; ++i)
         {
           const WallPiece &piece = wall.pieces[i];
-          const bool transfers
-              = piece.boundary->kind == cases::BoundaryKind::heat_transfer;
+          const bool transfers = cases::exchanges_heat(piece.boundary->kind);
           if(piece.boundary->kind == cases::BoundaryKind::insulated
              || (!transfers && !given.mean_of(*piece.boundary).steady()))
             continue;
           const double value = given.wall(*piece.boundary, position_of(place), step.span);
-          power
-              += piece.length
-                 * (transfers ? piece.boundary->heat_transfer_coefficient * (value - own)
-                              : value);
+          // What the node's row has of the law, so that the book has the same heat.
+          const bool radiates = piece.boundary->kind == cases::BoundaryKind::radiation;
+          const double guess
+              = !radiates || at_front ? own : wall_guesses[nodes.wall_of_node[wall.node]];
+          const cases::HeatTransfer near
+              = transfers ? cases::heat_transfer_near(*piece.boundary, value, guess)
+                          : cases::HeatTransfer();
+          power += piece.length
+                   * (transfers ? near.coefficient * (near.ambient - own) : value);
         }
         continue;
       }

@@ -142,11 +142,13 @@ namespace meltfront::particles::rkpm_tracked
         continue;
       const double value = wall_meter(piece).measure(
           [&] { return given.wall(*piece.boundary, position, step.span); });
-      if(piece.boundary->kind == cases::BoundaryKind::heat_transfer)
+      if(cases::exchanges_heat(piece.boundary->kind))
       {
-        const double transfer = piece.length * piece.boundary->heat_transfer_coefficient;
+        const cases::HeatTransfer near = transfer_through(
+            piece, value, next.unknown.empty() ? step.last : next, wall.node);
+        const double transfer = piece.length * near.coefficient;
         add(phase, wall.node, transfer);
-        inflow += transfer * (value - shift);
+        inflow += transfer * (near.ambient - shift);
       }
       else
         inflow += piece.length * value;
@@ -155,6 +157,21 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t e = 0; e < row.columns.size(); ++e)
       add(phase, row.columns[e], material.conductivity * row.weights[e]);
     finish_row(inflow);
+  }
+
+  /** The law of a wall's piece, linearised about the temperature of the last pass, or of
+   * the last state. */
+  cases::HeatTransfer PlaneHeat::transfer_through(const WallPiece &piece, double value,
+                                                  const PlaneState &latest,
+                                                  std::uint32_t node)
+  {
+    double guess = 0;
+    if(piece.boundary->kind == cases::BoundaryKind::radiation)
+    {
+      wall_guesses.resize(nodes.walls.size());
+      guess = wall_guesses[nodes.wall_of_node[node]] = temperature(latest, node);
+    }
+    return cases::heat_transfer_near(*piece.boundary, value, guess);
   }
 
   void PlaneHeat::add_front(const PlaneStep &step, const PlaneState &next,

@@ -96,11 +96,26 @@ namespace meltfront::particles::rkpm_tracked
       EXPECT_NEAR(resting_front(problem), 1 - 100. / 160, 1e-7);
       problem.walls[0] = {.kind = cases::BoundaryKind::heat_transfer,
                           .value = [](double) { return 550.; },
-                          .transfer = 2.};
+                          .law = {.kind = cases::BoundaryKind::heat_transfer,
+                                  .heat_transfer_coefficient = 2}};
       // 2 (550 - T) = (T - 430)/X = 100/(1 - X).
       const double front = resting_front(problem);
       const double wall = 430 + 100 * front / (1 - front);
       EXPECT_NEAR(2 * (550 - wall), 100 / (1 - front), 1e-5);
+    }
+
+    TEST(Walls, RadiationHoldsTheFront)
+    {
+      LineProblem problem = dirichlet_slab(bar_material(), 30);
+      problem.walls[0] = {.kind = cases::BoundaryKind::radiation,
+                          .value = [](double) { return 550.; },
+                          .law = {.kind = cases::BoundaryKind::radiation,
+                                  .emission_coefficient = 4e-9,
+                                  .absolute_zero = 0}};
+      // 4e-9 (550^4 - T^4) = (T - 430)/X = 100/(1 - X).
+      const double front = resting_front(problem);
+      const double wall = 430 + 100 * front / (1 - front);
+      EXPECT_NEAR(4e-9 * (std::pow(550, 4) - std::pow(wall, 4)), 100 / (1 - front), 1e-5);
     }
 
     TEST(Walls, VolumetricSourceMovesTheRestingFront)
