@@ -82,6 +82,9 @@ namespace meltfront::verification
       return exact->symmetry();
     if(scene.symmetry != cases::Symmetry::none)
       return scene.symmetry;
+    // The volumes are those of a body in space, though its half section is a plane.
+    if(scene.domain.shape == cases::DomainShape::axisymmetric)
+      return cases::Symmetry::spherical;
     switch(scene.domain.dimension)
     {
     case 2:
