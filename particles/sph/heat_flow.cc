@@ -17,7 +17,7 @@ namespace meltfront::particles
   } // namespace
 
   HeatFlow::HeatFlow(const Discretisation &dis, const cases::EffectSet &effects,
-                     const SphParameters &parameters)
+                     const SphParameters &parameters, const MassCoordinates *moving)
     : effects(effects)
     , material(dis.scene.material)
     , n(dis.particles.size())
@@ -35,6 +35,9 @@ namespace meltfront::particles
       else
         front_rule = FrontRule::partner;
     }
+    // The phases conduct differently in mass coordinates if not in space.
+    if(moving && !exchange_at_fronts())
+      exchange_effect = Effect::liquid_motion;
     if(exchange_at_fronts())
       front_exchange.emplace(material, front_rule, conduction.rows);
     if(variable.mapped())
@@ -54,6 +57,34 @@ namespace meltfront::particles
                              "with surroundings; layout = cell does");
       wall_exchange.emplace(dis, conduction);
     }
+    if(moving)
+    {
+      liquid_end.emplace(*moving, dis);
+      follow_end(static_cast<std::uint32_t>(n - 1));
+    }
+  }
+
+  /** Make the last particle's share and its exchange with the wall at the open end those
+   * of where the end is. */
+  void HeatFlow::follow_end(std::uint32_t previous)
+  {
+    const std::uint32_t last = liquid_end->last();
+    conduction.wall_cells = {{last, liquid_end->share()}};
+    if(wall_temperature)
+      wall_temperature->relink(previous, last, 1 / liquid_end->depth());
+    if(wall_flux)
+      wall_flux->relink(previous, last);
+    if(wall_exchange)
+      wall_exchange->relink(previous, last, liquid_end->depth());
+  }
+
+  double HeatFlow::displace(double begin, double end, std::span<double> enthalpy)
+  {
+    const std::uint32_t previous = liquid_end->last();
+    const double heat = liquid_end->move(enthalpy, begin, end);
+    follow_end(previous);
+    follow(enthalpy);
+    return heat;
   }
 
   void HeatFlow::prepare_step(double begin, double end)
@@ -80,6 +111,8 @@ namespace meltfront::particles
     if(!variable.mapped())
       return;
     extremes = variable.map(enthalpy.first(n), std::span(mapped).first(n), thread_count);
+    if(liquid_end)
+      liquid_end->hide(mapped);
     // Padding has the phase of its slice, so as not to look like a front.
     std::fill(mapped.begin() + static_cast<std::ptrdiff_t>(n), mapped.end(),
               mapped[n - 1]);
@@ -117,6 +150,13 @@ namespace meltfront::particles
     ++evaluations;
     if(front_exchange)
       front_exchange->apply(conduction.rows, state, flow);
+    if(liquid_end)
+      liquid_end->correct(front_exchange->with_pair(state,
+                                                    [this](const auto &pair) {
+                                                      return pair(liquid_end->last(),
+                                                                  liquid_end->last() - 1);
+                                                    }),
+                          flow);
     if(heat_sources)
       heat_sources->add(flow, scale());
     if(volumetric_source)
@@ -204,6 +244,8 @@ namespace meltfront::particles
       add(wall_temperature->cost());
     if(wall_flux)
       add(wall_flux->cost());
+    if(liquid_end)
+      add(liquid_end->cost());
     for(const Effect effect : {Effect::robin_wall, Effect::radiating_wall})
       if(effects.contains(effect))
         add(wall_exchange->cost(effect));

@@ -1,5 +1,6 @@
 #include <cases/scene.h>
 #include <particles/sph/demand.h>
+#include <particles/sph/mass_coordinates.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/sph_run.h>
 
@@ -7,6 +8,23 @@ namespace meltfront::particles
 {
   namespace
   {
+    /** Along a line, with solid at rest at x_min. */
+    cases::Capabilities
+    where_liquid_is_displaced(const std::vector<cases::BoundaryKind> &walls)
+    {
+      using cases::Effect, cases::FrontOrigin;
+      return {.form = "where liquid is displaced",
+              .problems = {cases::ProblemKind::stefan},
+              .effects
+              = {Effect::phase_change, Effect::phase_conductivity,
+                 Effect::phase_heat_capacity, Effect::wall_temperature, Effect::wall_flux,
+                 Effect::robin_wall, Effect::radiating_wall, Effect::liquid_motion},
+              .shapes = {{cases::DomainShape::slab, {1}, walls}},
+              .front_origins = {FrontOrigin::initial_front, FrontOrigin::wall},
+              .most_fronts = 1,
+              .most_threads = cases::any_number_of_threads};
+    }
+
     class SphMethod : public cases::Method
     {
     public:
@@ -36,18 +54,22 @@ namespace meltfront::particles
         }
         std::vector<BoundaryKind> of_box = round;
         of_box.push_back(BoundaryKind::periodic);
-        return {{.form = {},
-                 .problems = {cases::ProblemKind::stefan},
-                 .effects = effects,
-                 .shapes = {{DomainShape::slab, {1}, of_box},
-                            {DomainShape::box, {2, 3}, of_box},
-                            {DomainShape::ball, {2, 3}, round},
-                            {DomainShape::shell, {2, 3}, round},
-                            {DomainShape::outline, {2}, {BoundaryKind::insulated}}},
-                 .front_origins
-                 = {FrontOrigin::none, FrontOrigin::initial_front,
-                    FrontOrigin::partly_melted, FrontOrigin::wall, FrontOrigin::source},
-                 .most_threads = cases::any_number_of_threads}};
+        std::vector<cases::Capabilities> forms{
+            {.form = {},
+             .problems = {cases::ProblemKind::stefan},
+             .effects = effects,
+             .shapes = {{DomainShape::slab, {1}, of_box},
+                        {DomainShape::box, {2, 3}, of_box},
+                        {DomainShape::ball, {2, 3}, round},
+                        {DomainShape::shell, {2, 3}, round},
+                        {DomainShape::outline, {2}, {BoundaryKind::insulated}}},
+             .front_origins
+             = {FrontOrigin::none, FrontOrigin::initial_front, FrontOrigin::partly_melted,
+                FrontOrigin::wall, FrontOrigin::source},
+             .most_threads = cases::any_number_of_threads}};
+        if(policy.corrected_form.empty())
+          forms.push_back(where_liquid_is_displaced(round));
+        return forms;
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -55,11 +77,16 @@ namespace meltfront::particles
         return cases::options_of(SphOptions(policy));
       }
 
-      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &effects,
                            const cases::Resolution &resolution) const override
       {
-        return sph_demand(resolve_parameters(policy, scene, resolution), scene,
-                          {.per_particle = 400, .per_neighbour = 40});
+        constexpr SphMemory memory{.per_particle = 400, .per_neighbour = 40};
+        SphParameters parameters = resolve_parameters(policy, scene, resolution);
+        if(!effects.contains(cases::Effect::liquid_motion))
+          return sph_demand(parameters, scene, memory);
+        const MassCoordinates moving(scene, parameters);
+        parameters.n = moving.particles;
+        return sph_demand(parameters, moving.at_rest, memory);
       }
 
       std::unique_ptr<cases::Run>

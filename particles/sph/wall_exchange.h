@@ -35,6 +35,17 @@ namespace meltfront::particles
     void differentiate(double fraction, std::span<const double> enthalpy,
                        std::span<double> diagonal, double flow_scale) const;
 
+    /** Let another particle have the links of one, at another depth. */
+    void relink(std::uint32_t from, std::uint32_t to, double depth)
+    {
+      for(std::size_t i = 0; i < links.size(); ++i)
+        if(links[i].row == from)
+        {
+          links[i].row = to;
+          depths[i] = depth;
+        }
+    }
+
     /** Links to walls, the entries that one pass touches. */
     std::size_t size() const
     {

@@ -81,6 +81,12 @@ namespace meltfront::verification::claims
         return !solves_in_more_dimensions();
       }
 
+      /** Over that of the solid, in scenes with a front. */
+      double density_of_liquid() const
+      {
+        return capabilities.form == "where liquid is displaced" ? 0.8 : 1;
+      }
+
       bool solves_in_more_dimensions() const
       {
         return capabilities.form == "in the plane"
@@ -137,7 +143,7 @@ namespace meltfront::verification::claims
         return steady_trials(effect);
       const bool slab = form.takes(DomainShape::slab);
       return front_trials(effect, slab ? DomainShape::slab : DomainShape::box,
-                          slab ? 1 : 2);
+                          slab ? 1 : 2, form.density_of_liquid());
     }
 
     Trial trial_of(const Form &form, const cases::ShapeCapability &shape, int dimension,
@@ -159,7 +165,8 @@ namespace meltfront::verification::claims
         return heat_wave(shape.shape, dimension, kind, held);
       const bool round
           = shape.shape == DomainShape::ball || shape.shape == DomainShape::shell;
-      return moving_front(shape.shape, dimension, kind, round && form.symmetric());
+      return moving_front(shape.shape, dimension, kind, round && form.symmetric(),
+                          form.density_of_liquid());
     }
 
     Trial trial_of(const Form &form, FrontOrigin origin)
@@ -172,12 +179,13 @@ namespace meltfront::verification::claims
         return heat_wave(DomainShape::slab, 1, BoundaryKind::fixed_temperature, true);
       case FrontOrigin::initial_front:
         return form.takes(DomainShape::slab)
-                   ? moving_front(DomainShape::slab, 1, BoundaryKind::insulated, false)
+                   ? moving_front(DomainShape::slab, 1, BoundaryKind::insulated, false,
+                                  form.density_of_liquid())
                    : moving_front(DomainShape::box, 2, BoundaryKind::insulated, false);
       case FrontOrigin::source:
         return line_sink(0.6, form.symmetric(), false);
       default:
-        return cold_wall(origin == FrontOrigin::partly_melted);
+        return cold_wall(origin == FrontOrigin::partly_melted, form.density_of_liquid());
       }
     }
 
