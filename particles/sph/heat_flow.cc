@@ -14,12 +14,34 @@ namespace meltfront::particles
   {
     /** Particles below which handing out a pass to threads costs more than it gains. */
     constexpr std::size_t worth_sharing = 8192;
+
+    /** Latent heat that is exchanged at one temperature (J/kg). */
+    double sharp_latent_heat(const cases::Material &material)
+    {
+      return material.curves ? material.curves->jump() : material.latent_heat;
+    }
+
+    /** A material that exchanges this alone at fronts. */
+    cases::Material at_fronts(cases::Material material)
+    {
+      material.latent_heat = sharp_latent_heat(material);
+      return material;
+    }
+
+    /** @throws cases::Refusal for rules that need one conductivity per phase */
+    void require_rule_for_curves(FrontRule rule)
+    {
+      if(rule != FrontRule::sub_particle)
+        throw cases::Refusal("where properties depend on temperature, or the material "
+                             "melts over a range, sph needs front = sub_particle");
+    }
   } // namespace
 
   HeatFlow::HeatFlow(const Discretisation &dis, const cases::EffectSet &effects,
                      const SphParameters &parameters, const MassCoordinates *moving)
     : effects(effects)
-    , material(dis.scene.material)
+    , scene(dis.scene)
+    , material(scene.material)
     , n(dis.particles.size())
     , thread_count(n < worth_sharing ? 1 : parameters.threads)
     , conduction(dis, parameters.moment_correction)
@@ -27,10 +49,13 @@ namespace meltfront::particles
     , front_rule(parameters.front)
     , exchange_effect(Effect::phase_conductivity)
   {
+    const bool melts_gradually = sharp_latent_heat(material) > 0;
+    if(material.curves)
+      require_rule_for_curves(front_rule);
     // Without latent heat no particle melts gradually: fronts lie between particles.
     if(front_rule == FrontRule::sub_particle)
     {
-      if(effects.contains(Effect::phase_change) && material.latent_heat > 0)
+      if(effects.contains(Effect::phase_change) && melts_gradually)
         exchange_effect = Effect::phase_change;
       else
         front_rule = FrontRule::partner;
@@ -38,12 +63,15 @@ namespace meltfront::particles
     // The phases conduct differently in mass coordinates if not in space.
     if(moving && !exchange_at_fronts())
       exchange_effect = Effect::liquid_motion;
-    if(exchange_at_fronts())
-      front_exchange.emplace(material, front_rule, conduction.rows);
+    // Without a jump u_b - u_a holds whatever u's slope is between the particles.
+    if(exchange_at_fronts() && (melts_gradually || !material.curves))
+      front_exchange.emplace(at_fronts(material), front_rule, conduction.rows);
     if(variable.mapped())
       mapped.resize(padded_size());
     if(effects.contains(Effect::heat_sources))
       heat_sources.emplace(dis);
+    if(effects.contains(Effect::moving_source))
+      moving_sources.emplace(dis);
     if(effects.contains(Effect::volumetric_source))
       volumetric_source.emplace(dis);
     if(effects.contains(Effect::wall_temperature))
@@ -91,6 +119,8 @@ namespace meltfront::particles
   {
     if(heat_sources)
       heat_sources->prepare_step(begin, end);
+    if(moving_sources)
+      moving_sources->prepare_step(begin, end);
     if(volumetric_source)
       volumetric_source->prepare_step(begin, end);
     if(wall_temperature)
@@ -159,6 +189,8 @@ namespace meltfront::particles
                           flow);
     if(heat_sources)
       heat_sources->add(flow, scale());
+    if(moving_sources)
+      moving_sources->add(flow, scale());
     if(volumetric_source)
       volumetric_source->add(flow, scale());
     double through_walls = 0;
@@ -181,7 +213,7 @@ namespace meltfront::particles
   double HeatFlow::monotone_step(double particle_mass) const
   {
     return particles::monotone_step(
-        material, particle_mass, conduction.largest_row_sum,
+        scene, particle_mass, conduction.largest_row_sum,
         front_exchange ? FrontExchange::largest_factor(front_rule) : 1.);
   }
 
@@ -236,6 +268,8 @@ namespace meltfront::particles
       add(front_exchange->cost(exchange_effect));
     if(heat_sources)
       add(heat_sources->cost());
+    if(moving_sources)
+      add(moving_sources->cost());
     if(volumetric_source)
       add(volumetric_source->cost());
     if(effects.contains(Effect::inclusion))

@@ -4,6 +4,7 @@
 #include <particles/sph/conduction_rows.h>
 #include <particles/sph/front_exchange.h>
 #include <particles/sph/heat_sources.h>
+#include <particles/sph/moving_sources.h>
 #include <particles/sph/open_end.h>
 #include <particles/sph/phase_map.h>
 #include <particles/sph/volumetric_source.h>
@@ -139,6 +140,7 @@ namespace meltfront::particles
     void differentiate_walls(const Slope &slope, double fraction);
 
     const cases::EffectSet &effects;
+    const cases::Scene &scene;
     const cases::Material &material;
     std::size_t n; ///< particles
     int thread_count;
@@ -150,6 +152,7 @@ namespace meltfront::particles
     Extremes extremes{};           ///< of the conduction variable
     std::optional<FrontExchange> front_exchange;
     std::optional<HeatSources> heat_sources;
+    std::optional<MovingSources> moving_sources;
     std::optional<VolumetricSource> volumetric_source;
     std::optional<WallTemperature> wall_temperature;
     std::optional<WallFlux> wall_flux;

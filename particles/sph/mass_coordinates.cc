@@ -34,7 +34,7 @@ namespace meltfront::particles
     }
 
     /** @throws cases::Refusal unless solid lies at the lower end alone. */
-    double thickness_of_solid(const cases::Scene &scene, double length)
+    double thickness_of_solid(const cases::Scene &scene, double lowest, double length)
     {
       const auto refuse = []
       {
@@ -46,11 +46,11 @@ namespace meltfront::particles
       {
         if(!initial.exact->solid_at_origin())
           refuse();
-        return std::clamp(initial.exact->front(scene.start_time), 0., length);
+        return std::clamp(initial.exact->front(scene.start_time) - lowest, 0., length);
       }
       const cases::Field level = cases::initial_level(scene);
       const auto is_solid = [&](double share) {
-        return level({share * length, 0, 0}, scene.start_time) < 0;
+        return level({lowest + share * length, 0, 0}, scene.start_time) < 0;
       };
       constexpr int samples = 4096;
       int solid = 0;
@@ -68,12 +68,12 @@ namespace meltfront::particles
     /** From X to x at the start; beyond the open end it is x_max. */
     struct ToSpace
     {
-      double solid, length, density_ratio;
+      double lowest, solid, length, density_ratio;
 
       double operator()(double mass) const
       {
         const double beyond = std::max(mass - solid, 0.) / density_ratio;
-        return std::min(std::min(mass, solid) + beyond, length);
+        return lowest + std::min(std::min(mass, solid) + beyond, length);
       }
     };
 
@@ -146,11 +146,12 @@ namespace meltfront::particles
 
   MassCoordinates::MassCoordinates(const cases::Scene &scene, const SphParameters &p)
     : at_rest(scene)
+    , lowest(scene.domain.lower[0])
     , length(scene.domain.side())
     , density_ratio(scene.material.liquid.density / scene.material.solid.density)
   {
     require_nearest_neighbours(p);
-    solid = thickness_of_solid(scene, length);
+    solid = thickness_of_solid(scene, lowest, length);
     const double end = open_end(solid);
     const double filled = std::max(4., std::round(p.n * end / length));
     const double spacing = end / filled;
@@ -158,7 +159,8 @@ namespace meltfront::particles
         = static_cast<int>(std::max(filled, std::ceil(std::max(density_ratio, 1.) * length
                                                       / spacing * (1 - round_off))));
 
-    const ToSpace to_space{solid, length, density_ratio};
+    const ToSpace to_space{lowest, solid, length, density_ratio};
+    at_rest.domain.lower[0] = 0;
     at_rest.domain.upper[0] = particles * spacing;
     cases::PhaseProperties &liquid = at_rest.material.liquid;
     liquid.conductivity *= density_ratio;
@@ -169,6 +171,8 @@ namespace meltfront::particles
       initial.front = moved(*initial.front, to_space);
     if(initial.exact)
       initial.exact = std::make_shared<MovedSolution>(initial.exact, to_space);
-    hold_place(*at_rest.boundaries[static_cast<std::size_t>(cases::Side::x_max)], length);
+    for(const auto &[side, x] : {std::pair(cases::Side::x_min, lowest),
+                                 std::pair(cases::Side::x_max, lowest + length)})
+      hold_place(*at_rest.boundaries[static_cast<std::size_t>(side)], x);
   }
 } // namespace meltfront::particles

@@ -48,6 +48,7 @@ namespace meltfront::particles
      * end may ever need; at the start the end is on a face between two of them. */
     cases::Scene at_rest;
     double solid;         ///< thickness of the solid at the start (m)
+    double lowest;        ///< x_min (m)
     double length;        ///< of the slab (m)
     double density_ratio; ///< rho_l/rho_s
     int particles;        ///< that fill the domain at rest

@@ -25,6 +25,23 @@ namespace meltfront::particles
               .most_threads = cases::any_number_of_threads};
     }
 
+    /** Sources there have a radius: they release heat throughout. */
+    cases::Capabilities about_an_axis(const std::vector<cases::BoundaryKind> &walls)
+    {
+      using cases::Effect, cases::FrontOrigin;
+      return {.form = "about an axis",
+              .problems = {cases::ProblemKind::stefan},
+              .effects = {Effect::phase_change, Effect::phase_conductivity,
+                          Effect::phase_heat_capacity, Effect::wall_temperature,
+                          Effect::wall_flux, Effect::robin_wall, Effect::radiating_wall,
+                          Effect::volumetric_source, Effect::variable_conductivity,
+                          Effect::variable_heat_capacity, Effect::melting_range},
+              .shapes = {{cases::DomainShape::axisymmetric, {2}, walls}},
+              .front_origins = {FrontOrigin::none, FrontOrigin::initial_front,
+                                FrontOrigin::partly_melted, FrontOrigin::wall},
+              .most_threads = cases::any_number_of_threads};
+    }
+
     class SphMethod : public cases::Method
     {
     public:
@@ -50,7 +67,10 @@ namespace meltfront::particles
         {
           round.insert(round.end(),
                        {BoundaryKind::heat_transfer, BoundaryKind::radiation});
-          effects.insert(effects.end(), {Effect::robin_wall, Effect::radiating_wall});
+          effects.insert(effects.end(),
+                         {Effect::robin_wall, Effect::radiating_wall,
+                          Effect::variable_conductivity, Effect::variable_heat_capacity,
+                          Effect::melting_range, Effect::moving_source});
         }
         std::vector<BoundaryKind> of_box = round;
         of_box.push_back(BoundaryKind::periodic);
@@ -68,7 +88,8 @@ namespace meltfront::particles
                 FrontOrigin::wall, FrontOrigin::source},
              .most_threads = cases::any_number_of_threads}};
         if(policy.corrected_form.empty())
-          forms.push_back(where_liquid_is_displaced(round));
+          forms.insert(forms.end(),
+                       {about_an_axis(round), where_liquid_is_displaced(round)});
         return forms;
       }
 

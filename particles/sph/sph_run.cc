@@ -103,6 +103,8 @@ namespace meltfront::particles
       {
         const std::span<const double> enthalpy = stepper->enthalpies();
         const cases::Material &m = scene.material;
+        if(m.curves)
+          return heat_by_curves(*m.curves);
         cases::CompensatedSum stored, latent;
         for(std::size_t a = 0; a < n; ++a)
         {
@@ -111,6 +113,27 @@ namespace meltfront::particles
           stored.add(
               mass
               * (std::min(enthalpy[a], 0.) + std::max(enthalpy[a] - m.latent_heat, 0.)));
+        }
+        cases::HeatBudget heat;
+        heat.stored = stored.value();
+        heat.latent = latent.value();
+        heat.initial = heat.stored + heat.latent;
+        return heat;
+      }
+
+      /** The latent heat of what is liquid, and the rest. */
+      cases::HeatBudget heat_by_curves(const cases::ThermalCurves &curves) const
+      {
+        const std::span<const double> enthalpy = stepper->enthalpies();
+        const double latent_heat = scene.material.latent_heat;
+        cases::CompensatedSum stored, latent;
+        for(std::size_t a = 0; a < n; ++a)
+        {
+          const double mass = dis.weights[a] * scene.material.solid.density;
+          const double molten
+              = latent_heat * (1 - curves.at_enthalpy(enthalpy[a]).solid_fraction);
+          latent.add(mass * molten);
+          stored.add(mass * (enthalpy[a] - molten));
         }
         cases::HeatBudget heat;
         heat.stored = stored.value();
@@ -147,7 +170,7 @@ namespace meltfront::particles
         const std::size_t live = heat_flow.open_end()->last() + 1;
         place.resize(live);
         width.resize(live);
-        double reached = 0;
+        double reached = mass_coordinates->lowest;
         for(std::size_t a = 0; a < live; ++a)
         {
           const double solid = dis.weights[a] * solid_fraction[a];

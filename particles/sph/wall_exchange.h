@@ -64,8 +64,10 @@ namespace meltfront::particles
       double growth;      ///< dR/dH
     };
     Layer layer(std::size_t link, double enthalpy, double ambient) const;
+    Layer melting_layer(std::size_t link, double enthalpy, double ambient) const;
 
     const cases::Material &material;
+    double sharp_latent_heat; ///< exchanged at one temperature (J/kg)
     double spacing;
     std::vector<WallLink> links;
     std::vector<double> depths;
