@@ -232,6 +232,9 @@ namespace meltfront::particles
                             ? "melting particles conduct as their partners"
                             : "melting particles conduct as the liquid",
                         ""});
+    if(liquid_end)
+      result.push_back(
+          {"displaced liquid", "leaves at x_max; particles move with the matter", ""});
     return result;
   }
 

@@ -130,7 +130,8 @@ namespace meltfront::particles
           width += inflow;
           while(width < spacing * (1 - face_tolerance) && last_particle > 1)
             merge(enthalpy);
-          while(width > 2 * spacing * (1 - face_tolerance) && last_particle + 1 < particles)
+          while(width > 2 * spacing * (1 - face_tolerance)
+                && last_particle + 1 < particles)
             split(enthalpy, at_end);
           return inflow * passing * material.solid.density;
         });

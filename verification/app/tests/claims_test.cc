@@ -11,6 +11,8 @@
 #include <verification/app/tests/claims/mushes.h>
 #include <verification/app/tests/claims/not_shown.h>
 #include <verification/app/tests/claims/tolerances.h>
+#include <verification/app/tests/claims/turned.h>
+#include <verification/app/tests/claims/varying.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -81,6 +83,12 @@ namespace meltfront::verification::claims
         return !solves_in_more_dimensions();
       }
 
+      /** A form for bodies about an axis only. */
+      bool turned() const
+      {
+        return takes(DomainShape::axisymmetric) && !takes(DomainShape::box);
+      }
+
       /** Over that of the solid, in scenes with a front. */
       double density_of_liquid() const
       {
@@ -139,6 +147,12 @@ namespace meltfront::verification::claims
       default:
         break;
       }
+      if(const auto trials = varying_trials(effect))
+        return form.turned() ? upright(*trials) : *trials;
+      if(form.turned())
+        return effect == Effect::volumetric_source
+                   ? upright(*front_trials(effect, DomainShape::slab, 1))
+                   : turned(*front_trials(effect, DomainShape::shell, 2));
       if(!form.capabilities.takes(Effect::phase_change))
         return steady_trials(effect);
       const bool slab = form.takes(DomainShape::slab);
@@ -153,6 +167,8 @@ namespace meltfront::verification::claims
         return advected_ball(dimension, kind);
       if(form.is_bar())
         return particle_bar(75);
+      if(shape.shape == DomainShape::axisymmetric)
+        return turned(moving_front(DomainShape::shell, 2, kind, false));
       // All of an outline is insulated, of a box the ends of x only.
       const bool all_insulated
           = shape.shape == DomainShape::outline && kind == BoundaryKind::insulated;
@@ -169,8 +185,25 @@ namespace meltfront::verification::claims
                           form.density_of_liquid());
     }
 
+    /** About an axis. */
+    Trial turned_trial_of(FrontOrigin origin)
+    {
+      switch(origin)
+      {
+      case FrontOrigin::none:
+        return turned(heat_wave(DomainShape::ball, 2, BoundaryKind::insulated, true));
+      case FrontOrigin::initial_front:
+        return turned(
+            moving_front(DomainShape::shell, 2, BoundaryKind::insulated, false));
+      default:
+        return upright(cold_wall(origin == FrontOrigin::partly_melted));
+      }
+    }
+
     Trial trial_of(const Form &form, FrontOrigin origin)
     {
+      if(form.turned())
+        return turned_trial_of(origin);
       if(form.is_bar())
         return particle_bar(75);
       switch(origin)

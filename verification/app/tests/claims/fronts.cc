@@ -315,7 +315,8 @@ namespace meltfront::verification::claims
           [](FrontScene &of, bool second)
           {
             of.start.straight = true;
-            of.trial.scene.material.liquid.density = second ? 0.4 : 1;
+            of.trial.scene.material.liquid.density = second ? 0.25 : 4;
+            of.trial.scene.end_time = 0.2;
             wall(of.trial.scene, far_side(of.trial.scene.domain))
                 = held_at([](const Position &, double) { return 1.; });
           });
