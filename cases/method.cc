@@ -28,17 +28,20 @@ namespace meltfront::cases
   Capabilities require_capable(const Method &method, const Scene &scene,
                                const EffectSet &effects, int threads)
   {
-    std::string reasons;
+    std::string reasons, first;
+    bool alike = true;
     for(const Capabilities &form : method.capabilities())
     {
       const std::string reason = reason_unsupported(form, scene, effects, threads);
       if(reason.empty())
         return form;
+      alike = alike && (first.empty() || reason == first);
+      first = first.empty() ? reason : first;
       reasons += fmt::format("{}{}{}{}", reasons.empty() ? "" : "; ", form.form,
                              form.form.empty() ? "" : " it ", reason);
     }
-    const bool one_form = method.capabilities().size() == 1;
-    throw Refusal(fmt::format("{}{} {}", method.name(), one_form ? "" : ":", reasons));
+    throw Refusal(alike ? fmt::format("{} {}", method.name(), first)
+                        : fmt::format("{}: {}", method.name(), reasons));
   }
 
   void require_affordable(const Method &method, const Demand &demand, double memory_limit)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace meltfront::particles
 {
@@ -99,6 +100,19 @@ namespace meltfront::particles
                                           / (conductivity[a] + conductivity[b]);
       }
 
+      /** Circumference at the middle of a pair about an axis, else 1. The same bits for
+       * (a, b) and (b, a). */
+      double circumference(std::size_t a, std::size_t b, WallSet mirrors) const
+      {
+        using std::numbers::pi;
+        if(dis.scene.domain.shape != cases::DomainShape::axisymmetric)
+          return 1;
+        for(std::size_t w = 0; w < dis.walls.size(); ++w)
+          if(mirrors >> w & 1 && dis.walls[w].direction == 0)
+            return 2 * pi * dis.walls[w].coordinate;
+        return pi * (dis.particles.position[0][a] + dis.particles.position[0][b]);
+      }
+
       void find_walls_in_reach()
       {
         reach.assign(dis.particles.size(), 0);
@@ -191,12 +205,14 @@ namespace meltfront::particles
       double pair_coefficient(std::size_t a, std::size_t b) const
       {
         const double mean = between(a, b);
-        double g = mean * strength(a, b, squared_distance(a, b, 0));
+        double g
+            = mean * strength(a, b, squared_distance(a, b, 0)) * circumference(a, b, 0);
         visit_images(common_walls(a, b),
                      [&](WallSet mirrors)
                      {
                        const double image
-                           = mean * strength(a, b, squared_distance(a, b, mirrors));
+                           = mean * strength(a, b, squared_distance(a, b, mirrors))
+                             * circumference(a, b, mirrors);
                        g += antisymmetric(mirrors) ? -image : image;
                      });
         return g;
@@ -213,7 +229,8 @@ namespace meltfront::particles
                        [&](WallSet mirrors)
                        {
                          const double image
-                             = strength(a, b, squared_distance(a, b, mirrors));
+                             = strength(a, b, squared_distance(a, b, mirrors))
+                               * circumference(a, b, mirrors);
                          for(std::size_t w = 0; w < dis.walls.size(); ++w)
                          {
                            if(!(mirrors >> w & 1))
@@ -350,12 +367,24 @@ namespace meltfront::particles
           if(wall.boundary == &dis.scene.boundary(side))
             return wall.area(dis.dimension);
         const cases::Domain &domain = dis.scene.domain;
+        if(domain.shape == cases::DomainShape::axisymmetric)
+          return area_about_axis(domain, side);
         double area = dis.cross_section;
         if(domain.shape == cases::DomainShape::box)
           for(int d = 0; d < dis.dimension; ++d)
             if(d != static_cast<int>(side) / 2)
               area *= domain.upper[d] - domain.lower[d];
         return area;
+      }
+
+      static double area_about_axis(const cases::Domain &domain, cases::Side side)
+      {
+        using std::numbers::pi;
+        const double inner = domain.lower[0], outer = domain.upper[0];
+        if(side == cases::Side::y_min || side == cases::Side::y_max)
+          return pi * (outer - inner) * (outer + inner);
+        return 2 * pi * (side == cases::Side::x_min ? inner : outer)
+               * (domain.upper[1] - domain.lower[1]);
       }
 
       /**

@@ -43,6 +43,12 @@ namespace meltfront::particles
    * 2 g' (u_B - u_a). Row and wall coefficients stay >= 0, so an explicit step obeys the
    * maximum principle whenever step * (sum of the row) <= heat capacity.
    *
+   * About an axis x is the distance from it, particles are rings, and g_ab is multiplied
+   * with the circumference at the middle of the pair, pi (x_a + x_b), or at the wall for
+   * images in a wall about the axis. Among nearest neighbours on a lattice this is exact
+   * for quadratics: the sum of g_ab (u_b - u_a) is (2 pi x u_x)_x + 2 pi x u_yy there. On
+   * the axis the circumference is zero, and nothing flows through it.
+   *
    * Where an inclusion conducts otherwise than the rest, g_ab is multiplied with the
    * harmonic mean 2 k_a k_b/(k_a + k_b) over the rest's k: that of two slabs in contact
    * half way between the particles (Cleary and Monaghan 1999). Images conduct as their

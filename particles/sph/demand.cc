@@ -27,8 +27,7 @@ namespace meltfront::particles
     double monotone_step_of(const SphParameters &p, const cases::Scene &scene,
                             double spacing)
     {
-      return monotone_step(scene.material,
-                           scene.material.solid.density * spacing * spacing,
+      return monotone_step(scene, scene.material.solid.density * spacing * spacing,
                            2. * p.dimension, 2);
     }
 

@@ -99,7 +99,27 @@ namespace meltfront::particles
     weights.assign(particles.size(), particle_volume / cross_section);
     if(!p.whole_cells)
       share_what_cells_miss();
+    if(scene.domain.shape == DomainShape::axisymmetric)
+      turn_about_axis(p);
     find_dirichlet_particles();
+  }
+
+  /** Each particle stands for a ring.
+   * @throws cases::Refusal for particles that reach farther than the next of a lattice,
+   * across the axis or past a wall, where pairs have no middle */
+  void Discretisation::turn_about_axis(const SphParameters &p)
+  {
+    if(p.layout != LatticeLayout::cell_centred || displaced
+       || kernel.support() > 2 * spacing * (1 + 1e-9))
+      throw cases::Refusal("about an axis particles need a lattice (layout = cell, "
+                           "jitter = 0) and a kernel that reaches the next ones alone "
+                           "(smoothing_length)");
+    for(std::size_t i = 0; i < particles.size(); ++i)
+    {
+      const double circumference = 2 * std::numbers::pi * particles.position[0][i];
+      weights[i] *= circumference;
+      wall_cells.push_back({static_cast<std::uint32_t>(i), circumference});
+    }
   }
 
   /** Particles beside walls that bend stand for what the cells leave out. */

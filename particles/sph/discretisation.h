@@ -64,7 +64,7 @@ namespace meltfront::particles
   };
 
   /** A particle beside a wall that bends, and the volume that it stands for over that of
-   * a cell of the lattice. */
+   * a cell of the lattice; a ring about an axis, and its circumference (m). */
   struct WallCell
   {
     std::uint32_t particle;
@@ -98,12 +98,12 @@ namespace meltfront::particles
     Periodicity periodicity;
     std::vector<PlaneWall> walls;       ///< of a slab or a box, without the periodic ones
     std::vector<RoundWall> round_walls; ///< of a ball or a shell
-    double particle_volume;             ///< dp^d (m^d)
+    double particle_volume;             ///< dp^d (m^d); of a ring the section
     double cross_section;               ///< of the strip that stands for a slab, else 1
     std::vector<double> weights;        ///< volumes in the measure of the scene
-    /** The lattice's cells cover more or less of a ball, a shell or an outline than there
-     * is. The particles within a spacing of a wall share the difference alike, so that
-     * weights add up to the domain. */
+    /** All particles about an axis. Else: the lattice's cells cover more or less of a
+     * ball, a shell or an outline than there is. The particles within a spacing of a wall
+     * share the difference alike, so that weights add up to the domain. */
     std::vector<WallCell> wall_cells;
     /** Particles on a wall of prescribed temperature (edge layout), which hold its value.
      */
@@ -120,6 +120,7 @@ namespace meltfront::particles
     void share_beside_wall(const std::function<double(const cases::Position &)> &depth,
                            double missing);
     void fill_outline();
+    void turn_about_axis(const SphParameters &parameters);
     void disturb(const SphParameters &parameters);
     void scatter_in_box(const SphParameters &parameters);
     ParticleStorage lattice_around_box() const;

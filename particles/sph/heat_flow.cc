@@ -14,12 +14,34 @@ namespace meltfront::particles
   {
     /** Particles below which handing out a pass to threads costs more than it gains. */
     constexpr std::size_t worth_sharing = 8192;
+
+    /** Latent heat that is exchanged at one temperature (J/kg). */
+    double sharp_latent_heat(const cases::Material &material)
+    {
+      return material.curves ? material.curves->jump() : material.latent_heat;
+    }
+
+    /** A material that exchanges this alone at fronts. */
+    cases::Material at_fronts(cases::Material material)
+    {
+      material.latent_heat = sharp_latent_heat(material);
+      return material;
+    }
+
+    /** @throws cases::Refusal for rules that need one conductivity per phase */
+    void require_rule_for_curves(FrontRule rule)
+    {
+      if(rule != FrontRule::sub_particle)
+        throw cases::Refusal("where properties depend on temperature, or the material "
+                             "melts over a range, sph needs front = sub_particle");
+    }
   } // namespace
 
   HeatFlow::HeatFlow(const Discretisation &dis, const cases::EffectSet &effects,
-                     const SphParameters &parameters)
+                     const SphParameters &parameters, const MassCoordinates *moving)
     : effects(effects)
-    , material(dis.scene.material)
+    , scene(dis.scene)
+    , material(scene.material)
     , n(dis.particles.size())
     , thread_count(n < worth_sharing ? 1 : parameters.threads)
     , conduction(dis, parameters.moment_correction)
@@ -27,20 +49,29 @@ namespace meltfront::particles
     , front_rule(parameters.front)
     , exchange_effect(Effect::phase_conductivity)
   {
+    const bool melts_gradually = sharp_latent_heat(material) > 0;
+    if(material.curves)
+      require_rule_for_curves(front_rule);
     // Without latent heat no particle melts gradually: fronts lie between particles.
     if(front_rule == FrontRule::sub_particle)
     {
-      if(effects.contains(Effect::phase_change) && material.latent_heat > 0)
+      if(effects.contains(Effect::phase_change) && melts_gradually)
         exchange_effect = Effect::phase_change;
       else
         front_rule = FrontRule::partner;
     }
-    if(exchange_at_fronts())
-      front_exchange.emplace(material, front_rule, conduction.rows);
+    // The phases conduct differently in mass coordinates if not in space.
+    if(moving && !exchange_at_fronts())
+      exchange_effect = Effect::liquid_motion;
+    // Without a jump u_b - u_a holds whatever u's slope is between the particles.
+    if(exchange_at_fronts() && (melts_gradually || !material.curves))
+      front_exchange.emplace(at_fronts(material), front_rule, conduction.rows);
     if(variable.mapped())
       mapped.resize(padded_size());
     if(effects.contains(Effect::heat_sources))
       heat_sources.emplace(dis);
+    if(effects.contains(Effect::moving_source))
+      moving_sources.emplace(dis);
     if(effects.contains(Effect::volumetric_source))
       volumetric_source.emplace(dis);
     if(effects.contains(Effect::wall_temperature))
@@ -54,12 +85,42 @@ namespace meltfront::particles
                              "with surroundings; layout = cell does");
       wall_exchange.emplace(dis, conduction);
     }
+    if(moving)
+    {
+      liquid_end.emplace(*moving, dis);
+      follow_end(static_cast<std::uint32_t>(n - 1));
+    }
+  }
+
+  /** Make the last particle's share and its exchange with the wall at the open end those
+   * of where the end is. */
+  void HeatFlow::follow_end(std::uint32_t previous)
+  {
+    const std::uint32_t last = liquid_end->last();
+    conduction.wall_cells = {{last, liquid_end->share()}};
+    if(wall_temperature)
+      wall_temperature->relink(previous, last, 1 / liquid_end->depth());
+    if(wall_flux)
+      wall_flux->relink(previous, last);
+    if(wall_exchange)
+      wall_exchange->relink(previous, last, liquid_end->depth());
+  }
+
+  double HeatFlow::displace(double begin, double end, std::span<double> enthalpy)
+  {
+    const std::uint32_t previous = liquid_end->last();
+    const double heat = liquid_end->move(enthalpy, begin, end);
+    follow_end(previous);
+    follow(enthalpy);
+    return heat;
   }
 
   void HeatFlow::prepare_step(double begin, double end)
   {
     if(heat_sources)
       heat_sources->prepare_step(begin, end);
+    if(moving_sources)
+      moving_sources->prepare_step(begin, end);
     if(volumetric_source)
       volumetric_source->prepare_step(begin, end);
     if(wall_temperature)
@@ -80,6 +141,8 @@ namespace meltfront::particles
     if(!variable.mapped())
       return;
     extremes = variable.map(enthalpy.first(n), std::span(mapped).first(n), thread_count);
+    if(liquid_end)
+      liquid_end->hide(mapped);
     // Padding has the phase of its slice, so as not to look like a front.
     std::fill(mapped.begin() + static_cast<std::ptrdiff_t>(n), mapped.end(),
               mapped[n - 1]);
@@ -117,8 +180,17 @@ namespace meltfront::particles
     ++evaluations;
     if(front_exchange)
       front_exchange->apply(conduction.rows, state, flow);
+    if(liquid_end)
+      liquid_end->correct(front_exchange->with_pair(state,
+                                                    [this](const auto &pair) {
+                                                      return pair(liquid_end->last(),
+                                                                  liquid_end->last() - 1);
+                                                    }),
+                          flow);
     if(heat_sources)
       heat_sources->add(flow, scale());
+    if(moving_sources)
+      moving_sources->add(flow, scale());
     if(volumetric_source)
       volumetric_source->add(flow, scale());
     double through_walls = 0;
@@ -141,7 +213,7 @@ namespace meltfront::particles
   double HeatFlow::monotone_step(double particle_mass) const
   {
     return particles::monotone_step(
-        material, particle_mass, conduction.largest_row_sum,
+        scene, particle_mass, conduction.largest_row_sum,
         front_exchange ? FrontExchange::largest_factor(front_rule) : 1.);
   }
 
@@ -160,6 +232,9 @@ namespace meltfront::particles
                             ? "melting particles conduct as their partners"
                             : "melting particles conduct as the liquid",
                         ""});
+    if(liquid_end)
+      result.push_back(
+          {"displaced liquid", "leaves at x_max; particles move with the matter", ""});
     return result;
   }
 
@@ -196,6 +271,8 @@ namespace meltfront::particles
       add(front_exchange->cost(exchange_effect));
     if(heat_sources)
       add(heat_sources->cost());
+    if(moving_sources)
+      add(moving_sources->cost());
     if(volumetric_source)
       add(volumetric_source->cost());
     if(effects.contains(Effect::inclusion))
@@ -204,6 +281,8 @@ namespace meltfront::particles
       add(wall_temperature->cost());
     if(wall_flux)
       add(wall_flux->cost());
+    if(liquid_end)
+      add(liquid_end->cost());
     for(const Effect effect : {Effect::robin_wall, Effect::radiating_wall})
       if(effects.contains(effect))
         add(wall_exchange->cost(effect));

@@ -4,6 +4,8 @@
 #include <particles/sph/conduction_rows.h>
 #include <particles/sph/front_exchange.h>
 #include <particles/sph/heat_sources.h>
+#include <particles/sph/moving_sources.h>
+#include <particles/sph/open_end.h>
 #include <particles/sph/phase_map.h>
 #include <particles/sph/volumetric_source.h>
 #include <particles/sph/wall_exchange.h>
@@ -23,8 +25,9 @@ namespace meltfront::particles
   class HeatFlow
   {
   public:
+    /** @param moving where freezing displaces liquid */
     HeatFlow(const Discretisation &discretisation, const cases::EffectSet &effects,
-             const SphParameters &parameters);
+             const SphParameters &parameters, const MassCoordinates *moving = nullptr);
 
     HeatFlow(const HeatFlow &) = delete;
     HeatFlow &operator=(const HeatFlow &) = delete;
@@ -35,6 +38,16 @@ namespace meltfront::particles
     /** Set particles on walls to the wall's temperature at a fraction of the step.
      * @return heat that this took from the walls (J in the measure of the scene). */
     double hold_walls(double fraction, std::span<double> enthalpy);
+
+    /** Where there is an open end: let displaced liquid leave or enter there at the end
+     * of a step, and follow that. @return heat that came in with it (J/m^2). */
+    double displace(double begin, double end, std::span<double> enthalpy);
+
+    /** Where displaced liquid leaves; null where none is displaced. */
+    const OpenEnd *open_end() const
+    {
+      return liquid_end ? &*liquid_end : nullptr;
+    }
 
     /** Follow a change of the enthalpy; needed before evaluate(). */
     void follow(std::span<const double> enthalpy);
@@ -118,12 +131,16 @@ namespace meltfront::particles
       return variable.mapped() ? std::span<const double>(mapped) : enthalpy;
     }
 
+    void follow_end(std::uint32_t previous);
+    void correct_end_change(std::span<const double> change,
+                            std::span<double> flow_change);
     double wall_flow(FrontState state, double fraction, std::span<double> flow);
 
     template <typename Slope>
     void differentiate_walls(const Slope &slope, double fraction);
 
     const cases::EffectSet &effects;
+    const cases::Scene &scene;
     const cases::Material &material;
     std::size_t n; ///< particles
     int thread_count;
@@ -135,10 +152,12 @@ namespace meltfront::particles
     Extremes extremes{};           ///< of the conduction variable
     std::optional<FrontExchange> front_exchange;
     std::optional<HeatSources> heat_sources;
+    std::optional<MovingSources> moving_sources;
     std::optional<VolumetricSource> volumetric_source;
     std::optional<WallTemperature> wall_temperature;
     std::optional<WallFlux> wall_flux;
     std::optional<WallExchange> wall_exchange;
+    std::optional<OpenEnd> liquid_end;
     Derivative derivative;
     long evaluations = 0;
   };

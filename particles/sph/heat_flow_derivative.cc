@@ -52,6 +52,21 @@ namespace meltfront::particles
         derivative.diagonal[row] = 0;
   }
 
+  void HeatFlow::correct_end_change(std::span<const double> h,
+                                    std::span<double> flow_change)
+  {
+    const std::span<const double> enthalpy(derivative.enthalpy, padded_size());
+    const std::uint32_t last = liquid_end->last(), inward = last - 1;
+    const std::vector<double> &w = derivative.change;
+    const double change = front_exchange->with_pair(
+        {conduction_variable(enthalpy).data(), enthalpy.data()},
+        [&](const auto &pair) {
+          return derivative_of(pair)(last, inward,
+                                     {h[last], h[inward], w[last], w[inward]});
+        });
+    liquid_end->correct(change, flow_change);
+  }
+
   void HeatFlow::apply_derivative(std::span<const double> change,
                                   std::span<double> flow_change)
   {
@@ -59,6 +74,8 @@ namespace meltfront::particles
     double *w = derivative.change.data();
     for(std::size_t a = 0; a < n; ++a)
       w[a] = slope[a] * h[a];
+    if(liquid_end)
+      liquid_end->hide(derivative.change);
     conduction.rows.apply(derivative.change, flow_change, thread_count);
     ++evaluations;
     if(front_exchange)
@@ -76,6 +93,8 @@ namespace meltfront::particles
                 flow_change);
           });
     }
+    if(liquid_end)
+      correct_end_change(change, flow_change);
     for(std::size_t a = 0; a < n; ++a)
       flow_change[a] += derivative.wall_diagonal[a] * h[a];
     conduction.take_per_cell(flow_change);

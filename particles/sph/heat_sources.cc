@@ -17,6 +17,8 @@ namespace meltfront::particles
     const bool plane = dis.scene.domain.shape == cases::DomainShape::slab;
     for(std::size_t s = 0; s < sources.size(); ++s)
     {
+      if(sources[s].path)
+        continue; // see MovingSources
       const std::size_t first = weights.size();
       double sum = 0;
       for(std::size_t a = 0; a < dis.particles.size(); ++a)

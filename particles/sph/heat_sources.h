@@ -10,9 +10,9 @@
 namespace meltfront::particles
 {
   /**
-   * Point sources, spread over the particles near them with normalised kernel weights
-   * zeta V_a W(r_a - R), zeta = 1/sum_b V_b W(r_b - R) (Monaghan et al. 2005, equations
-   * 2.10 and 2.11).
+   * Point sources that stay where they are, spread over the particles near them with
+   * normalised kernel weights zeta V_a W(r_a - R), zeta = 1/sum_b V_b W(r_b - R)
+   * (Monaghan et al. 2005, equations 2.10 and 2.11).
    *
    * A step takes its heat from the source's energy, not from its power: what was removed
    * by any time is exact to round-off whatever the power does within a step.
@@ -29,7 +29,8 @@ namespace meltfront::particles
      * `flow_scale`. */
     void add(std::span<double> flow, double flow_scale);
 
-    /** Heat given to all particles from the start of the scene to a time (J m^(d-3)). */
+    /** Heat that all sources, those that move as well, gave to the particles from the
+     * start of the scene to a time (J m^(d-3)). */
     double heat(double time) const;
 
     cases::EffectCost cost() const;

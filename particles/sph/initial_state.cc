@@ -116,7 +116,8 @@ namespace meltfront::particles
                       const cases::Field &level)
     {
       const cases::Scene &scene = dis.scene;
-      const bool cut = cuts(dis, position, level);
+      // A material that melts over a range has no front to cut a cell.
+      const bool cut = !scene.material.melting_range && cuts(dis, position, level);
       if(cut && dis.dimension == 1)
         return mean_along_line(dis, position[0], level);
       if(!cut && !scene.initial.front)

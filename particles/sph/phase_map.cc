@@ -12,7 +12,9 @@ namespace meltfront::particles
     using cases::infinity;
 
     constexpr Effect phase_effects[]
-        = {Effect::phase_change, Effect::phase_heat_capacity, Effect::phase_conductivity};
+        = {Effect::phase_change,           Effect::phase_heat_capacity,
+           Effect::phase_conductivity,     Effect::variable_conductivity,
+           Effect::variable_heat_capacity, Effect::melting_range};
   } // namespace
 
   Extremes find_extremes(std::span<const double> values, int threads)
@@ -42,6 +44,8 @@ namespace meltfront::particles
 
   double ConductionVariable::of_temperature(double temperature) const
   {
+    if(material.curves)
+      return material.curves->at_temperature(temperature).kirchhoff;
     const double excess = temperature - material.melting_temperature;
     const cases::PhaseProperties &phase = excess < 0 ? material.solid : material.liquid;
     return (is_mapped ? phase.conductivity : phase.specific_heat_capacity) * excess;
@@ -49,6 +53,8 @@ namespace meltfront::particles
 
   double ConductionVariable::temperature(double w) const
   {
+    if(material.curves)
+      return material.curves->at_kirchhoff(w).temperature;
     const cases::PhaseProperties &phase = w < 0 ? material.solid : material.liquid;
     return material.melting_temperature
            + w / (is_mapped ? phase.conductivity : phase.specific_heat_capacity);
@@ -60,6 +66,8 @@ namespace meltfront::particles
     return meter.measure(
         [&]
         {
+          if(material.curves)
+            return map_by_curves(enthalpy, w, threads);
           const double *h = enthalpy.data();
           double *variable = w.data();
           const double latent = material.latent_heat;
@@ -80,9 +88,35 @@ namespace meltfront::particles
         });
   }
 
+  Extremes ConductionVariable::map_by_curves(std::span<const double> enthalpy,
+                                             std::span<double> w, int threads) const
+  {
+    const cases::ThermalCurves &curves = *material.curves;
+    double lowest = infinity, highest = -infinity, zero = 0;
+#pragma omp parallel for schedule(static) num_threads(threads) if(threads > 1)           \
+    reduction(min : lowest) reduction(max : highest) reduction(+ : zero)
+    for(std::size_t i = 0; i < enthalpy.size(); ++i)
+    {
+      w[i] = curves.at_enthalpy(enthalpy[i]).kirchhoff;
+      lowest = std::min(lowest, w[i]);
+      highest = std::max(highest, w[i]);
+      zero += enthalpy[i] * 0; // not a number if the enthalpy is not finite
+    }
+    return {lowest, highest, zero == 0};
+  }
+
   void ConductionVariable::slopes(std::span<const double> enthalpy,
                                   std::span<double> slope) const
   {
+    if(material.curves)
+    {
+      for(std::size_t i = 0; i < enthalpy.size(); ++i)
+      {
+        const cases::ThermalState state = material.curves->at_enthalpy(enthalpy[i]);
+        slope[i] = state.conductivity / state.capacity;
+      }
+      return;
+    }
     const double latent = material.latent_heat;
     for(std::size_t i = 0; i < enthalpy.size(); ++i)
       slope[i] = !is_mapped                            ? 1.

@@ -27,7 +27,8 @@ namespace meltfront::particles
    * Where a phase matters it is the Kirchhoff variable w = k (T - T_m), that is
    * (k_s/c_s) min(H, 0) + (k_l/c_l) max(H - L, 0). Without any phase effect it is the
    * enthalpy H = c (T - T_m) itself, no array is needed for it, and k/c is left to the
-   * update.
+   * update. Where properties depend on temperature or the material melts over a range it
+   * is w = int k dT along the material's curves.
    */
   class ConductionVariable
   {
@@ -64,6 +65,9 @@ namespace meltfront::particles
   private:
     cases::Material material;
     bool is_mapped;
+    Extremes map_by_curves(std::span<const double> enthalpy, std::span<double> w,
+                           int threads) const;
+
     double solid_factor;  ///< k_s/c_s
     double liquid_factor; ///< k_l/c_l
     cases::EffectMeter meter;

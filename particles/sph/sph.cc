@@ -1,5 +1,6 @@
 #include <cases/scene.h>
 #include <particles/sph/demand.h>
+#include <particles/sph/mass_coordinates.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/sph_run.h>
 
@@ -7,6 +8,40 @@ namespace meltfront::particles
 {
   namespace
   {
+    /** Along a line, with solid at rest at x_min. */
+    cases::Capabilities
+    where_liquid_is_displaced(const std::vector<cases::BoundaryKind> &walls)
+    {
+      using cases::Effect, cases::FrontOrigin;
+      return {.form = "where liquid is displaced",
+              .problems = {cases::ProblemKind::stefan},
+              .effects
+              = {Effect::phase_change, Effect::phase_conductivity,
+                 Effect::phase_heat_capacity, Effect::wall_temperature, Effect::wall_flux,
+                 Effect::robin_wall, Effect::radiating_wall, Effect::liquid_motion},
+              .shapes = {{cases::DomainShape::slab, {1}, walls}},
+              .front_origins = {FrontOrigin::initial_front, FrontOrigin::wall},
+              .most_fronts = 1,
+              .most_threads = cases::any_number_of_threads};
+    }
+
+    /** Sources there have a radius: they release heat throughout. */
+    cases::Capabilities about_an_axis(const std::vector<cases::BoundaryKind> &walls)
+    {
+      using cases::Effect, cases::FrontOrigin;
+      return {.form = "about an axis",
+              .problems = {cases::ProblemKind::stefan},
+              .effects = {Effect::phase_change, Effect::phase_conductivity,
+                          Effect::phase_heat_capacity, Effect::wall_temperature,
+                          Effect::wall_flux, Effect::robin_wall, Effect::radiating_wall,
+                          Effect::volumetric_source, Effect::variable_conductivity,
+                          Effect::variable_heat_capacity, Effect::melting_range},
+              .shapes = {{cases::DomainShape::axisymmetric, {2}, walls}},
+              .front_origins = {FrontOrigin::none, FrontOrigin::initial_front,
+                                FrontOrigin::partly_melted, FrontOrigin::wall},
+              .most_threads = cases::any_number_of_threads};
+    }
+
     class SphMethod : public cases::Method
     {
     public:
@@ -32,22 +67,30 @@ namespace meltfront::particles
         {
           round.insert(round.end(),
                        {BoundaryKind::heat_transfer, BoundaryKind::radiation});
-          effects.insert(effects.end(), {Effect::robin_wall, Effect::radiating_wall});
+          effects.insert(effects.end(),
+                         {Effect::robin_wall, Effect::radiating_wall,
+                          Effect::variable_conductivity, Effect::variable_heat_capacity,
+                          Effect::melting_range, Effect::moving_source});
         }
         std::vector<BoundaryKind> of_box = round;
         of_box.push_back(BoundaryKind::periodic);
-        return {{.form = {},
-                 .problems = {cases::ProblemKind::stefan},
-                 .effects = effects,
-                 .shapes = {{DomainShape::slab, {1}, of_box},
-                            {DomainShape::box, {2, 3}, of_box},
-                            {DomainShape::ball, {2, 3}, round},
-                            {DomainShape::shell, {2, 3}, round},
-                            {DomainShape::outline, {2}, {BoundaryKind::insulated}}},
-                 .front_origins
-                 = {FrontOrigin::none, FrontOrigin::initial_front,
-                    FrontOrigin::partly_melted, FrontOrigin::wall, FrontOrigin::source},
-                 .most_threads = cases::any_number_of_threads}};
+        std::vector<cases::Capabilities> forms{
+            {.form = {},
+             .problems = {cases::ProblemKind::stefan},
+             .effects = effects,
+             .shapes = {{DomainShape::slab, {1}, of_box},
+                        {DomainShape::box, {2, 3}, of_box},
+                        {DomainShape::ball, {2, 3}, round},
+                        {DomainShape::shell, {2, 3}, round},
+                        {DomainShape::outline, {2}, {BoundaryKind::insulated}}},
+             .front_origins
+             = {FrontOrigin::none, FrontOrigin::initial_front, FrontOrigin::partly_melted,
+                FrontOrigin::wall, FrontOrigin::source},
+             .most_threads = cases::any_number_of_threads}};
+        if(policy.corrected_form.empty())
+          forms.insert(forms.end(),
+                       {about_an_axis(round), where_liquid_is_displaced(round)});
+        return forms;
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -55,11 +98,16 @@ namespace meltfront::particles
         return cases::options_of(SphOptions(policy));
       }
 
-      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &effects,
                            const cases::Resolution &resolution) const override
       {
-        return sph_demand(resolve_parameters(policy, scene, resolution), scene,
-                          {.per_particle = 400, .per_neighbour = 40});
+        constexpr SphMemory memory{.per_particle = 400, .per_neighbour = 40};
+        SphParameters parameters = resolve_parameters(policy, scene, resolution);
+        if(!effects.contains(cases::Effect::liquid_motion))
+          return sph_demand(parameters, scene, memory);
+        const MassCoordinates moving(scene, parameters);
+        parameters.n = moving.particles;
+        return sph_demand(parameters, moving.at_rest, memory);
       }
 
       std::unique_ptr<cases::Run>

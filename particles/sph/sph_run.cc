@@ -19,23 +19,24 @@ namespace meltfront::particles
     class SphRun : public cases::Run
     {
     public:
-      SphRun(const SphPolicy &policy, const cases::Scene &scene,
+      SphRun(const SphPolicy &policy, const cases::Scene &in_space,
              const cases::EffectSet &effects, const cases::Resolution &resolution)
-        : scene(scene)
-        , parameters(resolve_parameters(policy, scene, resolution))
+        : parameters(resolve_parameters(policy, in_space, resolution))
+        , mass_coordinates(in_mass_coordinates(in_space, effects, parameters))
+        , scene(mass_coordinates ? mass_coordinates->at_rest : in_space)
         , dis(scene, parameters)
         , n(dis.particles.size())
-        , heat_flow(dis, effects, parameters)
+        , heat_flow(dis, effects, parameters, mass_coordinates.get())
         , plan(plan_steps(
               parameters, scene,
               heat_flow.monotone_step(dis.particle_volume * scene.material.solid.density),
               dis.kernel.smoothing_length()))
-        , stepper(make_stepper(parameters, heat_flow, dis, plan, initial_enthalpy(dis),
-                               policy.name))
+        , stepper(make_stepper(parameters, heat_flow, dis, plan, start(), policy.name))
         , temperature(n)
         , solid_fraction(n)
-        , initial_heat(heat_content())
       {
+        weigh();
+        initial_heat = heat_content();
       }
 
       cases::RunDescription describe() const override
@@ -72,10 +73,38 @@ namespace meltfront::particles
                                            steps, stepper->counts().repeated));
       }
 
+      static std::unique_ptr<const MassCoordinates>
+      in_mass_coordinates(const cases::Scene &in_space, const cases::EffectSet &effects,
+                          SphParameters &parameters)
+      {
+        if(!effects.contains(cases::Effect::liquid_motion))
+          return nullptr;
+        auto result = std::make_unique<const MassCoordinates>(in_space, parameters);
+        parameters.n = result->particles;
+        return result;
+      }
+
+      std::vector<double> start() const
+      {
+        std::vector<double> enthalpy = initial_enthalpy(dis);
+        if(const OpenEnd *end = heat_flow.open_end())
+          end->hide(enthalpy);
+        return enthalpy;
+      }
+
+      /** Where the domain's end moves over the particles, what they stand for. */
+      void weigh()
+      {
+        if(const OpenEnd *end = heat_flow.open_end())
+          end->weigh(dis.weights);
+      }
+
       cases::HeatBudget heat_content() const
       {
         const std::span<const double> enthalpy = stepper->enthalpies();
         const cases::Material &m = scene.material;
+        if(m.curves)
+          return heat_by_curves(*m.curves);
         cases::CompensatedSum stored, latent;
         for(std::size_t a = 0; a < n; ++a)
         {
@@ -84,6 +113,27 @@ namespace meltfront::particles
           stored.add(
               mass
               * (std::min(enthalpy[a], 0.) + std::max(enthalpy[a] - m.latent_heat, 0.)));
+        }
+        cases::HeatBudget heat;
+        heat.stored = stored.value();
+        heat.latent = latent.value();
+        heat.initial = heat.stored + heat.latent;
+        return heat;
+      }
+
+      /** The latent heat of what is liquid, and the rest. */
+      cases::HeatBudget heat_by_curves(const cases::ThermalCurves &curves) const
+      {
+        const std::span<const double> enthalpy = stepper->enthalpies();
+        const double latent_heat = scene.material.latent_heat;
+        cases::CompensatedSum stored, latent;
+        for(std::size_t a = 0; a < n; ++a)
+        {
+          const double mass = dis.weights[a] * scene.material.solid.density;
+          const double molten
+              = latent_heat * (1 - curves.at_enthalpy(enthalpy[a]).solid_fraction);
+          latent.add(mass * molten);
+          stored.add(mass * (enthalpy[a] - molten));
         }
         cases::HeatBudget heat;
         heat.stored = stored.value();
@@ -101,8 +151,11 @@ namespace meltfront::particles
           temperature[a] = m.temperature(enthalpy[a]);
           solid_fraction[a] = m.solid_fraction(enthalpy[a]);
         }
+        weigh();
         cases::Snapshot result
             = particle_snapshot(dis, step, time, temperature, solid_fraction);
+        if(mass_coordinates)
+          return_to_space(result);
         result.heat = heat_content();
         result.heat.initial = initial_heat.initial;
         result.heat.boundary = stepper->boundary_heat();
@@ -110,13 +163,37 @@ namespace meltfront::particles
         return result;
       }
 
+      /** Put the particles within the open end where they are in space, with the volumes
+       * that they have there and the share of them that is solid. */
+      void return_to_space(cases::Snapshot &snapshot)
+      {
+        const std::size_t live = heat_flow.open_end()->last() + 1;
+        place.resize(live);
+        width.resize(live);
+        double reached = mass_coordinates->lowest;
+        for(std::size_t a = 0; a < live; ++a)
+        {
+          const double solid = dis.weights[a] * solid_fraction[a];
+          width[a] = mass_coordinates->width(dis.weights[a], solid_fraction[a]);
+          solid_fraction[a] = solid / width[a];
+          place[a] = reached + 0.5 * width[a];
+          reached += width[a];
+        }
+        snapshot.positions[0] = place;
+        snapshot.weights = width;
+        snapshot.temperature = snapshot.temperature.first(live);
+        snapshot.solid_fraction = snapshot.solid_fraction.first(live);
+      }
+
       long unknowns() const
       {
         return static_cast<long>(n - dis.dirichlet.size());
       }
 
-      const cases::Scene &scene;
       SphParameters parameters;
+      /** Where freezing displaces liquid; else null. */
+      std::unique_ptr<const MassCoordinates> mass_coordinates;
+      const cases::Scene &scene; ///< of the particles, in mass coordinates if those are
       Discretisation dis;
       std::size_t n; ///< particles
       HeatFlow heat_flow;
@@ -124,6 +201,7 @@ namespace meltfront::particles
       std::unique_ptr<Stepper> stepper;
       long steps = 0;                                  ///< made so far
       std::vector<double> temperature, solid_fraction; ///< for snapshots
+      std::vector<double> place, width;                ///< likewise, in space
       cases::HeatBudget initial_heat;
     };
   } // namespace

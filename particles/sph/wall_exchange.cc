@@ -18,6 +18,7 @@ namespace meltfront::particles
   WallExchange::WallExchange(const Discretisation &discretisation,
                              const ConductionRows &rows)
     : material(discretisation.scene.material)
+    , sharp_latent_heat(material.curves ? material.curves->jump() : material.latent_heat)
     , spacing(discretisation.spacing)
     , links(rows.exchange_links)
     , depths(rows.exchange_depths)
@@ -34,14 +35,31 @@ namespace meltfront::particles
   WallExchange::Layer WallExchange::layer(std::size_t link, double enthalpy,
                                           double ambient) const
   {
-    const double depth = depths[link], latent = material.latent_heat;
-    if(enthalpy < 0 || enthalpy > latent)
+    const double depth = depths[link];
+    if(material.curves)
+    {
+      // Within half a spacing the conductivity is the particle's to first order.
+      const cases::ThermalState state = material.curves->at_enthalpy(enthalpy);
+      const double jump = material.curves->jump();
+      return enthalpy < 0 || enthalpy > jump
+                 ? Layer{state.temperature, depth / state.conductivity,
+                         1 / state.capacity, 0}
+                 : melting_layer(link, enthalpy, ambient);
+    }
+    if(enthalpy < 0 || enthalpy > material.latent_heat)
     {
       const cases::PhaseProperties &phase
           = enthalpy < 0 ? material.solid : material.liquid;
       return {material.temperature(enthalpy), depth / phase.conductivity,
               1 / phase.specific_heat_capacity, 0};
     }
+    return melting_layer(link, enthalpy, ambient);
+  }
+
+  WallExchange::Layer WallExchange::melting_layer(std::size_t link, double enthalpy,
+                                                  double ambient) const
+  {
+    const double latent = sharp_latent_heat, depth = depths[link];
     // Cold surroundings freeze it from the wall on, warm ones melt it.
     const bool freezes = ambient < material.melting_temperature;
     const double changed

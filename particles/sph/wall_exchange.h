@@ -35,6 +35,17 @@ namespace meltfront::particles
     void differentiate(double fraction, std::span<const double> enthalpy,
                        std::span<double> diagonal, double flow_scale) const;
 
+    /** Let another particle have the links of one, at another depth. */
+    void relink(std::uint32_t from, std::uint32_t to, double depth)
+    {
+      for(std::size_t i = 0; i < links.size(); ++i)
+        if(links[i].row == from)
+        {
+          links[i].row = to;
+          depths[i] = depth;
+        }
+    }
+
     /** Links to walls, the entries that one pass touches. */
     std::size_t size() const
     {
@@ -53,8 +64,10 @@ namespace meltfront::particles
       double growth;      ///< dR/dH
     };
     Layer layer(std::size_t link, double enthalpy, double ambient) const;
+    Layer melting_layer(std::size_t link, double enthalpy, double ambient) const;
 
     const cases::Material &material;
+    double sharp_latent_heat; ///< exchanged at one temperature (J/kg)
     double spacing;
     std::vector<WallLink> links;
     std::vector<double> depths;

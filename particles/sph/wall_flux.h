@@ -27,6 +27,14 @@ namespace meltfront::particles
      */
     double add(double fraction, std::span<double> flow, double flow_scale);
 
+    /** Let another particle have the links of one. */
+    void relink(std::uint32_t from, std::uint32_t to)
+    {
+      for(WallLink &link : links)
+        if(link.row == from)
+          link.row = to;
+    }
+
     /** Links to walls, the entries that one pass touches. */
     std::size_t size() const
     {

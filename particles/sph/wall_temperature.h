@@ -96,6 +96,14 @@ namespace meltfront::particles
       return heat;
     }
 
+    /** Let another particle have the links of one, with another strength. */
+    void relink(std::uint32_t from, std::uint32_t to, double strength)
+    {
+      for(WallLink &link : links)
+        if(link.row == from)
+          link = {to, link.point, strength};
+    }
+
     /** Links to walls, the entries that one pass touches. */
     std::size_t size() const
     {

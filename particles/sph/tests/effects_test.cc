@@ -118,12 +118,13 @@ namespace meltfront::particles::testing
                       std::erf(outcome->position_x[i] / (2 * std::sqrt(0.02))), 2e-3);
     }
 
-    TEST(Effects, LiquidMotionIsRefused)
+    TEST(Effects, LiquidMotionIsRefusedInThePlane)
     {
-      Problem problem = plane_freezing_water();
-      problem.exact = nullptr;
-      problem.scene.boundaries[1] = fixed_wall(10);
-      problem.scene.material.solid.density = 917;
+      cases::Material lighter_ice = water();
+      lighter_ice.solid.density = 917;
+      Problem problem;
+      problem.scene = unit_box(2, lighter_ice, 10, 1);
+      problem.scene.boundaries[0] = fixed_wall(-10);
       EXPECT_THROW(run(*make_sph(), problem, 20), cases::Refusal);
     }
 

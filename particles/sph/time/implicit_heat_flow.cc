@@ -1,6 +1,7 @@
 #include <particles/sph/time/implicit_heat_flow.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace meltfront::particles
 {
@@ -13,9 +14,14 @@ namespace meltfront::particles
   ImplicitHeatFlow::ImplicitHeatFlow(HeatFlow &heat_flow, const cases::Material &material,
                                      std::size_t particles)
     : heat_flow(heat_flow)
-    , latent_heat(material.latent_heat)
+    , latent_heat(material.curves ? material.curves->jump() : material.latent_heat)
     , n(particles)
   {
+    if(!material.melting_range)
+      return;
+    if(latent_heat == 0)
+      ends_of_range.push_back(0);
+    ends_of_range.push_back(material.enthalpy(material.melting_range->liquidus));
   }
 
   double ImplicitHeatFlow::evaluate(std::span<const double> enthalpy, double fraction,
@@ -35,6 +41,16 @@ namespace meltfront::particles
 
   double ImplicitHeatFlow::stop_at_kink(double from, double to) const
   {
+    // Of a jump's ends see below; a path crosses what it meets first.
+    for(const double kink : ends_of_range)
+    {
+      // A little beyond it, so that the next iteration is on the other branch.
+      const double beyond = beyond_kink * ends_of_range.back();
+      if(from < kink - beyond && to > kink)
+        return kink + beyond;
+      if(from > kink + beyond && to < kink)
+        return kink - beyond;
+    }
     if(latent_heat == 0)
       return to;
     const double beyond = beyond_kink * latent_heat;

@@ -6,8 +6,8 @@
 
 namespace meltfront::particles
 {
-  /** The heat flow between particles of one substance, which melt at one temperature:
-   * T(H) has the branches of solid, melting and liquid. */
+  /** The heat flow between particles of one substance: T(H) has the branches of solid, of
+   * what melts at one temperature, of what is partly solid, and of liquid. */
   class ImplicitHeatFlow : public ImplicitFlow
   {
   public:
@@ -56,7 +56,10 @@ namespace meltfront::particles
     double stop_at_kink(double from, double to) const;
 
     HeatFlow &heat_flow;
-    double latent_heat;
+    double latent_heat; ///< exchanged at one temperature (J/kg)
+    /** Specific enthalpies where a melting range begins and ends, off what is exchanged
+     * at one temperature (J/kg). */
+    std::vector<double> ends_of_range;
     std::size_t n;
   };
 } // namespace meltfront::particles

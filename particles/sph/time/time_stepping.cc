@@ -41,6 +41,18 @@ namespace meltfront::particles
                       material.liquid.specific_heat_capacity / std::max(liquid, mean));
   }
 
+  double monotone_step(const cases::Scene &scene, double particle_mass,
+                       double largest_row_sum, double largest_front_factor)
+  {
+    const auto &curves = scene.material.curves;
+    if(!curves)
+      return monotone_step(scene.material, particle_mass, largest_row_sum,
+                           largest_front_factor);
+    const cases::TemperatureBounds bounds = cases::temperature_bounds(scene);
+    return particle_mass / (largest_front_factor * largest_row_sum)
+           * curves->least_slope(bounds.lower, bounds.upper);
+  }
+
   double published_step(const cases::Material &material, double smoothing_length)
   {
     return 0.15 * smoothing_length * smoothing_length

@@ -22,6 +22,11 @@ namespace meltfront::particles
   double monotone_step(const cases::Material &material, double particle_mass,
                        double largest_row_sum, double largest_front_factor);
 
+  /** The same of a scene's material: where that has curves, with the least dH/du that
+   * they have at the temperatures which the scene's data allow. */
+  double monotone_step(const cases::Scene &scene, double particle_mass,
+                       double largest_row_sum, double largest_front_factor);
+
   /** 0.15 c rho h^2/k, the smaller of both phases' (Monaghan et al. 2005, equation 2.20).
    */
   double published_step(const cases::Material &material, double smoothing_length);

@@ -11,6 +11,8 @@
 #include <verification/app/tests/claims/mushes.h>
 #include <verification/app/tests/claims/not_shown.h>
 #include <verification/app/tests/claims/tolerances.h>
+#include <verification/app/tests/claims/turned.h>
+#include <verification/app/tests/claims/varying.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -81,6 +83,18 @@ namespace meltfront::verification::claims
         return !solves_in_more_dimensions();
       }
 
+      /** A form for bodies about an axis only. */
+      bool turned() const
+      {
+        return takes(DomainShape::axisymmetric) && !takes(DomainShape::box);
+      }
+
+      /** Over that of the solid, in scenes with a front. */
+      double density_of_liquid() const
+      {
+        return capabilities.form == "where liquid is displaced" ? 0.8 : 1;
+      }
+
       bool solves_in_more_dimensions() const
       {
         return capabilities.form == "in the plane"
@@ -133,11 +147,17 @@ namespace meltfront::verification::claims
       default:
         break;
       }
+      if(const auto trials = varying_trials(effect))
+        return form.turned() ? upright(*trials) : *trials;
+      if(form.turned())
+        return effect == Effect::volumetric_source
+                   ? upright(*front_trials(effect, DomainShape::slab, 1))
+                   : turned(*front_trials(effect, DomainShape::shell, 2));
       if(!form.capabilities.takes(Effect::phase_change))
         return steady_trials(effect);
       const bool slab = form.takes(DomainShape::slab);
       return front_trials(effect, slab ? DomainShape::slab : DomainShape::box,
-                          slab ? 1 : 2);
+                          slab ? 1 : 2, form.density_of_liquid());
     }
 
     Trial trial_of(const Form &form, const cases::ShapeCapability &shape, int dimension,
@@ -147,6 +167,8 @@ namespace meltfront::verification::claims
         return advected_ball(dimension, kind);
       if(form.is_bar())
         return particle_bar(75);
+      if(shape.shape == DomainShape::axisymmetric)
+        return turned(moving_front(DomainShape::shell, 2, kind, false));
       // All of an outline is insulated, of a box the ends of x only.
       const bool all_insulated
           = shape.shape == DomainShape::outline && kind == BoundaryKind::insulated;
@@ -159,11 +181,29 @@ namespace meltfront::verification::claims
         return heat_wave(shape.shape, dimension, kind, held);
       const bool round
           = shape.shape == DomainShape::ball || shape.shape == DomainShape::shell;
-      return moving_front(shape.shape, dimension, kind, round && form.symmetric());
+      return moving_front(shape.shape, dimension, kind, round && form.symmetric(),
+                          form.density_of_liquid());
+    }
+
+    /** About an axis. */
+    Trial turned_trial_of(FrontOrigin origin)
+    {
+      switch(origin)
+      {
+      case FrontOrigin::none:
+        return turned(heat_wave(DomainShape::ball, 2, BoundaryKind::insulated, true));
+      case FrontOrigin::initial_front:
+        return turned(
+            moving_front(DomainShape::shell, 2, BoundaryKind::insulated, false));
+      default:
+        return upright(cold_wall(origin == FrontOrigin::partly_melted));
+      }
     }
 
     Trial trial_of(const Form &form, FrontOrigin origin)
     {
+      if(form.turned())
+        return turned_trial_of(origin);
       if(form.is_bar())
         return particle_bar(75);
       switch(origin)
@@ -172,12 +212,13 @@ namespace meltfront::verification::claims
         return heat_wave(DomainShape::slab, 1, BoundaryKind::fixed_temperature, true);
       case FrontOrigin::initial_front:
         return form.takes(DomainShape::slab)
-                   ? moving_front(DomainShape::slab, 1, BoundaryKind::insulated, false)
+                   ? moving_front(DomainShape::slab, 1, BoundaryKind::insulated, false,
+                                  form.density_of_liquid())
                    : moving_front(DomainShape::box, 2, BoundaryKind::insulated, false);
       case FrontOrigin::source:
         return line_sink(0.6, form.symmetric(), false);
       default:
-        return cold_wall(origin == FrontOrigin::partly_melted);
+        return cold_wall(origin == FrontOrigin::partly_melted, form.density_of_liquid());
       }
     }
 

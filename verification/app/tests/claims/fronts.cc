@@ -67,7 +67,8 @@ namespace meltfront::verification::claims
       cases::OracleProblem problem;
     };
 
-    FrontScene front_scene(DomainShape shape, int dimension, bool symmetric)
+    FrontScene front_scene(DomainShape shape, int dimension, bool symmetric,
+                           double displaced = 1)
     {
       FrontScene result;
       cases::Scene &scene = result.trial.scene;
@@ -78,7 +79,7 @@ namespace meltfront::verification::claims
       scene.material.solid
           = {.conductivity = 2, .specific_heat_capacity = 1, .density = 1};
       scene.material.liquid
-          = {.conductivity = 1, .specific_heat_capacity = 2, .density = 1};
+          = {.conductivity = 1, .specific_heat_capacity = 2, .density = displaced};
       scene.material.latent_heat = 2;
       scene.end_time = 0.06;
       result.trial.n = resolution_of(dimension);
@@ -257,9 +258,10 @@ namespace meltfront::verification::claims
     }
   } // namespace
 
-  Trial moving_front(DomainShape shape, int dimension, BoundaryKind kind, bool symmetric)
+  Trial moving_front(DomainShape shape, int dimension, BoundaryKind kind, bool symmetric,
+                     double displaced)
   {
-    FrontScene of = front_scene(shape, dimension, symmetric);
+    FrontScene of = front_scene(shape, dimension, symmetric, displaced);
     if(kind == BoundaryKind::flux)
       return with_flux(std::move(of), moderate_flux);
     if(cases::exchanges_heat(kind))
@@ -275,14 +277,14 @@ namespace meltfront::verification::claims
   }
 
   std::optional<EffectTrials> front_trials(Effect effect, DomainShape shape,
-                                           int dimension)
+                                           int dimension, double displaced)
   {
     const auto vary = [&](const auto &change)
     {
       EffectTrials trials;
       for(const bool second : {false, true})
       {
-        FrontScene of = front_scene(shape, dimension, false);
+        FrontScene of = front_scene(shape, dimension, false, displaced);
         change(of, second);
         (second ? trials.second : trials.first) = solve(std::move(of));
       }
@@ -313,7 +315,8 @@ namespace meltfront::verification::claims
           [](FrontScene &of, bool second)
           {
             of.start.straight = true;
-            of.trial.scene.material.liquid.density = second ? 0.4 : 1;
+            of.trial.scene.material.liquid.density = second ? 0.25 : 4;
+            of.trial.scene.end_time = 0.2;
             wall(of.trial.scene, far_side(of.trial.scene.domain))
                 = held_at([](const Position &, double) { return 1.; });
           });
@@ -325,16 +328,18 @@ namespace meltfront::verification::claims
             of.problem.metastable = true;
           });
     case Effect::wall_flux:
-      return EffectTrials{with_flux(front_scene(shape, dimension, false), 0),
-                          with_flux(front_scene(shape, dimension, false), strong_flux)};
+      return EffectTrials{
+          with_flux(front_scene(shape, dimension, false, displaced), 0),
+          with_flux(front_scene(shape, dimension, false, displaced), strong_flux)};
     case Effect::robin_wall:
     case Effect::radiating_wall:
     {
       const auto kind = effect == Effect::robin_wall ? BoundaryKind::heat_transfer
                                                      : BoundaryKind::radiation;
       return EffectTrials{
-          with_surroundings(front_scene(shape, dimension, false), kind, 0),
-          with_surroundings(front_scene(shape, dimension, false), kind, strong_flux)};
+          with_surroundings(front_scene(shape, dimension, false, displaced), kind, 0),
+          with_surroundings(front_scene(shape, dimension, false, displaced), kind,
+                            strong_flux)};
     }
     case Effect::volumetric_source:
       return EffectTrials{released_front(shape, dimension, false),
@@ -383,7 +388,7 @@ namespace meltfront::verification::claims
     return trial;
   }
 
-  Trial cold_wall(bool partly_melted)
+  Trial cold_wall(bool partly_melted, double displaced)
   {
     constexpr double cold = -1;
     const double far = partly_melted ? 0 : 0.5;
@@ -391,6 +396,7 @@ namespace meltfront::verification::claims
     trial.scene = scene_on(domain_of(DomainShape::slab, 1, false));
     cases::Scene &scene = trial.scene;
     scene.material.latent_heat = 2;
+    scene.material.liquid.density = displaced;
     scene.end_time = 0.06;
     scene.initial.temperature = cases::Field::uniform(far);
     cases::Material to_freeze = scene.material;

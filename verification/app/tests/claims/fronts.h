@@ -11,13 +11,14 @@ namespace meltfront::verification::claims
    * A front that moves away from x = 0 or the centre with walls of a kind at its far end
    * (periodic ones: across), held against the oracle of one coordinate.
    * @param symmetric whether the scene says that it depends on one coordinate
+   * @param displaced density of the liquid over the solid's
    */
   Trial moving_front(cases::DomainShape shape, int dimension, cases::BoundaryKind kind,
-                     bool symmetric);
+                     bool symmetric, double displaced = 1);
 
   /** Of an effect of scenes with a front in one coordinate, on a domain of that shape. */
   std::optional<EffectTrials> front_trials(cases::Effect effect, cases::DomainShape shape,
-                                           int dimension);
+                                           int dimension, double displaced = 1);
 
   /** Ice around a line that draws heat from the centre of a disk, from the start or,
    * where it has `begun`, from a front that is there. */
@@ -25,7 +26,7 @@ namespace meltfront::verification::claims
 
   /** Liquid that a cold wall begins to freeze (Neumann); half of it solid, at the melting
    * point, where `partly_melted`. */
-  Trial cold_wall(bool partly_melted);
+  Trial cold_wall(bool partly_melted, double displaced = 1);
 
   /** A disk of solid whose melt has become as warm as its curved front. */
   EffectTrials capillary_trials();
