@@ -91,8 +91,11 @@ namespace meltfront::reference_fem
     std::optional<cases::Field> initial_front(const cases::Scene &scene)
     {
       const auto &exact = scene.initial.exact;
-      if(!(scene.material.latent_heat > 0)
-         || (exact && !(scene.start_time > exact->start_time())))
+      // At its own start the front of a similarity solution is at the origin.
+      const bool begins = exact && !(scene.start_time > exact->start_time())
+                          && exact->depends_on_one_coordinate()
+                          && !(exact->front(scene.start_time) > 0);
+      if(!(scene.material.latent_heat > 0) || begins)
         return {};
       if(scene.initial.front || !exact)
         return scene.initial.front;
@@ -121,7 +124,7 @@ namespace meltfront::reference_fem
     {
       const std::size_t n = discretisation.volume.size();
       const Symmetry measure = discretisation.measure;
-      const double length = scene.domain.side(), half = discretisation.spacing / 2;
+      const double half = discretisation.spacing / 2;
       if(measure == Symmetry::none && scene.domain.shape != cases::DomainShape::slab)
         return mesh.node_averages(start);
       std::vector<double> result(n);
@@ -131,8 +134,9 @@ namespace meltfront::reference_fem
         if(measure == Symmetry::none)
         {
           const double x = discretisation.positions[i][0];
-          result[i] = start.average(Symmetry::planar, std::max(x - half, 0.),
-                                    std::min(x + half, length));
+          result[i]
+              = start.average(Symmetry::planar, std::max(x - half, scene.domain.lower[0]),
+                              std::min(x + half, scene.domain.upper[0]));
         }
         else
         {
