@@ -80,9 +80,9 @@ namespace meltfront::reference_fem
     else
     {
       uniform_conduction = mesh.conduction;
-      uniform_conduction.weigh(mesh.conduction, std::vector<double>(n, 1.),
-                               [k = scene.material.solid.conductivity](double, double)
-                               { return k; });
+      uniform_conduction.weigh(mesh.conduction,
+                               [k = scene.material.solid.conductivity](
+                                   std::size_t, std::size_t) { return k; });
     }
     if(std::any_of(substances.begin(), substances.end(),
                    [](const Substance &s) { return s.diffuses(); }))

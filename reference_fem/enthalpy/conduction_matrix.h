@@ -72,19 +72,17 @@ namespace meltfront::reference_fem
 
     /**
      * Make this the network of another matrix with every conductance multiplied by a
-     * coefficient of its two nodes; `mean(a, b)` is to be symmetric.
+     * factor of its two nodes; `factor(i, j)` is to be symmetric.
      */
-    template <typename Mean>
-    void weigh(const ConductionMatrix &unit, const std::vector<double> &coefficient,
-               const Mean &mean)
+    template <typename Factor>
+    void weigh(const ConductionMatrix &unit, const Factor &factor)
     {
       for(std::size_t i = 0; i < size(); ++i)
       {
         diagonal[i] = 0;
         for(std::size_t k = row_start[i]; k < row_start[i + 1]; ++k)
         {
-          conductance[k]
-              = unit.conductance[k] * mean(coefficient[i], coefficient[column[k]]);
+          conductance[k] = unit.conductance[k] * factor(i, column[k]);
           diagonal[i] += conductance[k];
         }
       }

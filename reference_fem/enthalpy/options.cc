@@ -33,6 +33,9 @@ namespace meltfront::reference_fem
   {
     auto options = cases::read_options(RunOptions(), resolution.options);
     options.dimension = choose_dimension(scene, options.dimension);
+    if(options.front_within_cells && options.dimension > 1)
+      throw cases::Refusal("fem-enthalpy takes fronts at their places within cells "
+                           "(front = within_cells) in one dimension only");
     if(options.steps == 0)
       options.steps
           = std::max(fewest_steps, std::lround(options.steps_per_cell * resolution.n));
@@ -61,6 +64,12 @@ namespace meltfront::reference_fem
     options.add("iteration_limit", iteration_limit,
                 "Nonlinear iterations after which a step is halved and tried again.", 1,
                 1e6);
+    options.add(
+        "front", front_within_cells,
+        "Heat between a melting node and its neighbours: from the node itself "
+        "(nodes), or from where the front lies within its cell (within_cells; in one "
+        "dimension only).",
+        {{"nodes", false}, {"within_cells", true}});
     options.add("preconditioner", preconditioner,
                 "Preconditioner of the conjugate gradients in 2D and 3D: ssor, amg "
                 "(Trilinos ML) or "

@@ -24,6 +24,7 @@ namespace meltfront::reference_fem
     int start_halvings = 3;
     int dimension = 0; ///< 0: the lowest
     int iteration_limit = 100;
+    bool front_within_cells = false; ///< conductances as FrontConduction has them
     Preconditioner preconditioner = Preconditioner::automatic;
   };
 

@@ -82,8 +82,12 @@ namespace meltfront::reference_fem
     };
     if(!holds_solute(scene, effects))
     {
-      solver = make_nonlinear_solver(problem(), scene.material, effects,
-                                     make_linear_solver(mesh.conduction));
+      if(options.front_within_cells && scene.changes_phase())
+        fronts.emplace(mesh, scene.material, free);
+      auto linear = make_linear_solver(problem().conduction);
+      linear_solver = linear.get();
+      solver
+          = make_nonlinear_solver(problem(), scene.material, effects, std::move(linear));
       return;
     }
     if(exchange)
@@ -98,8 +102,10 @@ namespace meltfront::reference_fem
 
   StepProblem EnthalpyRun::problem()
   {
-    return {alloy ? alloy->conduction_matrix() : mesh.conduction, mesh.volume, free,
-            exchange ? &*exchange : nullptr};
+    const ConductionMatrix &conduction = alloy    ? alloy->conduction_matrix()
+                                         : fronts ? fronts->matrix()
+                                                  : mesh.conduction;
+    return {conduction, mesh.volume, free, exchange ? &*exchange : nullptr};
   }
 
   StepFormula EnthalpyRun::formula(double next) const
@@ -139,9 +145,42 @@ namespace meltfront::reference_fem
     if(walls)
       walls->prescribe(step, *solver, u);
     const StepOutcome outcome
-        = solver->solve(step.c, rhs, options.iteration_limit, u, heat);
+        = fronts ? solve_with_fronts(step)
+                 : solver->solve(step.c, rhs, options.iteration_limit, u, heat);
     iterations += outcome.iterations;
     capped_steps += outcome.iterations >= options.iteration_limit;
+    return outcome;
+  }
+
+  /**
+   * Solve with the fronts where the last two steps lead them, then with the fronts where
+   * that leaves them. Further passes change nothing that could be seen.
+   */
+  StepOutcome EnthalpyRun::solve_with_fronts(const StepFormula &step)
+  {
+    const bool continues
+        = step_number > 0 && !std::ranges::binary_search(breakpoints, time);
+    const double ratio
+        = continues ? (step.next - step.now) / (step.now - time_before) : 0;
+    std::vector<double> state = enthalpy;
+    for(std::size_t i = 0; i < state.size(); ++i)
+      state[i] += ratio * (enthalpy[i] - enthalpy_before[i]);
+    StepOutcome outcome;
+    int all = 0;
+    for(int pass = 0; pass < 2; ++pass)
+    {
+      if(pass > 0)
+        for(std::size_t i = 0; i < state.size(); ++i)
+          if(free[i])
+            state[i] = heat[i] / mesh.volume[i];
+      fronts->follow(state);
+      linear_solver->conductances_changed();
+      outcome = solver->solve(step.c, rhs, options.iteration_limit, u, heat);
+      all += outcome.iterations;
+      if(!outcome.converged)
+        break;
+    }
+    outcome.iterations = all;
     return outcome;
   }
 

@@ -4,6 +4,7 @@
 #include <cases/run.h>
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/alloy_solver.h>
+#include <reference_fem/enthalpy/front_conduction.h>
 #include <reference_fem/enthalpy/heat_sources.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/options.h>
@@ -65,6 +66,7 @@ namespace meltfront::reference_fem
     StepFormula formula(double next) const;
     void predict(double next);
     StepOutcome attempt(const StepFormula &step);
+    StepOutcome solve_with_fronts(const StepFormula &step);
     void accept(const StepFormula &step);
     void require_halvable(const StepFormula &step, const StepOutcome &outcome) const;
     StepOutcome solve(StepFormula &step);
@@ -87,7 +89,9 @@ namespace meltfront::reference_fem
     Discretisation mesh;
     std::vector<char> free;
     std::unique_ptr<NonlinearSolver> solver;
-    AlloySolver *alloy = nullptr; ///< the solver, where there is solute
+    AlloySolver *alloy = nullptr;          ///< the solver, where there is solute
+    LinearSolver *linear_solver = nullptr; ///< of the pure solver
+    std::optional<FrontConduction> fronts;
     std::string linear_solver_in_words;
     std::optional<HeatSources> sources;
     std::optional<VolumetricSource> release;

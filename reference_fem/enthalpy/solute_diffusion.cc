@@ -34,8 +34,10 @@ namespace meltfront::reference_fem
   void SoluteDiffusion::set_liquid(const std::vector<double> &mass_fraction)
   {
     const cases::ScopedTimer timer(effect_cost.seconds);
-    network.weigh(mesh.conduction, mass_fraction,
-                  [this](double a, double b) { return density * harmonic_mean(a, b); });
+    network.weigh(mesh.conduction,
+                  [&](std::size_t a, std::size_t b) {
+                    return density * harmonic_mean(mass_fraction[a], mass_fraction[b]);
+                  });
     linear_solver->conductances_changed();
     for(std::size_t i = 0; i < active.size(); ++i)
     {
