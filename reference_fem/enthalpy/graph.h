@@ -29,6 +29,7 @@ namespace meltfront::reference_fem
     static constexpr bool jumps = latent;
     static constexpr bool has_two_slopes = two_slopes;
     static constexpr bool linear = !latent && !two_slopes;
+    static constexpr bool curved = false; ///< CurvedGraph
 
     explicit EnthalpyGraph(const cases::Material &material)
       : solid_conductivity(material.solid.conductivity)

@@ -5,6 +5,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace meltfront::reference_fem
@@ -49,8 +50,15 @@ namespace meltfront::reference_fem
       double enthalpy(const Position &p, bool solid) const
       {
         const cases::Material &material = scene.material;
-        const double excess = scene.initial.temperature(p, scene.start_time)
-                              - material.melting_temperature;
+        const double temperature = scene.initial.temperature(p, scene.start_time);
+        const double excess = temperature - material.melting_temperature;
+        if(material.curves)
+        {
+          const double jump = material.curves->jump();
+          if(jump > 0 && (solid ? excess >= 0 : excess <= 0))
+            return material.solid.density * (solid ? 0 : jump);
+          return material.solid.density * material.enthalpy(temperature);
+        }
         if(solid)
           return material.solid.volumetric_heat_capacity() * std::min(excess, 0.);
         return material.solid.density * material.latent_heat
@@ -63,7 +71,8 @@ namespace meltfront::reference_fem
         const bool solid_below = level(lower) < 0;
         if(solid_below == (level(upper) < 0))
           return upper;
-        for(double width = upper - lower; width > 1e-15 * upper; width /= 2)
+        for(double width = upper - lower;
+            width > 1e-15 * std::max(std::abs(lower), std::abs(upper)); width /= 2)
         {
           const double middle = (lower + upper) / 2;
           (solid_below == (level(middle) < 0) ? lower : upper) = middle;

@@ -11,6 +11,7 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/grid_tools_cache.h>
 #include <deal.II/lac/affine_constraints.h>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 namespace meltfront::reference_fem
 {
@@ -47,6 +49,10 @@ namespace meltfront::reference_fem
       Discretisation discretise() const override;
       std::vector<std::pair<unsigned int, double>>
       shares(const Position &point) const override;
+      void expect_many_points() override
+      {
+        finder.emplace(shape.triangulation, mapping);
+      }
       std::vector<double> node_averages(
           const std::function<double(const Position &)> &function) const override;
 
@@ -73,6 +79,7 @@ namespace meltfront::reference_fem
       dealii::DoFHandler<dim> dof_handler;
       dealii::AffineConstraints<double> periodicity;
       dealii::MappingQ<dim> mapping;
+      std::optional<dealii::GridTools::Cache<dim>> finder;
       std::vector<unsigned int> node_of_site;
       unsigned int n_nodes = 0;
     };
@@ -134,7 +141,8 @@ namespace meltfront::reference_fem
     template <int dim>
     double DealMesh<dim>::weight(const dealii::Point<dim> &point) const
     {
-      if(shape.measure == cases::Symmetry::cylindrical)
+      if(shape.measure == cases::Symmetry::cylindrical
+         || scene.domain.shape == DomainShape::axisymmetric)
         return 2 * std::numbers::pi * point[0];
       if(shape.measure == cases::Symmetry::spherical)
         return 4 * std::numbers::pi * point[0] * point[0];
@@ -190,6 +198,13 @@ namespace meltfront::reference_fem
                                    dealii::update_values | dealii::update_gradients
                                        | dealii::update_JxW_values
                                        | dealii::update_quadrature_points);
+      // About an axis a vertex stands for the integral of its shape function: what the
+      // weight is at the vertex itself would leave the axis without volume.
+      std::optional<dealii::FEValues<dim>> row_sums;
+      if(scene.domain.shape == DomainShape::axisymmetric)
+        row_sums.emplace(mapping, element, dealii::QGauss<dim>(2),
+                         dealii::update_values | dealii::update_JxW_values
+                             | dealii::update_quadrature_points);
       result.volume.assign(n_nodes, 0);
       result.conduction.diagonal.assign(n_nodes, 0);
       std::vector<std::map<unsigned int, double>> rows(n_nodes);
@@ -202,6 +217,17 @@ namespace meltfront::reference_fem
         std::vector<double> measures(quadrature.size());
         for(const unsigned int q : values.quadrature_point_indices())
           measures[q] = values.JxW(q) * weight(values.quadrature_point(q));
+        if(row_sums)
+        {
+          row_sums->reinit(cell);
+          for(const unsigned int vertex : values.quadrature_point_indices())
+          {
+            measures[vertex] = 0;
+            for(const unsigned int q : row_sums->quadrature_point_indices())
+              measures[vertex] += row_sums->shape_value(vertex, q) * row_sums->JxW(q)
+                                  * weight(row_sums->quadrature_point(q));
+          }
+        }
         const auto couple = [&](unsigned int a, unsigned int b)
         {
           double entry = 0;
@@ -312,12 +338,22 @@ namespace meltfront::reference_fem
             "the source at ({:.6g}, {:.6g}, {:.6g}) lies outside of the domain", point[0],
             point[1], point[2]));
       };
-      std::pair<typename dealii::DoFHandler<dim>::active_cell_iterator,
-                dealii::Point<dim>>
-          found;
+      using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;
+      std::pair<Cell, dealii::Point<dim>> found;
       try
       {
-        found = dealii::GridTools::find_active_cell_around_point(mapping, dof_handler, p);
+        if(finder)
+        {
+          const auto [cell, unit]
+              = dealii::GridTools::find_active_cell_around_point(*finder, p);
+          if(cell.state() != dealii::IteratorState::valid)
+            throw outside();
+          found = {Cell(&shape.triangulation, cell->level(), cell->index(), &dof_handler),
+                   unit};
+        }
+        else
+          found
+              = dealii::GridTools::find_active_cell_around_point(mapping, dof_handler, p);
       }
       catch(const dealii::ExceptionBase &)
       {
@@ -380,6 +416,7 @@ namespace meltfront::reference_fem
     case DomainShape::slab:
       return {1, 2, 3};
     case DomainShape::box:
+    case DomainShape::axisymmetric:
       return {scene.domain.dimension};
     default:
       if(scene.symmetry == cases::Symmetry::cylindrical

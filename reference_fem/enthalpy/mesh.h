@@ -62,6 +62,9 @@ namespace meltfront::reference_fem
     virtual std::vector<std::pair<unsigned int, double>>
     shares(const cases::Position &point) const = 0;
 
+    /** Make shares() faster where it is called many times. */
+    virtual void expect_many_points() = 0;
+
     /**
      * Averages of a function over the part of each cell nearest to a node, by a midpoint
      * rule of 8 points per cell and direction.
@@ -80,7 +83,8 @@ namespace meltfront::reference_fem
    * ball in 1D: the radius. Box: a Cartesian mesh, cells as near to cubes as the sides
    * allow. Ball in 2D/3D: an unstructured mesh of 4 2^k cells along the diameter. Shell:
    * the interval between its radii, or rings of cells near to squares (2D) or layers of a
-   * cube's faces (3D) as near to that size as they come.
+   * cube's faces (3D) as near to that size as they come. Axisymmetric body: its half
+   * section like a box, with the weight 2 pi r.
    * On Cartesian meshes mass and stiffness are integrated at the vertices, which makes K
    * an M-matrix for any aspect ratio; elsewhere the masses are row sums, so that the
    * volumes add up to the mesh's volume. A cell that the surface of an inclusion cuts

@@ -1,3 +1,4 @@
+#include <reference_fem/enthalpy/line_search.h>
 #include <reference_fem/enthalpy/mush_newton.h>
 
 #include <algorithm>
@@ -101,16 +102,10 @@ namespace meltfront::reference_fem
     return derivative;
   }
 
-  /**
-   * The share of the direction at which the functional's derivative, which rises, has
-   * nearly vanished: one where a node's path is smooth enough, else by the Illinois form
-   * of the rule of false position.
-   */
+  /** The share of the direction to go: see nearly_lowest(). */
   double MushNewton::line_search(double c, const CompensatedVector &u,
                                  const std::vector<double> &heat)
   {
-    constexpr double enough = 0.1;
-    constexpr int most_trials = 30;
     double conducted = 0, start = 0;
     for(std::size_t i = 0; i < u.size(); ++i)
       if(direction[i] != 0)
@@ -119,31 +114,8 @@ namespace meltfront::reference_fem
         start -= direction[i] * residual[i];
       }
     entries_touched += problem.conduction.entries();
-    double upper_value = fall(1, conducted, u, heat);
-    if(!(start < 0) || upper_value <= enough * -start)
-      return 1;
-    double lower = 0, upper = 1, lower_value = start;
-    for(int trial = 0; trial < most_trials; ++trial)
-    {
-      const double middle
-          = (lower * upper_value - upper * lower_value) / (upper_value - lower_value);
-      const double value = fall(middle, conducted, u, heat);
-      if(std::abs(value) <= enough * -start)
-        return middle;
-      if(value < 0)
-      {
-        lower = middle;
-        lower_value = value;
-        upper_value /= 2;
-      }
-      else
-      {
-        upper = middle;
-        upper_value = value;
-        lower_value /= 2;
-      }
-    }
-    return lower > 0 ? lower : upper;
+    return nearly_lowest(start,
+                         [&](double length) { return fall(length, conducted, u, heat); });
   }
 
   void MushNewton::advance(double length, CompensatedVector &u) const

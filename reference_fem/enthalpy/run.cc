@@ -38,8 +38,7 @@ namespace meltfront::reference_fem
     , time_before(scene.start_time)
     , breakpoints(cases::breakpoints_of(scene))
   {
-    const std::unique_ptr<Mesh> geometry
-        = make_mesh(scene, options.dimension, resolution.n);
+    std::unique_ptr<Mesh> geometry = make_mesh(scene, options.dimension, resolution.n);
     mesh = geometry->discretise();
     obeys_maximum_principle = mesh.conduction.is_monotone();
     slack = obeys_maximum_principle
@@ -68,6 +67,8 @@ namespace meltfront::reference_fem
     rhs.resize(n);
     heat.resize(n);
     initial_heat = total_heat();
+    if(sources && sources->move())
+      mesh_of_moving_sources = std::move(geometry);
   }
 
   void EnthalpyRun::make_solver()
@@ -82,6 +83,13 @@ namespace meltfront::reference_fem
     };
     if(!holds_solute(scene, effects))
     {
+      if(scene.inclusion && scene.material.curves)
+        throw cases::Refusal("fem-enthalpy simulates an inclusion in a material of one "
+                             "conductivity only");
+      if(options.front_within_cells && scene.material.curves)
+        throw cases::Refusal("fem-enthalpy takes fronts at their places within cells "
+                             "(front = within_cells) where the phases' properties are "
+                             "constant only");
       if(options.front_within_cells && scene.changes_phase())
         fronts.emplace(mesh, scene.material, free);
       auto linear = make_linear_solver(problem().conduction);
@@ -90,6 +98,10 @@ namespace meltfront::reference_fem
           = make_nonlinear_solver(problem(), scene.material, effects, std::move(linear));
       return;
     }
+    if(scene.material.curves)
+      throw cases::Refusal(
+          "fem-enthalpy simulates properties that depend on temperature, "
+          "and melting ranges, of pure substances only, not of alloys");
     if(exchange)
       throw cases::Refusal("fem-enthalpy exchanges heat with the surroundings of pure "
                            "substances only, not of alloys");
@@ -202,11 +214,13 @@ namespace meltfront::reference_fem
           [this](unsigned int node, double temperature, double last)
           {
             const double excess = temperature - scene.material.melting_temperature;
+            const cases::Material &material = scene.material;
+            const double jump
+                = material.curves ? material.curves->jump() : material.latent_heat;
             return alloy ? alloy->enthalpy_at(node, excess, last)
                          : density()
-                               * (excess == 0 ? std::clamp(last / density(), 0.,
-                                                           scene.material.latent_heat)
-                                              : scene.material.enthalpy(temperature));
+                               * (excess == 0 ? std::clamp(last / density(), 0., jump)
+                                              : material.enthalpy(temperature));
           });
     const double boundary_now
         = step.combine(boundary_heat.now, boundary_heat.before) + entered;

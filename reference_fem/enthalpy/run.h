@@ -93,6 +93,7 @@ namespace meltfront::reference_fem
     LinearSolver *linear_solver = nullptr; ///< of the pure solver
     std::optional<FrontConduction> fronts;
     std::string linear_solver_in_words;
+    std::unique_ptr<Mesh> mesh_of_moving_sources; ///< null where none moves
     std::optional<HeatSources> sources;
     std::optional<VolumetricSource> release;
     std::optional<WallTemperature> walls;

@@ -14,6 +14,8 @@ namespace meltfront::reference_fem
           : mesh.measure == cases::Symmetry::spherical      ? "radial, weight 4 pi r^2"
           : scene.domain.shape == cases::DomainShape::ball  ? "unstructured"
           : scene.domain.shape == cases::DomainShape::shell ? "rings"
+          : scene.domain.shape == cases::DomainShape::axisymmetric
+              ? "Cartesian, weight 2 pi r"
           : scene.domain.outline ? "squares and a layer along the outline"
                                  : "Cartesian";
     return fmt::format("{} cells, {} nodes, {}D, {}", mesh.cells.size() >> mesh.dimension,
@@ -76,6 +78,8 @@ namespace meltfront::reference_fem
   double EnthalpyRun::latent_heat(std::size_t node) const
   {
     const double whole = density() * scene.material.latent_heat;
+    if(scene.material.curves)
+      return whole * (1 - scene.material.solid_fraction(enthalpy[node] / density()));
     return alloy ? whole * alloy->state(node, enthalpy[node]).liquid_fraction
                  : std::clamp(enthalpy[node], 0., whole);
   }
@@ -151,6 +155,9 @@ namespace meltfront::reference_fem
         break;
       case cases::Effect::heat_sources:
         result.push_back(sources->cost());
+        break;
+      case cases::Effect::moving_source:
+        result.push_back(sources->cost_of_moving());
         break;
       case cases::Effect::volumetric_source:
         result.push_back(release->cost());

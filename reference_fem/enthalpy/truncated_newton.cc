@@ -1,4 +1,6 @@
+#include <reference_fem/enthalpy/curved_graph.h>
 #include <reference_fem/enthalpy/graph.h>
+#include <reference_fem/enthalpy/line_search.h>
 #include <reference_fem/enthalpy/step_newton.h>
 
 #include <algorithm>
@@ -61,7 +63,7 @@ namespace meltfront::reference_fem
       using Base::active, Base::cost, Base::direction, Base::entries_touched,
           Base::heat_capacity, Base::problem, Base::residual;
 
-      static constexpr bool jumps = Graph::jumps;
+      static constexpr bool jumps = Graph::jumps || Graph::curved;
       static constexpr bool exchanges = with_exchange;
 
       double excess(double u) const
@@ -81,7 +83,10 @@ namespace meltfront::reference_fem
 
       bool same_side(std::size_t, double u, double recovered) const
       {
-        return (u > 0) == (recovered > 0) && (u < 0) == (recovered < 0);
+        if constexpr(Graph::curved)
+          return graph.region(excess(u)) == graph.region(recovered);
+        else
+          return (u > 0) == (recovered > 0) && (u < 0) == (recovered < 0);
       }
 
       /** Of the heat that walls take over a step, by Kirchhoff's variable. */
@@ -97,6 +102,8 @@ namespace meltfront::reference_fem
       void descend(double c, CompensatedVector &u, const std::vector<double> &heat);
       bool project(const CompensatedVector &u);
       double line_search(double c, const CompensatedVector &u);
+      double curved_line_search(double c, const CompensatedVector &u,
+                                const std::vector<double> &heat);
       void advance(double length, CompensatedVector &u) const;
 
       Graph graph;
@@ -114,7 +121,7 @@ namespace meltfront::reference_fem
       double supply = rhs[i] + c * problem.conduction.inflow(i, u);
       if constexpr(exchanges)
         supply += c * problem.exchange->supply[i];
-      if(u[i] != 0)
+      if(!Graph::curved && u[i] != 0)
       {
         // As an increment, which the compensated sum keeps exactly.
         double missing = supply - volume * graph.enthalpy(u[i]),
@@ -138,7 +145,10 @@ namespace meltfront::reference_fem
                                c * problem.exchange->transfer[i]));
       else
         u.set(i, graph.resolve(supply, volume, stiffness));
-      return before != 0 || u[i] != 0;
+      if constexpr(Graph::curved)
+        return graph.region(excess(before)) != graph.region(excess(u[i]));
+      else
+        return before != 0 || u[i] != 0;
     }
 
     /** Fill heat_capacity, active and residual; returns the heat that changes a typical
@@ -258,12 +268,51 @@ namespace meltfront::reference_fem
       }
     }
 
+    /** The same where the derivative is no broken line. */
     template <class Graph, bool with_exchange>
-    void TruncatedNewton<Graph, with_exchange>::descend(double c, CompensatedVector &u,
-                                                        const std::vector<double> &)
+    double TruncatedNewton<Graph, with_exchange>::curved_line_search(
+        double c, const CompensatedVector &u, const std::vector<double> &heat)
+    {
+      double conducted = 0, start = 0;
+      for(std::size_t i = 0; i < u.size(); ++i)
+        if(direction[i] != 0)
+        {
+          conducted += c * direction[i] * problem.conduction.product(i, direction);
+          start -= direction[i] * residual[i];
+        }
+      entries_touched += problem.conduction.entries();
+      const auto fall = [&](double length)
+      {
+        double derivative = length * conducted;
+        for(std::size_t i = 0; i < u.size(); ++i)
+        {
+          const double d = direction[i];
+          if(d == 0)
+            continue;
+          const double there = u[i] + length * d;
+          // On the jump, the end that the direction comes from.
+          double rise = Graph::jumps && there == 0 && d > 0 ? 0 : graph.enthalpy(there);
+          rise = problem.volume[i] * rise - heat[i];
+          if constexpr(exchanges)
+            rise += c * problem.exchange->transfer[i] * (excess(there) - excess(u[i]));
+          derivative += d * rise;
+        }
+        return derivative;
+      };
+      return nearly_lowest(start, fall);
+    }
+
+    template <class Graph, bool with_exchange>
+    void TruncatedNewton<Graph, with_exchange>::descend(
+        double c, CompensatedVector &u, [[maybe_unused]] const std::vector<double> &heat)
     {
       double length = 1;
-      if constexpr(!Graph::linear)
+      if constexpr(Graph::curved)
+      {
+        project(u);
+        length = curved_line_search(c, u, heat);
+      }
+      else if constexpr(!Graph::linear)
         if(project(u))
           length = line_search(c, u);
       advance(length, u);
@@ -288,6 +337,10 @@ namespace meltfront::reference_fem
                         std::unique_ptr<LinearSolver> linear_solver)
   {
     using cases::Effect;
+    if(material.curves && material.curves->jump() > 0)
+      return make<CurvedGraph<true>>(problem, material, std::move(linear_solver));
+    if(material.curves)
+      return make<CurvedGraph<false>>(problem, material, std::move(linear_solver));
     // An effect that is on with nothing to act on composes the simpler graph.
     const bool latent
         = effects.contains(Effect::phase_change) && material.latent_heat > 0;
