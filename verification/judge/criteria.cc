@@ -17,6 +17,7 @@ namespace meltfront::verification
   {
     using cases::nan;
     constexpr int fewest_levels = 4;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
 
     using Runs = std::vector<const RunRecord *>;
 
@@ -266,6 +267,46 @@ namespace meltfront::verification
                                  criterion.upper, passed, criterion.expected_failure});
       result.passed = result.passed && passed;
     }
+
+    /** The case of a family that is furthest beyond a criterion's bounds, or nearest to
+     * them; null where the matrix says nothing on any. */
+    const StoredCase *worst_member(const MatrixResult &result,
+                                   const FamilyCriterion &family)
+    {
+      const StoredCase *worst = nullptr;
+      double furthest = -infinity;
+      for(const StoredCase &record : result.cases)
+      {
+        if(!in_family(family.family, record.name())
+           || !why_not_judged(result, record, family.criterion).empty())
+          continue;
+        const double value = criterion_value(result, record, family.criterion);
+        const double beyond = std::isnan(value)
+                                  ? infinity
+                                  : std::max(family.criterion.lower - value,
+                                             value - family.criterion.upper);
+        if(!worst || beyond > furthest)
+        {
+          worst = &record;
+          furthest = beyond;
+        }
+      }
+      return worst;
+    }
+
+    void judge_family(MatrixResult &result, const FamilyCriterion &family)
+    {
+      const StoredCase *worst = worst_member(result, family);
+      if(worst)
+      {
+        judge_on_label(result, *worst, family.criterion);
+        result.criteria.back().quantity += ", worst of " + family.family;
+      }
+      else
+        result.omissions.push_back(fmt::format(
+            "{}, {}: {}: not judged: the matrix has no such runs", family.family,
+            family.criterion.method, quantity_text(family.criterion)));
+    }
   } // namespace
 
   void evaluate(MatrixResult &result)
@@ -289,6 +330,8 @@ namespace meltfront::verification
         for(const cases::Criterion &criterion :
             criteria_on_labels(result, record, written))
           judge_on_label(result, record, criterion);
+    for(const FamilyCriterion &family : result.family_criteria)
+      judge_family(result, family);
     result.findings = judge_findings(result, result.claims);
     result.passed
         = result.passed && std::ranges::all_of(result.findings, &FindingResult::holds);

@@ -46,6 +46,9 @@ namespace meltfront::verification
    * method saw itself. Any other run that failed, was refused at the criterion's n or is
    * missing makes the value NaN, which does not pass.
    *
+   * A criterion on a family is one on the case of it that falls furthest short of the
+   * bound, or passes it by least, of those that the matrix has such runs of.
+   *
    * `passed` asks that every criterion judged passes, that every finding holds, and that
    * no run failed that is not known to, or is missing.
    *

@@ -24,6 +24,13 @@ namespace meltfront::verification
     std::string expected_failure;
   };
 
+  /** A criterion on the worst of the cases of a family (in_family()). */
+  struct FamilyCriterion
+  {
+    std::string family;
+    cases::Criterion criterion;
+  };
+
   /** How a run of a hard case is judged (verification/studies/stability). */
   struct StabilityVerdict
   {
@@ -58,6 +65,7 @@ namespace meltfront::verification
     bool hard_cases = false;       ///< the report shows the table held / refused / failed
     std::vector<StoredCase> cases; ///< in the matrix's order
     std::vector<RunRecord> runs;   ///< in the matrix's order
+    std::vector<FamilyCriterion> family_criteria; ///< beside those of the cases
     std::vector<CriterionResult> criteria;
     std::vector<Finding> claims;         ///< findings as the matrix states them
     std::vector<FindingResult> findings; ///< the same, held against the runs

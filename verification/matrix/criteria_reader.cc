@@ -4,6 +4,7 @@
 #include <verification/judge/criteria.h>
 #include <verification/matrix/criteria_reader.h>
 #include <verification/measure/measure.h>
+#include <verification/record/label.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -77,30 +78,54 @@ namespace meltfront::verification
       }
     }
 
-    const PlannedCase &case_of(const cases::PrmFile &prm, const std::string &name,
-                               const std::vector<PlannedCase> &planned)
+    /** What the matrix runs of a case, or of each of a family. */
+    std::vector<Labels> labels_of(const cases::PrmFile &prm, const std::string &name,
+                                  const Matrix &matrix)
     {
-      const auto found = std::ranges::find(planned, name, &PlannedCase::name);
-      if(found != planned.end())
-        return *found;
+      std::vector<Labels> members;
       std::vector<std::string> names;
-      for(const PlannedCase &one : planned)
-        names.push_back(one.name);
+      for(const PlannedCase &planned : planned_cases(matrix))
+      {
+        names.push_back(planned.name);
+        if(planned.name == name || in_family(name, planned.name))
+          members.push_back(planned_labels(matrix, planned));
+      }
+      if(!members.empty())
+        return members;
       throw prm.subsection_error(
           acceptance + "/" + name,
           fmt::format("names no case that the matrix runs; the nearest is '{}'",
                       cases::nearest_name(name.substr(0, 200), names)));
     }
 
+    /** At least one of the members has to be run. @throws InputError with the reason
+     * alone. */
+    void require_runs(const Criterion &criterion, const std::vector<Labels> &members)
+    {
+      for(std::size_t i = 0; i < members.size(); ++i)
+        try
+        {
+          return require_runs(criterion, members[i]);
+        }
+        catch(const cases::InputError &)
+        {
+          if(i + 1 == members.size())
+            throw;
+        }
+    }
+
     MatrixCriterion read_criterion(const cases::PrmFile &prm, const std::string &name,
-                                   const std::string &key, const Labels &labels)
+                                   const std::string &key,
+                                   const std::vector<Labels> &members)
     {
       const std::string here = acceptance + "/" + name;
       try
       {
         MatrixCriterion one{name, cases::parse_criterion(prm.get_text(here, key)),
                             cases::trimmed(prm.error(here, key, "").what())};
-        require_runs(one.criterion, labels);
+        if(is_family(name) && one.criterion.method == cases::any_method)
+          throw cases::InputError("is on any method: of a family, name one");
+        require_runs(one.criterion, members);
         return one;
       }
       catch(const cases::InputError &error)
@@ -123,15 +148,14 @@ namespace meltfront::verification
   std::vector<MatrixCriterion> read_criteria(const cases::PrmFile &prm,
                                              const Matrix &matrix)
   {
-    const std::vector<PlannedCase> planned = planned_cases(matrix);
     std::vector<MatrixCriterion> criteria;
     for(const std::string &name : prm.subsections_of(acceptance))
     {
-      const Labels labels = planned_labels(matrix, case_of(prm, name, planned));
+      const std::vector<Labels> members = labels_of(prm, name, matrix);
       for(const int i : prm.given_numbers(acceptance + "/" + name, "criterion"))
       {
         const MatrixCriterion one
-            = read_criterion(prm, name, fmt::format("criterion {}", i), labels);
+            = read_criterion(prm, name, fmt::format("criterion {}", i), members);
         for(const MatrixCriterion &before : criteria)
           if(before.case_name == name && bound_the_same(before.criterion, one.criterion))
             throw cases::InputError(fmt::format("{} sets the bound of '{}' a second time",

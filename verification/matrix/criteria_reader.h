@@ -18,6 +18,9 @@ namespace meltfront::verification
    *       end
    *     end
    *
+   * The name may be that of a family, `line-sink-lambda-*`: then the worst of the cases
+   * that the matrix has of it has to keep the bound.
+   *
    * What the blocks of the matrix do not run can never be judged, and is a mistake.
    *
    * @throws InputError, one sentence with file, line and key, for a case, a label or an n

@@ -48,7 +48,7 @@ namespace meltfront::verification
   /** A bound on what the matrix runs, beside those that its cases bring. */
   struct MatrixCriterion
   {
-    std::string case_name; ///< of a PlannedCase
+    std::string case_name; ///< of a PlannedCase, or a family of them (in_family())
     cases::Criterion criterion;
     std::string place; ///< `FILE:LINE: key 'criterion 1' in subsection '...'`
   };

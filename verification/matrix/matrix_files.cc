@@ -4,6 +4,7 @@
 #include <verification/judge/reference.h>
 #include <verification/matrix/matrix_files.h>
 #include <verification/record/json_values.h>
+#include <verification/record/label.h>
 #include <verification/record/provenance.h>
 
 #include <fmt/format.h>
@@ -37,6 +38,8 @@ namespace meltfront::verification
     void add_criterion(MatrixResult &result, const std::string &case_name,
                        const std::string &text)
     {
+      if(is_family(case_name))
+        result.family_criteria.push_back({case_name, cases::parse_criterion(text)});
       for(StoredCase &record : result.cases)
         if(record.name() == case_name)
           record.criteria.push_back(cases::parse_criterion(text));

@@ -6,6 +6,7 @@
 #include <verification/matrix/runner.h>
 #include <verification/record/hash.h>
 #include <verification/record/json_values.h>
+#include <verification/record/label.h>
 #include <verification/run/child_process.h>
 #include <verification/run/memory_limit.h>
 
@@ -254,12 +255,14 @@ namespace meltfront::verification
                         const std::map<std::string, cases::Case> &cases_by_name)
     {
       for(const MatrixCriterion &one : matrix.criteria)
-        for(const cases::Criterion &written : cases_by_name.at(one.case_name).criteria)
-          if(bound_the_same(one.criterion, written))
-            throw cases::InputError(fmt::format(
-                "{} sets a bound that the case sets itself, '{}'; it belongs to one of "
-                "them",
-                one.place, written.text));
+        for(const auto &[name, the_case] : cases_by_name)
+          if(in_family(one.case_name, name))
+            for(const cases::Criterion &written : the_case.criteria)
+              if(bound_the_same(one.criterion, written))
+                throw cases::InputError(fmt::format(
+                    "{} sets a bound that the case sets itself, '{}'; it belongs to one "
+                    "of them",
+                    one.place, written.text));
     }
   } // namespace
 

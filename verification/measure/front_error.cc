@@ -1,20 +1,49 @@
+#include <cases/exact/manufactured/manufactured_solution.h>
 #include <verification/measure/formulas/front_displacement.h>
 #include <verification/measure/formulas/run_statistics.h>
 #include <verification/measure/measure.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meltfront::verification
 {
   namespace
   {
+    /** Where a moment is to the known ones at which bodies merge or part. */
+    enum class MergeStage
+    {
+      before,
+      near, ///< within a twentieth of the front's period of one of them
+      after
+    };
+
+    MergeStage merge_stage(const cases::FrontFamily &family, const cases::Scene &scene,
+                           double time)
+    {
+      const double window = 0.05 * family.period();
+      MergeStage stage = MergeStage::before;
+      for(const double merge : family.merge_times(scene.start_time, scene.end_time))
+        if(std::abs(time - merge) < window)
+          return MergeStage::near;
+        else if(time > merge)
+          stage = MergeStage::after;
+      return stage;
+    }
+
     /** The front found less the exact one (m): by latent heat but where another reading
      * is named. Of an exact front that no one coordinate gives, its mean displacement and
-     * the volume that is in the wrong phase, over the front's area. */
+     * the volume that is in the wrong phase, over the front's area; where it is known
+     * when bodies merge or part, these near such a moment and after it by themselves. */
     class FrontError : public Measure
     {
     public:
-      using Measure::Measure;
+      explicit FrontError(const MeasuredRun &run)
+        : Measure(run)
+        , manufactured(
+              dynamic_cast<const cases::ManufacturedSolution *>(run.the_case.exact.get()))
+      {
+      }
 
       void observe(const Sighting &sighting) override
       {
@@ -49,6 +78,13 @@ namespace meltfront::verification
         all["front_max_ice_rms"] = max_ice.root_mean_square();
         all["front_heat_loss_rms"] = heat_loss.root_mean_square();
         all["front_mismatch_rms"] = mismatch.mean_over_time();
+        if(manufactured && manufactured->family().merges())
+        {
+          all["front_merge_rms"] = near_merge.front.root_mean_square();
+          all["front_merge_mismatch_rms"] = near_merge.mismatch.root_mean_square();
+          all["front_merged_rms"] = after_merge.front.root_mean_square();
+          all["front_merged_mismatch_rms"] = after_merge.mismatch.root_mean_square();
+        }
         if(run.the_case.measurement.front_floor > 0)
           all["front_floor"] = run.the_case.measurement.front_floor;
         if(!run.the_case.exact)
@@ -73,7 +109,24 @@ namespace meltfront::verification
           return;
         front.add(found.mean);
         mismatch.add(found.mismatch);
+        if(!manufactured || !manufactured->family().merges())
+          return;
+        const MergeStage stage
+            = merge_stage(manufactured->family(), run.scene, sighting.snapshot.time);
+        if(stage == MergeStage::before)
+          return;
+        Stage &of = stage == MergeStage::near ? near_merge : after_merge;
+        of.front.add(found.mean);
+        of.mismatch.add(found.mismatch);
       }
+
+      struct Stage
+      {
+        ErrorStatistics front, mismatch;
+      };
+
+      const cases::ManufacturedSolution *manufactured;
+      Stage near_merge, after_merge;
 
       ErrorStatistics mismatch, front, late_front, isotherm, max_ice, heat_loss;
     };
@@ -95,6 +148,12 @@ namespace meltfront::verification
          error_quantity("front_end_relative", "front, end", "relative", when_asked, 1),
          error_quantity("front_max", "front, maximum", "m", when_asked),
          error_quantity("front_mismatch_rms", "in the wrong phase, RMS", "m", when_asked),
+         error_quantity("front_merge_rms", "front near a merge, RMS", "m", when_asked),
+         error_quantity("front_merge_mismatch_rms",
+                        "in the wrong phase near a merge, RMS", "m", when_asked),
+         error_quantity("front_merged_rms", "front after a merge, RMS", "m", when_asked),
+         error_quantity("front_merged_mismatch_rms",
+                        "in the wrong phase after a merge, RMS", "m", when_asked),
          hidden_quantity("front_rms_relative"), hidden_quantity("front_end_position"),
          hidden_quantity("front_floor")},
         MeasuredScenes::with_heat,

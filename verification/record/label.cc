@@ -122,6 +122,25 @@ namespace meltfront::verification
                               });
   }
 
+  bool is_family(const std::string &name)
+  {
+    return name.find('*') != std::string::npos;
+  }
+
+  bool in_family(const std::string &family, const std::string &name)
+  {
+    const std::size_t star = family.find('*');
+    if(star == std::string::npos)
+      return family == name;
+    if(name.compare(0, star, family, 0, star) != 0)
+      return false;
+    const std::string rest = family.substr(star + 1);
+    for(std::size_t end = star; end <= name.size(); ++end)
+      if(in_family(rest, name.substr(end)))
+        return true;
+    return false;
+  }
+
   void check_label(const std::string &label, const MethodLookup &methods)
   {
     check_brackets(label);

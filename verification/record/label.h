@@ -35,6 +35,13 @@ namespace meltfront::verification
    * the same value, with any_value in the pattern, or with one of several, `a|b`. */
   bool label_matches(const std::string &pattern, const std::string &label);
 
+  /** Whether the name of a case stands for a family: it has a `*`. */
+  bool is_family(const std::string &name);
+
+  /** Whether a case belongs to a family, in whose name each `*` stands for any text,
+   * none too: `line-sink-lambda-*`. */
+  bool in_family(const std::string &family, const std::string &name);
+
   /**
    * Hold a label or a pattern that a user wrote against what there is.
    * @throws InputError for an unknown method, option or value, and brackets that do not

@@ -57,6 +57,28 @@ namespace meltfront::cases
     double rate;  ///< 1/(m s)
   };
 
+  /** A field at a place and a time. */
+  struct FieldDerivatives
+  {
+    double value = 0;
+    double rate = 0; ///< its derivative in time
+    std::array<double, 3> gradient{};
+    double laplacian = 0;
+  };
+
+  /**
+   * The curvature of the front, continued into the phases (1/m):
+   *
+   *   K = (|grad f|^2 lap f - grad f . H grad f)/(|grad f|^2 + kappa^2 f^2)^(3/2)
+   *
+   * and its change along grad f, both with their derivatives.
+   */
+  struct ContinuedCurvature
+  {
+    FieldDerivatives curvature; ///< K
+    FieldDerivatives slope;     ///< grad K . grad f
+  };
+
   /**
    * A moving front given as the zero of a smooth level set f(x, t), in metres: negative
    * in the solid, positive in the liquid. Where the gradient vanishes there is no front,
@@ -97,6 +119,11 @@ namespace meltfront::cases
 
     /** The front's curvature where it is the same everywhere: plane, disk, ball. */
     virtual std::optional<UniformCurvature> uniform_curvature(double time) const;
+
+    /** K is smooth where grad f and f do not vanish together: anywhere but where bodies
+     * merge or part. Where the curvature is uniform K is that everywhere. */
+    virtual ContinuedCurvature continued_curvature(const Position &position,
+                                                   double time) const = 0;
 
     /** Corners of the box that the family is meant for (m); zero beyond the dimension. */
     virtual std::pair<Position, Position> domain() const = 0;

@@ -67,15 +67,26 @@ namespace meltfront::cases::manufactured
     return a.c[0] < b;
   }
 
+  /** How many monomials of a number of variables have at most a degree. */
+  constexpr std::size_t count_monomials(int variables, int degree)
+  {
+    std::size_t count = 1;
+    for(int n = 1; n <= variables; ++n)
+      count = count * static_cast<std::size_t>(degree + n) / static_cast<std::size_t>(n);
+    return count;
+  }
+
   /**
-   * The monomials of a Jet: those of space up to degree 3 without time, up to degree 2
-   * times dt, and dt^2 alone, in this order. That is what a manufactured heat source
-   * needs of a level set; any product's terms outside come from factors outside or stay
-   * outside, so that the rest can be left away.
+   * The monomials of a Jet: those of space up to `space_degree` without time, up to
+   * `rate_degree` times dt, and dt^2 alone, in this order. With 3 and 2 that is what
+   * a manufactured heat source needs of a level set, with 5 and 3 what it needs where the
+   * front's curvature is in the temperature. Any product's terms outside come from
+   * factors outside or stay outside, so that the rest can be left away.
    */
-  template <int dim>
+  template <int dim, int space_degree = 3, int rate_degree = 2>
   struct Monomials
   {
+    static_assert(rate_degree < space_degree);
     struct Exponents
     {
       std::array<int, 3> space;
@@ -86,19 +97,27 @@ namespace meltfront::cases::manufactured
       std::size_t left, right, result;
     };
 
+    /** The highest degree, dt counted too. */
+    static constexpr int highest = space_degree;
+    /** Those of space that stand with dt^0, dt^1 and dt^2. */
+    static constexpr std::array<int, 3> highest_of{space_degree, rate_degree, 0};
+
     /** How many hold dt^0 and dt^1; then comes dt^2. */
-    static constexpr std::size_t timeless = dim == 2 ? 10 : 20;
-    static constexpr std::size_t linear = dim == 2 ? 6 : 10;
+    static constexpr std::size_t timeless = count_monomials(dim, space_degree);
+    static constexpr std::size_t linear = count_monomials(dim, rate_degree);
     static constexpr std::size_t count = timeless + linear + 1;
-    static constexpr std::size_t n_products = dim == 2 ? 68 : 143;
+    /** Pairs of monomials of which the product is one: those of space alone, as many as
+     * monomials of twice as many variables; with dt in either; with dt^2. */
+    static constexpr std::size_t n_products = count_monomials(2 * dim, space_degree)
+                                              + 2 * count_monomials(2 * dim, rate_degree)
+                                              + 3;
 
     static constexpr std::array<Exponents, count> list()
     {
       std::array<Exponents, count> all{};
       std::size_t n = 0;
-      const std::array<int, 3> highest{3, 2, 0};
       for(int time = 0; time < 3; ++time)
-        for(int degree = 0; degree <= highest[time]; ++degree)
+        for(int degree = 0; degree <= highest_of[time]; ++degree)
           for(int i = degree; i >= 0; --i)
             for(int j = degree - i; j >= (dim == 2 ? degree - i : 0); --j)
               all[n++] = {{i, j, degree - i - j}, time};
@@ -108,6 +127,9 @@ namespace meltfront::cases::manufactured
     /** Place in the list; `count` where it is not there. */
     static constexpr std::size_t index(const Exponents &wanted)
     {
+      const int degree = wanted.space[0] + wanted.space[1] + wanted.space[2];
+      if(wanted.time > 2 || degree > highest_of[wanted.time])
+        return count;
       constexpr auto all = list();
       std::size_t n = 0;
       for(; n < count; ++n)
@@ -115,6 +137,19 @@ namespace meltfront::cases::manufactured
            && all[n].space[1] == wanted.space[1] && all[n].space[2] == wanted.space[2])
           break;
       return n;
+    }
+
+    /** For each of them the place of its product with a coordinate. */
+    static constexpr std::array<std::size_t, count> raised(int direction)
+    {
+      auto all = list();
+      std::array<std::size_t, count> places{};
+      for(std::size_t i = 0; i < count; ++i)
+      {
+        ++all[i].space[direction];
+        places[i] = index(all[i]);
+      }
+      return places;
     }
 
     static constexpr std::array<Product, n_products> products()
@@ -137,11 +172,10 @@ namespace meltfront::cases::manufactured
     }
   };
 
-  /** A function of place and time as its Taylor polynomial with the above Monomials. */
-  template <int dim>
+  /** A function of place and time as its Taylor polynomial with Monomials. */
+  template <typename Terms>
   struct Jet
   {
-    using Terms = Monomials<dim>;
     std::array<double, Terms::count> c{};
 
     /** A coordinate: value + slope dx. */
@@ -154,12 +188,11 @@ namespace meltfront::cases::manufactured
     }
   };
 
-  template <int dim>
-  Jet<dim> operator*(const Jet<dim> &a, const Jet<dim> &b)
+  template <typename Terms>
+  Jet<Terms> operator*(const Jet<Terms> &a, const Jet<Terms> &b)
   {
-    using Terms = Monomials<dim>;
     static constexpr auto pairs = Terms::products();
-    Jet<dim> result;
+    Jet<Terms> result;
     // Written out by the compiler: a loop over the table would be several times slower.
     [&]<std::size_t... n>(std::index_sequence<n...>)
     {
@@ -169,11 +202,10 @@ namespace meltfront::cases::manufactured
     return result;
   }
 
-  template <int dim>
-  Jet<dim> operator*(const Jet<dim> &a, const TimeJet &b)
+  template <typename Terms>
+  Jet<Terms> operator*(const Jet<Terms> &a, const TimeJet &b)
   {
-    using Terms = Monomials<dim>;
-    Jet<dim> result;
+    Jet<Terms> result;
     for(std::size_t i = 0; i < Terms::timeless; ++i)
       result.c[i] = a.c[i] * b.c[0];
     for(std::size_t i = 0; i < Terms::linear; ++i)
@@ -183,59 +215,91 @@ namespace meltfront::cases::manufactured
     return result;
   }
 
-  template <int dim>
-  Jet<dim> operator/(const Jet<dim> &a, const TimeJet &b)
+  template <typename Terms>
+  Jet<Terms> operator/(const Jet<Terms> &a, const TimeJet &b)
   {
     return a * (TimeJet(1) / b);
   }
 
-  template <int dim>
-  Jet<dim> operator*(double factor, Jet<dim> a)
+  template <typename Terms>
+  Jet<Terms> operator*(double factor, Jet<Terms> a)
   {
     for(double &coefficient : a.c)
       coefficient *= factor;
     return a;
   }
 
-  template <int dim>
-  Jet<dim> operator+(Jet<dim> a, const Jet<dim> &b)
+  template <typename Terms>
+  Jet<Terms> operator+(Jet<Terms> a, const Jet<Terms> &b)
   {
     for(std::size_t i = 0; i < a.c.size(); ++i)
       a.c[i] += b.c[i];
     return a;
   }
 
-  template <int dim>
-  Jet<dim> operator-(Jet<dim> a, const Jet<dim> &b)
+  template <typename Terms>
+  Jet<Terms> operator-(Jet<Terms> a, const Jet<Terms> &b)
   {
     for(std::size_t i = 0; i < a.c.size(); ++i)
       a.c[i] -= b.c[i];
     return a;
   }
 
-  template <int dim>
-  Jet<dim> operator+(Jet<dim> a, const TimeJet &b)
+  template <typename Terms>
+  Jet<Terms> operator+(Jet<Terms> a, const TimeJet &b)
   {
     a.c[0] += b.c[0];
-    a.c[Monomials<dim>::timeless] += b.c[1];
+    a.c[Terms::timeless] += b.c[1];
     a.c.back() += b.c[2];
     return a;
   }
 
-  template <int dim>
-  Jet<dim> operator-(Jet<dim> a, const TimeJet &b)
+  template <typename Terms>
+  Jet<Terms> operator-(Jet<Terms> a, const TimeJet &b)
   {
     return a + TimeJet(-b.c[0], -b.c[1], -b.c[2]);
   }
 
-  /** By the geometric series of 1/(1 + e), which ends as the fourth power of e is beyond
-   * all Monomials. */
-  template <int dim>
-  Jet<dim> operator/(const Jet<dim> &a, const Jet<dim> &b)
+  /** By the geometric series of 1/(1 + e), which ends as a power of e above the highest
+   * degree is beyond all Monomials. */
+  template <typename Terms>
+  Jet<Terms> operator/(const Jet<Terms> &a, const Jet<Terms> &b)
   {
-    Jet<dim> e = (1 / b.c[0]) * b;
+    static_assert(Terms::highest <= 5);
+    Jet<Terms> e = (1 / b.c[0]) * b;
     e.c[0] = 0;
-    return (1 / b.c[0]) * ((a - a * e) * (e * e + TimeJet(1)));
+    const auto square = e * e;
+    auto even = square + TimeJet(1);
+    if constexpr(Terms::highest > 3)
+      even = square * even + TimeJet(1);
+    return (1 / b.c[0]) * ((a - a * e) * even);
+  }
+
+  /** a^exponent for a positive a, by the binomial series about its value. */
+  template <typename Terms>
+  Jet<Terms> power(const Jet<Terms> &a, double exponent)
+  {
+    Jet<Terms> e = (1 / a.c[0]) * a, sum;
+    e.c[0] = 0;
+    sum.c[0] = 1;
+    for(int n = Terms::highest; n > 0; --n)
+      sum = ((exponent - n + 1) / n) * (e * sum) + TimeJet(1);
+    return std::pow(a.c[0], exponent) * sum;
+  }
+
+  /** Along a coordinate; its coefficients of the highest degrees, which need higher ones
+   * of a, are left zero. */
+  template <typename Terms>
+  Jet<Terms> derivative(const Jet<Terms> &a, int direction)
+  {
+    static constexpr auto all = Terms::list();
+    static constexpr std::array raised{Terms::raised(0), Terms::raised(1),
+                                       Terms::raised(2)};
+    Jet<Terms> result;
+    for(std::size_t i = 0; i < Terms::count; ++i)
+      if(const std::size_t higher = raised[direction][i]; higher < Terms::count)
+        result.c[i] = all[higher].space[direction] * a.c[higher];
+    return result;
   }
 } // namespace meltfront::cases::manufactured
 

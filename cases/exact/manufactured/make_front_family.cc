@@ -15,7 +15,14 @@ namespace meltfront::cases
   namespace
   {
     using manufactured::Jet;
+    using manufactured::Monomials;
     using manufactured::TimeJet;
+
+    /** Jets of level sets, and those from which the curvature's derivatives follow. */
+    template <int dim>
+    using FrontJet = Jet<Monomials<dim>>;
+    template <int dim>
+    using CurvatureJet = Jet<Monomials<dim, 5, 3>>;
 
     /** Where the coefficients stand of x_i x_j^n dt^time. */
     template <int dim>
@@ -28,15 +35,15 @@ namespace meltfront::cases
           std::array<int, 3> exponents{};
           exponents[i] = 1;
           exponents[j] += n;
-          table[i][j] = manufactured::Monomials<dim>::index({exponents, time});
+          table[i][j] = Monomials<dim>::index({exponents, time});
         }
       return table;
     }
 
     template <int dim>
-    FrontDerivatives derivatives_of(const Jet<dim> &f)
+    FrontDerivatives derivatives_of(const FrontJet<dim> &f)
     {
-      using Terms = manufactured::Monomials<dim>;
+      using Terms = Monomials<dim>;
       static constexpr auto second = places<dim>(1, 0), second_rate = places<dim>(1, 1),
                             third = places<dim>(2, 0);
       FrontDerivatives result;
@@ -56,6 +63,43 @@ namespace meltfront::cases
         }
       }
       return result;
+    }
+
+    template <int dim>
+    FieldDerivatives field_of(const CurvatureJet<dim> &a)
+    {
+      using Terms = Monomials<dim, 5, 3>;
+      FieldDerivatives field;
+      field.value = a.c[0];
+      field.rate = a.c[Terms::timeless];
+      for(int i = 0; i < dim; ++i)
+      {
+        field.gradient[i] = a.c[1 + i];
+        field.laplacian += derivative(derivative(a, i), i).c[0];
+      }
+      return field;
+    }
+
+    template <int dim>
+    ContinuedCurvature curvature_of(const CurvatureJet<dim> &f, double kappa)
+    {
+      std::array<CurvatureJet<dim>, dim> gradient;
+      CurvatureJet<dim> square, laplacian, along, slope;
+      for(int i = 0; i < dim; ++i)
+      {
+        gradient[i] = derivative(f, i);
+        square = square + gradient[i] * gradient[i];
+      }
+      for(int i = 0; i < dim; ++i)
+      {
+        laplacian = laplacian + derivative(gradient[i], i);
+        along = along + 0.5 * (gradient[i] * derivative(square, i));
+      }
+      const CurvatureJet<dim> curvature
+          = (square * laplacian - along) * power(square + kappa * kappa * (f * f), -1.5);
+      for(int i = 0; i < dim; ++i)
+        slope = slope + derivative(curvature, i) * gradient[i];
+      return {field_of<dim>(curvature), field_of<dim>(slope)};
     }
 
     /** A formula in its lengths and times, seen in metres and seconds; dim is that of the
@@ -86,10 +130,7 @@ namespace meltfront::cases
 
       FrontDerivatives derivatives(const Position &position, double time) const override
       {
-        std::array<Jet<dim>, dim> x;
-        for(int d = 0; d < dim; ++d)
-          x[d] = Jet<dim>::variable(d, position[d] / scale, 1 / scale);
-        return derivatives_of(scale * formula(x, tau(time)));
+        return derivatives_of<dim>(expansion<FrontJet<dim>>(position, time));
       }
 
       double signed_distance(const Position &position, double time) const override
@@ -122,6 +163,14 @@ namespace meltfront::cases
         }
         else
           return FrontFamily::uniform_curvature(time);
+      }
+
+      ContinuedCurvature continued_curvature(const Position &position,
+                                             double time) const override
+      {
+        if(const auto uniform = uniform_curvature(time))
+          return {{uniform->value, uniform->rate, {}, 0}, {}};
+        return curvature_of<dim>(expansion<CurvatureJet<dim>>(position, time), kappa());
       }
 
       std::pair<Position, Position> domain() const override
@@ -157,6 +206,15 @@ namespace meltfront::cases
 
       Formula formula;
       double scale;
+
+      template <typename Number>
+      Number expansion(const Position &position, double time) const
+      {
+        std::array<Number, dim> x;
+        for(int d = 0; d < dim; ++d)
+          x[d] = Number::variable(d, position[d] / scale, 1 / scale);
+        return scale * formula(x, tau(time));
+      }
 
       TimeJet tau(double time) const
       {

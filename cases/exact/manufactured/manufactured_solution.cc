@@ -62,10 +62,10 @@ namespace meltfront::cases
       };
       require_positive(base_flux, "base flux");
       require_positive(rounding, "rounding of the flux");
-      if(material.gibbs_thomson_coefficient != 0 && !family.uniform_curvature(0))
+      if(material.gibbs_thomson_coefficient != 0 && family.merges())
         throw InputError(
-            fmt::format("{}: the Gibbs-Thomson effect is known only for fronts "
-                        "of uniform curvature, not for '{}'",
+            fmt::format("{}: cannot have the Gibbs-Thomson effect with '{}', whose "
+                        "curvature is unbounded where bodies merge or part",
                         solution_name, family.name()));
       return material;
     }
@@ -75,8 +75,8 @@ namespace meltfront::cases
   struct ManufacturedSolution::Profile
   {
     double side;        ///< of f: -1 in the solid, 1 in the liquid
-    double square;      ///< |grad f|^2
     double denominator; ///< D
+    double capillary;   ///< of grad K . grad f in D J: Gamma (k_s - k_l)
     double latent_flux; ///< J
     double flux;        ///< b
     double slope;       ///< db/dJ
@@ -129,16 +129,29 @@ namespace meltfront::cases
     return f.value < 0 ? material.solid : material.liquid;
   }
 
+  ContinuedCurvature ManufacturedSolution::curvature_field(const Position &position,
+                                                           double time) const
+  {
+    return material.gibbs_thomson_coefficient == 0
+               ? ContinuedCurvature()
+               : the_family->continued_curvature(position, time);
+  }
+
   ManufacturedSolution::Profile
-  ManufacturedSolution::profile(const FrontDerivatives &f) const
+  ManufacturedSolution::profile(const FrontDerivatives &f,
+                                const ContinuedCurvature &k) const
   {
     Profile p;
     p.side = f.value < 0 ? -1 : 1;
     const double kappa = p.side * the_family->kappa();
     const double latent_heat = material.solid.density * material.latent_heat;
-    p.square = f.square_of_gradient();
-    p.denominator = p.square + kappa * f.value;
-    p.latent_flux = p.denominator > vanishing ? -latent_heat * f.rate / p.denominator : 0;
+    p.denominator = f.square_of_gradient() + kappa * f.value;
+    p.capillary = material.gibbs_thomson_coefficient
+                  * (material.solid.conductivity - material.liquid.conductivity);
+    p.latent_flux
+        = p.denominator > vanishing
+              ? (p.capillary * k.slope.value - latent_heat * f.rate) / p.denominator
+              : 0;
     const double root = std::hypot(p.latent_flux, rounding);
     p.flux = base_flux + (root - p.side * p.latent_flux) / 2;
     p.slope = (p.latent_flux / root - p.side) / 2;
@@ -149,7 +162,8 @@ namespace meltfront::cases
       p.D_gradient[d] = 2 * turning[d] + kappa * f.gradient[d];
       p.J_gradient[d]
           = p.denominator > vanishing
-                ? -(latent_heat * f.gradient_rate[d] + p.latent_flux * p.D_gradient[d])
+                ? (p.capillary * k.slope.gradient[d]
+                   - (latent_heat * f.gradient_rate[d] + p.latent_flux * p.D_gradient[d]))
                       / p.denominator
                 : 0;
     }
@@ -159,18 +173,18 @@ namespace meltfront::cases
   double ManufacturedSolution::temperature(const Position &position, double time) const
   {
     const FrontDerivatives f = the_family->derivatives(position, time);
-    const auto curvature = the_family->uniform_curvature(time);
-    const double theta
-        = curvature ? -material.gibbs_thomson_coefficient * curvature->value : 0;
+    const ContinuedCurvature k = curvature_field(position, time);
+    const double theta = -material.gibbs_thomson_coefficient * k.curvature.value;
     return material.melting_temperature + theta
-           + profile(f).flux * f.value / phase(f).conductivity;
+           + profile(f, k).flux * f.value / phase(f).conductivity;
   }
 
   double ManufacturedSolution::volumetric_source(const Position &position,
                                                  double time) const
   {
     const FrontDerivatives f = the_family->derivatives(position, time);
-    const Profile p = profile(f);
+    const ContinuedCurvature k = curvature_field(position, time);
+    const Profile p = profile(f, k);
     if(p.denominator <= vanishing)
       return 0;
     const double kappa = p.side * the_family->kappa();
@@ -180,33 +194,39 @@ namespace meltfront::cases
           + kappa * f.laplacian;
     const double D_rate = 2 * product(f.gradient, f.gradient_rate) + kappa * f.rate;
     const double J_laplacian
-        = -(latent_heat * f.laplacian_rate + 2 * product(p.J_gradient, p.D_gradient)
-            + p.latent_flux * D_laplacian)
+        = (p.capillary * k.slope.laplacian
+           - (latent_heat * f.laplacian_rate + 2 * product(p.J_gradient, p.D_gradient)
+              + p.latent_flux * D_laplacian))
           / p.denominator;
-    const double J_rate
-        = -(latent_heat * f.acceleration + p.latent_flux * D_rate) / p.denominator;
+    const double J_rate = (p.capillary * k.slope.rate
+                           - (latent_heat * f.acceleration + p.latent_flux * D_rate))
+                          / p.denominator;
 
     const double heating = p.slope * J_rate * f.value + p.flux * f.rate;
     const double conduction
         = p.flux * f.laplacian + 2 * p.slope * product(p.J_gradient, f.gradient)
           + f.value
                 * (p.slope * J_laplacian + p.bend * product(p.J_gradient, p.J_gradient));
-    const auto curvature = the_family->uniform_curvature(time);
-    const double theta_rate
-        = curvature ? -material.gibbs_thomson_coefficient * curvature->rate : 0;
+    const double theta_rate = -material.gibbs_thomson_coefficient * k.curvature.rate,
+                 theta_laplacian
+                 = -material.gibbs_thomson_coefficient * k.curvature.laplacian;
     return phase(f).volumetric_heat_capacity()
                * (theta_rate + heating / phase(f).conductivity)
-           - conduction;
+           - (conduction + phase(f).conductivity * theta_laplacian);
   }
 
   ManufacturedSolution::Vector ManufacturedSolution::heat_flux(const Position &position,
                                                                double time) const
   {
     const FrontDerivatives f = the_family->derivatives(position, time);
-    const Profile p = profile(f);
+    const ContinuedCurvature k = curvature_field(position, time);
+    const Profile p = profile(f, k);
+    const double along_curvature
+        = -phase(f).conductivity * material.gibbs_thomson_coefficient;
     Vector flux;
     for(int d = 0; d < 3; ++d)
-      flux[d] = p.flux * f.gradient[d] + f.value * p.slope * p.J_gradient[d];
+      flux[d] = p.flux * f.gradient[d] + f.value * p.slope * p.J_gradient[d]
+                + along_curvature * k.curvature.gradient[d];
     return flux;
   }
 

@@ -25,8 +25,10 @@ namespace meltfront::cases
    *
    * so that b_s - b_l = J and the front condition k_s dT_s/dn - k_l dT_l/dn = rho_s L V
    * holds identically, with both b > g whatever the speed and the properties. theta is
-   * the front's temperature by Gibbs and Thomson, -Gamma times the curvature, and zero
-   * without it. The source q = rho_j c_j T_t - div(k_j grad T) is in closed form.
+   * the front's temperature by Gibbs and Thomson, -Gamma times the continued curvature,
+   * and zero without it; J gains -(k_s - k_l) grad theta . grad f/D, and T may be on
+   * either side of T_m in both phases. The source q = rho_j c_j T_t - div(k_j grad T) is
+   * in closed form.
    *
    * The latent heat per volume is rho_s L everywhere (nothing flows); each phase has its
    * own rho_j c_j. The source jumps at the front and is taken by the sign of f.
@@ -46,7 +48,7 @@ namespace meltfront::cases
      * melting takes its latent heat from, W/m^2; negative slopes are impossible for
      * every d, but small ones make the source vary within short times
      * @throws InputError where g, d or a property is not positive, or the material has a
-     * Gibbs-Thomson coefficient and the family's curvature is not uniform on its front
+     * Gibbs-Thomson coefficient and the family's bodies merge or part
      */
     ManufacturedSolution(const Material &material,
                          std::shared_ptr<const FrontFamily> family, double base_flux,
@@ -110,7 +112,9 @@ namespace meltfront::cases
     double rounding;
     Symmetry the_symmetry;
 
-    Profile profile(const FrontDerivatives &f) const;
+    /** Of the front; zero, and not asked for, without the Gibbs-Thomson effect. */
+    ContinuedCurvature curvature_field(const Position &position, double time) const;
+    Profile profile(const FrontDerivatives &f, const ContinuedCurvature &k) const;
     const PhaseProperties &phase(const FrontDerivatives &f) const;
   };
 } // namespace meltfront::cases

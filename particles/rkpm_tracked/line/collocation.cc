@@ -202,7 +202,10 @@ namespace meltfront::particles::rkpm_tracked
       {
         coefficients[p].assign(row.size(), 0.);
         coefficients[p][p - row.first] = 1;
-        right_side[p] = problem.material.melting_temperature;
+        const UnseenRelease &beside = unseen[lower_end ? 0 : 1];
+        right_side[p] = problem.material.melting_temperature
+                        + beside.density * beside.reach * beside.reach
+                              / (2 * problem.phase(interval.solid).conductivity);
       }
       else if(lower_end || upper_end)
       {
@@ -267,6 +270,15 @@ namespace meltfront::particles::rkpm_tracked
     gather(interval);
     if(cloud.size() < 2)
       throw cases::InputError("rkpm-tracked: a phase needs two points at least");
+    unseen = {};
+    if(problem.volumetric_source)
+      release.measure(
+          [&]
+          {
+            for(const std::size_t side : {0, 1})
+              if(side == 0 ? interval.lower_front : interval.upper_front)
+                unseen[side] = unseen_release(side, terms.time);
+          });
     wall_guess = {temperature.front(), temperature.back()};
     for(int pass = 0; pass < most_passes; ++pass)
     {
@@ -284,6 +296,9 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t side = 0; side < 2; ++side)
       if(terms.approach[side] > 0)
         slopes[side] *= slope_over_resolved(interval, side, terms.approach[side]);
+    for(std::size_t side = 0; side < 2; ++side)
+      slopes[side] += (side == 0 ? 1 : -1) * unseen[side].density * unseen[side].reach
+                      / problem.phase(interval.solid).conductivity;
     return slopes;
   }
 
@@ -304,6 +319,34 @@ namespace meltfront::particles::rkpm_tracked
         wall_guess[side] = found;
       }
     return settled;
+  }
+
+  /** By bisection, from what the two nodes nearest to the front continue to it. */
+  LineCollocation::UnseenRelease LineCollocation::unseen_release(std::size_t side,
+                                                                 double time) const
+  {
+    constexpr std::size_t fewest_points = 4;
+    constexpr double beside = 1e-9;
+    constexpr int bisections = 30;
+    const std::vector<double> &x = cloud.position[0];
+    if(x.size() < fewest_points)
+      return {};
+    const auto point = [&](std::size_t from_front)
+    { return side == 0 ? x[from_front] : x[x.size() - 1 - from_front]; };
+    const auto density
+        = [&](double place) { return problem.volumetric_source(place, time); };
+    const double front = point(0), way = point(1) - front, at_node = density(point(1));
+    const double rise = (density(point(2)) - at_node) / (point(2) - point(1)) * way;
+    const auto excess = [&](double share)
+    { return density(front + share * way) - at_node - rise * (share - 1); };
+    const double jump = excess(beside);
+    double within = beside, beyond = 1;
+    for(int i = 0; i < bisections; ++i)
+    {
+      const double middle = (within + beyond) / 2;
+      (std::abs(excess(middle)) > std::abs(jump) / 2 ? within : beyond) = middle;
+    }
+    return {jump, within * std::abs(way)};
   }
 
   /**

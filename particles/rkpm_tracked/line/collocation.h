@@ -82,6 +82,22 @@ namespace meltfront::particles::rkpm_tracked
     const cases::EffectMeter *meter(cases::Effect effect) const;
 
   private:
+    /**
+     * Heat released beside a front that no node sees: where what is released jumps
+     * between the front and the first node, its excess there over what the nodes beyond
+     * continue to the front. Nodes then hold T + D (X + s - x)^2/(2 k), smooth up to the
+     * front, and the slope at the front is D s/k beside theirs. Without it the heat would
+     * change its density where the front is found to be and not where it is said to, and
+     * errors of the front would grow by exp(int D/(rho L) dt). Where the density is
+     * smooth, D is of second order.
+     */
+    struct UnseenRelease
+    {
+      double density = 0; ///< D, W/m^3
+      double reach = 0;   ///< s from the front on, m
+    };
+
+    UnseenRelease unseen_release(std::size_t side, double time) const;
     void gather(const LineInterval &interval);
     const LineStencil &stencil(std::size_t point);
     void add_row(std::size_t point, const LineInterval &interval, const StepTerms &terms);
@@ -112,6 +128,7 @@ namespace meltfront::particles::rkpm_tracked
     BandMatrix matrix;
     std::array<double, 2> wall_guess{}; ///< about which radiation is linearised (K)
     long entries = 0;
+    std::array<UnseenRelease, 2> unseen{}; ///< at the lower and the upper front
     cases::EffectMeter release;
     std::array<cases::EffectMeter, cases::n_boundary_kinds> walls;
   };

@@ -1,6 +1,7 @@
 #include <verification/judge/criteria.h>
 #include <verification/matrix/matrix_files.h>
 #include <verification/record/json_values.h>
+#include <verification/record/label.h>
 #include <verification/run/tests/fakes.h>
 
 #include <gtest/gtest.h>
@@ -249,6 +250,58 @@ namespace meltfront::verification
       EXPECT_EQ(evaluated(runs, {middle}).criteria.at(0).value, 4);
       runs.push_back(ended(20, RunStatus::failed, "broke"));
       EXPECT_TRUE(std::isnan(evaluated(runs, {middle}).criteria.at(0).value));
+    }
+
+    TEST(FamilyCriteria, AreOnTheWorstMemberThatWasRun)
+    {
+      using enum cases::Statistic;
+      MatrixResult result;
+      const double slopes[] = {2, 0.5, 1, 3};
+      const char *names[] = {"sink-1", "sink-2", "sink-3", "slab"};
+      for(int i = 0; i < 4; ++i)
+      {
+        result.cases.push_back(stored_case(tests::slab_case(names[i]), "", {}));
+        for(const int n : {20, 40, 80, 160})
+        {
+          result.runs.push_back(run_at(n, std::pow(n, -slopes[i])));
+          result.runs.back().case_name = names[i];
+        }
+      }
+      result.cases.push_back(stored_case(tests::slab_case("sink-not-run"), "", {}));
+      result.family_criteria = {{"sink-*", criterion(order, 0.9, infinity)},
+                                {"sink-*", criterion(order, -infinity, 2.5)},
+                                {"s*", criterion(order, -infinity, 2.5)},
+                                {"sunk-*", criterion(order, 0.9, infinity)}};
+      evaluate(result);
+      ASSERT_EQ(result.criteria.size(), 3u);
+      EXPECT_EQ(result.criteria[0].case_name, "sink-2");
+      EXPECT_EQ(result.criteria[0].quantity, "order of front_rms, worst of sink-*");
+      EXPECT_NEAR(result.criteria[0].value, 0.5, 1e-12);
+      EXPECT_FALSE(result.criteria[0].passed);
+      EXPECT_EQ(result.criteria[1].case_name, "sink-1");
+      EXPECT_TRUE(result.criteria[1].passed);
+      EXPECT_EQ(result.criteria[2].case_name, "slab");
+      EXPECT_FALSE(result.criteria[2].passed);
+      ASSERT_EQ(result.omissions.size(), 1u);
+      EXPECT_NE(result.omissions[0].find("sunk-*"), std::string::npos);
+
+      result.runs[2].quantities["front_rms"] = std::numeric_limits<double>::quiet_NaN();
+      evaluate(result);
+      EXPECT_EQ(result.criteria[0].case_name, "sink-1");
+      EXPECT_FALSE(result.criteria[0].passed);
+      EXPECT_FALSE(result.passed);
+    }
+
+    TEST(FamilyCriteria, FamiliesAreNamesWithStars)
+    {
+      EXPECT_TRUE(in_family("sink-*", "sink-"));
+      EXPECT_TRUE(in_family("*-0.1*0", "sink-0.10"));
+      EXPECT_TRUE(in_family("star[k=*,l=*]", "star[k=1,l=10]"));
+      EXPECT_FALSE(in_family("sink-*", "sin"));
+      EXPECT_FALSE(in_family("sink-*x", "sink-0.10"));
+      EXPECT_FALSE(in_family("sink", "sink-0.10"));
+      EXPECT_TRUE(is_family("sink-*"));
+      EXPECT_FALSE(is_family("sink-0.10"));
     }
 
     TEST(Summary, HoldsVerdictBoundsAndOmissions)

@@ -69,6 +69,23 @@ end
                 "slab[latent_heat=70]");
     }
 
+    TEST(MatrixCriteria, NameAFamily)
+    {
+      const std::string text
+          = "set title = T\nsubsection Block 1\n  set cases = slab, slab-2\n"
+            "  set methods = good\n  set resolutions = 20\nend\n"
+            "subsection Block 2\n  set cases = slab-2\n"
+            "  set methods = other\n  set resolutions = 20\nend\n"
+            "subsection Acceptance\n  subsection slab*\n    set criterion 1 = ";
+      const auto of = [&](const std::string &criterion)
+      { return complaint(text + criterion + "\n  end\nend\n"); };
+      EXPECT_EQ(of("good: front_rms at n=20 <= 1"), "accepted");
+      EXPECT_EQ(of("other: front_rms at n=20 <= 1"), "accepted");
+      EXPECT_NE(of("other: front_rms at n=30 <= 1").find("n = 30"), std::string::npos);
+      EXPECT_NE(of("any method: front_rms at n=20 <= 1").find("of a family, name one"),
+                std::string::npos);
+    }
+
     TEST(MatrixCriteria, SayWhereAMistakeStands)
     {
       const std::string here
@@ -119,13 +136,13 @@ end
         matrix.blocks = {{{"slab"}, {"good"}, {20, 40, 80, 160}, {}, {1}, {1}}};
       }
 
-      void bound(const std::string &criterion)
+      void bound(const std::string &criterion, const std::string &cases = "slab")
       {
         Matrix read = read_matrix_text(
             "set title = T\nsubsection Block 1\n  set cases = slab\n"
             "  set methods = good\n  set resolutions = 20, 40, 80, 160\nend\n"
-            "subsection Acceptance\n  subsection slab\n    set criterion 1 = "
-                + criterion + "\n  end\nend\n",
+            "subsection Acceptance\n  subsection "
+                + cases + "\n    set criterion 1 = " + criterion + "\n  end\nend\n",
             "m.prm");
         matrix.criteria = read.criteria;
       }
@@ -170,6 +187,19 @@ end
         EXPECT_TRUE(result.criteria[0].passed);
         EXPECT_TRUE(result.passed);
         EXPECT_TRUE(result.omissions.empty());
+      }
+    }
+
+    TEST_F(MatrixCriteriaRun, OfAFamilyAreStoredToo)
+    {
+      bound("good: front_rms at n=40 <= 0.002", "sl*");
+      for(const MatrixResult &result : {run(), load_matrix_result(options.directory)})
+      {
+        ASSERT_EQ(result.criteria.size(), 1u);
+        EXPECT_EQ(result.criteria[0].case_name, "slab");
+        EXPECT_EQ(result.criteria[0].quantity, "front_rms at n=40, worst of sl*");
+        EXPECT_FALSE(result.criteria[0].passed);
+        EXPECT_FALSE(result.passed);
       }
     }
 

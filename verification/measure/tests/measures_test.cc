@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/exact/manufactured/manufactured_solution.h>
 #include <verification/measure/measure.h>
 #include <verification/measure/tests/fixtures.h>
 
@@ -157,4 +158,36 @@ TEST(Measures, OfEntropySeeAFallRelativeToItsGain)
   add(10, 30); // all that was gained is lost again
   EXPECT_NEAR(measured.results().at("entropy_fall"), 1, 1e-9);
   EXPECT_TRUE(std::isnan(measured.results().at("mixing_entropy_fall")));
+}
+
+/** All liquid, a front is off by the solid's volume over its area. */
+TEST(FrontError, IsToldApartNearAMergeAndAfterIt)
+{
+  cases::Case c;
+  c.scene = tests::scene_of(cases::DomainShape::box, 2, cases::Symmetry::none);
+  c.scene.end_time = 0.6;
+  const auto exact = std::make_shared<cases::ManufacturedSolution>(
+      cases::Material{}, cases::make_front_family({.name = "two-disks", .dimension = 2}),
+      1);
+  c.exact = exact;
+  tests::State liquid;
+  liquid.positions = {{{0.1}, {0.2}, {0}}};
+  liquid.weights = {1};
+  liquid.temperature = {1};
+  liquid.solid_fraction = {0};
+  const auto measures = measures_for(MeasuredScenes::with_heat, {c, c.scene, 0.1});
+  for(const double time : {0.1, 0.22, 0.4})
+    for(const auto &measure : measures)
+      measure->observe({.snapshot = liquid.view(2, time),
+                        .front_counts = true,
+                        .coordinates = &liquid.positions[0]});
+  Results values;
+  for(const auto &measure : measures)
+    values.merge(measure->results());
+  const auto off
+      = [&](double time) { return exact->solid_volume(time) / exact->front_area(time); };
+  EXPECT_DOUBLE_EQ(values.at("front_merge_rms"), off(0.22));
+  EXPECT_DOUBLE_EQ(values.at("front_merged_rms"), off(0.4));
+  EXPECT_TRUE(values.contains("front_merge_mismatch_rms"));
+  EXPECT_TRUE(values.contains("front_merged_mismatch_rms"));
 }

@@ -81,6 +81,119 @@ namespace meltfront::cases::manufactured
       return {time_derivative(content, time, 0.005), supply};
     }
 
+    /** Over the disk of radius one, by rays from a place inside a front that each of them
+     * crosses once. */
+    class Rays
+    {
+    public:
+      Rays(const ManufacturedSolution &solution, const Position &centre, double time)
+        : centre(centre)
+      {
+        for(int n = 0; n < count; ++n)
+        {
+          const double angle = 2 * std::numbers::pi * n / count;
+          Ray ray{std::cos(angle), std::sin(angle), 0, 0};
+          const double across = centre[0] * ray.y - centre[1] * ray.x;
+          ray.rim
+              = std::sqrt(1 - across * across) - centre[0] * ray.x - centre[1] * ray.y;
+          double solid = 0, liquid = ray.rim;
+          for(int halving = 0; halving < 55; ++halving)
+          {
+            ray.front = (solid + liquid) / 2;
+            (solution.level_set(at(ray, ray.front), time) < 0 ? solid : liquid)
+                = ray.front;
+          }
+          rays.push_back(ray);
+        }
+      }
+
+      double over_disk(const Integrand &f) const
+      {
+        return sum(
+            [&](const Ray &ray)
+            {
+              const auto along = [&](double r) { return r * f(at(ray, r)); };
+              return gauss(along, 0, ray.front) + gauss(along, ray.front, ray.rim);
+            });
+      }
+
+      /** f is given per area of front times |grad f|, whose gradient is the second. */
+      double over_front(
+          const Integrand &f,
+          const std::function<std::array<double, 3>(const Position &)> &gradient) const
+      {
+        return sum(
+            [&](const Ray &ray)
+            {
+              const Position p = at(ray, ray.front);
+              const auto slope = gradient(p);
+              return ray.front * f(p) / (slope[0] * ray.x + slope[1] * ray.y);
+            });
+      }
+
+    private:
+      struct Ray
+      {
+        double x, y, rim, front;
+      };
+
+      static constexpr int count = 400;
+      Position centre;
+      std::vector<Ray> rays;
+
+      Position at(const Ray &ray, double r) const
+      {
+        return {centre[0] + r * ray.x, centre[1] + r * ray.y, 0};
+      }
+
+      double sum(const std::function<double(const Ray &)> &f) const
+      {
+        double total = 0;
+        for(const Ray &ray : rays)
+          total += f(ray);
+        return total * 2 * std::numbers::pi / count;
+      }
+    };
+
+    /** Change and supply, and what the front's temperature passes from one phase to the
+     * other as it moves. */
+    std::pair<Balance, double> balance_with_curvature(const char *name, double time)
+    {
+      Material material = contrasting();
+      material.gibbs_thomson_coefficient = 0.05;
+      const auto family = make_front_family({name, 2, 1, 1, 3});
+      const ManufacturedSolution solution(material, family, 1);
+      const Position centre = family->name() == "ellipse"
+                                  ? Position{0.6 * time - 0.3, 0.2 * time - 0.1, 0}
+                                  : Position{};
+      const auto content = [&](double t)
+      {
+        return Rays(solution, centre, t)
+            .over_disk([&](const Position &p) { return heat(solution, material, p, t); });
+      };
+      const Rays rays(solution, centre, time);
+      double supply = rays.over_disk([&](const Position &p)
+                                     { return solution.volumetric_source(p, time); });
+      for(int n = 0; n < 400; ++n)
+      {
+        const double angle = std::numbers::pi / 200 * n;
+        const Position p{std::cos(angle), std::sin(angle), 0};
+        const auto flux = solution.heat_flux(p, time);
+        supply += std::numbers::pi / 200 * (flux[0] * p[0] + flux[1] * p[1]);
+      }
+      const double difference = material.solid.volumetric_heat_capacity()
+                                - material.liquid.volumetric_heat_capacity();
+      const double passed = rays.over_front(
+          [&](const Position &p)
+          {
+            const FrontDerivatives f = family->derivatives(p, time);
+            return difference * material.gibbs_thomson_coefficient * f.curvature()
+                   * f.rate;
+          },
+          [&](const Position &p) { return family->derivatives(p, time).gradient; });
+      return {{time_derivative(content, time, 0.002), supply}, passed};
+    }
+
     /** A quarter of the ovals' domain, cut into strips that the front does not enter;
      * lower and upper end of the front's range of x are resolved by x = a + (b - a) sin^2
      * u. */
@@ -192,5 +305,15 @@ namespace meltfront::cases::manufactured
     const ManufacturedSolution solution(material, family, 1);
     const double radius = -family->signed_distance({0, 0, 0}, time);
     EXPECT_NEAR(solution.temperature({radius, 0, 0}, time), undercooling, 1e-14);
+  }
+
+  TEST(ManufacturedHeatBalance, WithACurvatureThatVariesAlongTheFront)
+  {
+    for(const char *name : {"ellipse", "star-3"})
+    {
+      const auto [balance, passed] = balance_with_curvature(name, 0.3);
+      expect_relative(balance.change, balance.supply + passed, 1e-9);
+      EXPECT_GT(std::abs(passed), 1e-3) << name;
+    }
   }
 } // namespace meltfront::cases::manufactured

@@ -129,6 +129,27 @@ namespace meltfront::particles::rkpm_tracked
       EXPECT_NEAR(liquid, solid, 1e-5);
     }
 
+    /** Heat is released up to a place just within the solid or the liquid: the heat
+     * counts that no node sees. */
+    TEST(Walls, ReleaseThatEndsBesideTheFrontMovesIt)
+    {
+      LineProblem problem = dirichlet_slab(bar_material(), 30);
+      constexpr double release = 60;
+      for(const double end : {0.427, 0.433, 0.44, 0.46})
+      {
+        problem.volumetric_source
+            = [end](double x, double) { return x < end ? release : 0; };
+        const double x = resting_front(problem);
+        ASSERT_LT(std::abs(x - end), 1. / 30);
+        // In the liquid, then in the solid, where the heat is released up to the place.
+        const double left = std::min(x, end), right = std::max(end - x, 0.);
+        const double liquid = (-70 - release * left * left / 2) / x;
+        const double solid
+            = 2 * (-50 + release / 2 * (right * (1 - x) - right * right / 2)) / (1 - x);
+        EXPECT_NEAR(liquid, solid, 1e-5) << end << ' ' << x;
+      }
+    }
+
     TEST(Warning, TellsOfAPhaseThatWouldAppearInside)
     {
       LineProblem problem = dirichlet_slab(bar_material(), 30);
