@@ -192,32 +192,34 @@ namespace meltfront::cases
                                 : std::views::iota(std::size_t(0), melting_knot);
     const std::size_t passed = *std::ranges::partition_point(
         candidates, [&](std::size_t knot) { return at_knot(knot, factors) <= target; });
-    const std::size_t base = passed == 0 ? 0 : passed - 1;
+    // From the end of the piece that is nearer to the melting temperature, where all is
+    // counted from: a piece may reach far.
+    const std::size_t base = above ? passed - 1 : passed;
     // The melting temperature's knot stands for the liquid there.
     const double jump = !above && base == melting_knot ? latent_jump : 0;
     const double rest = target - at_knot(base, factors) + factors.mass * jump;
     const Piece &piece = pieces[passed];
+    const End &near = above ? piece.lower : piece.upper;
     const double width = passed == 0 || passed == temperatures.size()
                              ? infinity
-                             : temperatures[passed] - temperatures[base];
+                             : temperatures[passed] - temperatures[passed - 1];
     const auto slope = [&factors](const End &end)
     {
       return factors.mass * end.capacity + factors.stiffness * end.conductivity
              + factors.transfer;
     };
-    const double begin = slope(piece.lower);
-    const double bend = (slope(piece.upper) - begin) / width;
+    const double begin = slope(near);
+    const double bend = (slope(piece.upper) - slope(piece.lower)) / width;
     // begin d + bend d^2/2 = rest, in the form without cancellation
     const double d
         = 2 * rest / (begin + std::sqrt(std::max(begin * begin + 2 * bend * rest, 0.)));
-    const auto along = [&](double End::*value) {
-      return piece.lower.*value + (piece.upper.*value - piece.lower.*value) * d / width;
-    };
+    const auto along = [&](double End::*value)
+    { return near.*value + (piece.upper.*value - piece.lower.*value) * d / width; };
     const double conductivity = along(&End::conductivity),
                  capacity = along(&End::capacity);
     return {temperatures[base] + d,
-            enthalpies[base] - jump + d * (piece.lower.capacity + capacity) / 2,
-            kirchhoffs[base] + d * (piece.lower.conductivity + conductivity) / 2,
+            enthalpies[base] - jump + d * (near.capacity + capacity) / 2,
+            kirchhoffs[base] + d * (near.conductivity + conductivity) / 2,
             along(&End::solid_fraction),
             conductivity,
             capacity};

@@ -107,6 +107,28 @@ TEST(ThermalCurves, EachVariableTellsTheOthers)
     }
 }
 
+TEST(ThermalCurves, TablesThatReachFarLoseNoDigits)
+{
+  Material material = varying();
+  const auto far = [](double value)
+  {
+    return std::make_shared<PropertyCurve>(std::vector<double>{-1e7, -2, 3, 1e7},
+                                           std::vector<double>{1, value, value, 1},
+                                           "table");
+  };
+  material.solid.conductivity_curve = material.liquid.conductivity_curve = far(2);
+  material.solid.heat_capacity_curve = material.liquid.heat_capacity_curve = far(3);
+  material.update_curves();
+  for(const double t : {-4., -2.5, -1., 1., 3.5, 5.})
+  {
+    const ThermalState state = material.curves->at_temperature(t);
+    EXPECT_NEAR(material.curves->at_kirchhoff(state.kirchhoff).temperature, t, 1e-14);
+    EXPECT_NEAR(state.kirchhoff, 2 * t, 1e-5);
+    EXPECT_NEAR(material.curves->at_enthalpy(state.enthalpy).kirchhoff, state.kirchhoff,
+                1e-14);
+  }
+}
+
 TEST(ThermalCurves, AMeltingRangeReleasesAllOfTheLatentHeat)
 {
   const Material material = with_range();
