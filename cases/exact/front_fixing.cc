@@ -111,8 +111,8 @@ namespace meltfront::cases::spectral
                 = std::max(temperature_scale, std::abs(end->value(time) - melting));
           }
     if(temperature_scale == 0)
-      temperature_scale = problem.material.latent_heat
-                          / phases.front().material.specific_heat_capacity;
+      temperature_scale
+          = problem.material.latent_heat / phases.front().material.specific_heat_capacity;
   }
 
   double FrontFixing::logarithm(double coordinate, double front) const
@@ -157,9 +157,8 @@ namespace meltfront::cases::spectral
     const std::size_t front = static_cast<std::size_t>(first.back()) + phase;
     const double lower = phase == 0 ? problem.inner : state[front - 1];
     const double upper = phase == n_fronts() ? problem.outer : state[front];
-    return phases[phase].complete(
-        time, holds_axis(phase) ? upper / 2 : upper - lower,
-        state.segment(first[phase], phases[phase].unknowns()));
+    return phases[phase].complete(time, holds_axis(phase) ? upper / 2 : upper - lower,
+                                  state.segment(first[phase], phases[phase].unknowns()));
   }
 
   double FrontFixing::heat_to_front(std::size_t front, const std::vector<double> &edge,
@@ -167,10 +166,10 @@ namespace meltfront::cases::spectral
   {
     const MappedPhase &near = phases[front], &far = phases[front + 1];
     const double at = edge[front + 1];
-    const double near_gradient
-        = (holds_axis(front) ? 2 : 1) * u[front].first[near.basis.intervals]
-              / (at - edge[front])
-          + (front == 0 ? sink_factor / at : 0);
+    const double near_gradient = (holds_axis(front) ? 2 : 1)
+                                     * u[front].first[near.basis.intervals]
+                                     / (at - edge[front])
+                                 + (front == 0 ? sink_factor / at : 0);
     const double far_gradient = u[front + 1].first[0] / (edge[front + 2] - at);
     return near.material.conductivity * near_gradient
            - far.material.conductivity * far_gradient;
@@ -252,8 +251,8 @@ namespace meltfront::cases::spectral
   {
     Eigen::VectorXd result = Eigen::VectorXd::Constant(state.size(), temperature_scale);
     for(Eigen::Index i = first.back(); i < state.size(); ++i)
-      result[i] = std::max(state[i] - problem.inner,
-                           1e-3 * (problem.outer - problem.inner));
+      result[i]
+          = std::max(state[i] - problem.inner, 1e-3 * (problem.outer - problem.inner));
     return result;
   }
 
@@ -286,8 +285,7 @@ namespace meltfront::cases::spectral
         const double x = phases[p].basis.nodes[j];
         const double sink
             = p > 0 || sink_factor == 0 ? 0 : 0.5 * sink_factor * std::log(x);
-        beyond
-            = std::max(beyond, (phases[p].solid ? 1 : -1) * (now.excess[p][j] + sink));
+        beyond = std::max(beyond, (phases[p].solid ? 1 : -1) * (now.excess[p][j] + sink));
       }
     if(beyond > 1e-8 * temperature_scale)
       throw NumericalError(name, step, time, "the temperature",
@@ -307,8 +305,8 @@ namespace meltfront::cases::spectral
     return beyond;
   }
 
-  std::vector<double>
-  FrontFixing::resolution_defects(double time, const Eigen::VectorXd &state) const
+  std::vector<double> FrontFixing::resolution_defects(double time,
+                                                      const Eigen::VectorXd &state) const
   {
     std::vector<double> result;
     for(std::size_t p = 0; p < phases.size(); ++p)
@@ -374,14 +372,15 @@ namespace meltfront::cases::spectral
               + material.volumetric_heat_capacity()
                     * integrate_panels(
                         problem.symmetry, from, to,
-                        [&](double r) { return excess(profile, r); }, [&](double r)
+                        [&](double r) { return excess(profile, r); },
+                        [&](double r)
                         { return std::min(r - start + layer * length, length) / 8; });
     }
     if(sink_factor != 0)
     {
       const double front = profile.edges[1], split = std::clamp(front, lower, upper);
-      const auto primitive = [&](double r)
-      { return r > 0 ? r * r * (std::log(r / front) - 0.5) : 0.; };
+      const auto primitive
+          = [&](double r) { return r > 0 ? r * r * (std::log(r / front) - 0.5) : 0.; };
       heat += phases.front().material.volumetric_heat_capacity() * std::numbers::pi
               * sink_factor * (primitive(split) - primitive(lower));
     }

@@ -15,8 +15,8 @@ namespace meltfront::cases::spectral
    *
    * The state holds the nodal excesses T - T_m of each phase from the inner wall on, then
    * the fronts. Nodes on fronts (T = T_m) and on walls (given by the condition there) are
-   * left out. A phase that holds the axis or the centre is mapped by x = (r/s)^2, in which
-   * it is smooth:
+   * left out. A phase that holds the axis or the centre is mapped by x = (r/s)^2, in
+   * which it is smooth:
    *
    *   T_t = a (4 x T_xx + 2 (1 + m) T_x)/s^2 + 2 x s'/s T_x;
    *
@@ -34,7 +34,6 @@ namespace meltfront::cases::spectral
       std::vector<double> edges; ///< inner end, fronts, outer end
       /** Of each phase at all nodes, without the sink's logarithm. */
       std::vector<Eigen::VectorXd> excess;
-
     };
 
     /** @param intervals  of each phase from the inner wall on */
@@ -49,8 +48,8 @@ namespace meltfront::cases::spectral
     /** The fronts lie inside the domain in their order. */
     bool admissible(const Eigen::VectorXd &state) const;
 
-    /** @throws NumericalError where a front is at a wall or another one, a phase is beyond
-     * the melting temperature (unless metastable), or a value is not finite. */
+    /** @throws NumericalError where a front is at a wall or another one, a phase is
+     * beyond the melting temperature (unless metastable), or a value is not finite. */
     void check(long step, double time, const Eigen::VectorXd &state) const;
 
     /** How far the temperature of a wall is beyond the melting temperature, at most (K);

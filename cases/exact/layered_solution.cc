@@ -32,13 +32,13 @@ namespace meltfront::cases
     if(all.size() <= 1)
       return all.empty() ? nan : all.front();
     const double solid = solid_volume(inner(), outer(), time);
-    const double at_origin
-        = solid_at_origin() ? solid
-                            : volume_between(symmetry(), inner(), outer()) - solid;
+    const double at_origin = solid_at_origin()
+                                 ? solid
+                                 : volume_between(symmetry(), inner(), outer()) - solid;
     return symmetry() == Symmetry::planar
                ? inner() + at_origin
-               : enclosing_coordinate(
-                   symmetry(), volume_between(symmetry(), 0, inner()) + at_origin);
+               : enclosing_coordinate(symmetry(),
+                                      volume_between(symmetry(), 0, inner()) + at_origin);
   }
 
   double LayeredSolution::solid_fraction(double coordinate, double time) const

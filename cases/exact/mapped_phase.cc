@@ -103,8 +103,8 @@ namespace meltfront::cases::spectral
       double last = std::numeric_limits<double>::infinity();
       for(int i = 0; i < most_iterations; ++i)
       {
-        const double change = (slope(heat.flux) - others - own * at_wall)
-                              / (own - slope(heat.slope));
+        const double change
+            = (slope(heat.flux) - others - own * at_wall) / (own - slope(heat.slope));
         at_wall += change;
         if(!(std::abs(change) < last))
           break; // round-off
@@ -122,7 +122,8 @@ namespace meltfront::cases::spectral
     const Eigen::Index nodes = basis.intervals + 1, half = nodes / 2;
     Derivatives result{Eigen::VectorXd(nodes), Eigen::VectorXd(nodes)};
     result.first.head(half) = basis.first.topRows(half) * nodal.from_low;
-    result.first.tail(nodes - half) = basis.first.bottomRows(nodes - half) * nodal.from_high;
+    result.first.tail(nodes - half)
+        = basis.first.bottomRows(nodes - half) * nodal.from_high;
     result.second.head(half) = basis.second.topRows(half) * nodal.from_low;
     result.second.tail(nodes - half)
         = basis.second.bottomRows(nodes - half) * nodal.from_high;

@@ -97,8 +97,7 @@ namespace meltfront::cases
       {
         const bool centre = problem.symmetry != Symmetry::planar && problem.inner == 0;
         for(const bool at_inner : {true, false})
-          if(!(at_inner && centre)
-             && wall(at_inner).kind != BoundaryKind::insulated)
+          if(!(at_inner && centre) && wall(at_inner).kind != BoundaryKind::insulated)
             waiting.push_back(at_inner);
         const PhaseProperties &phase
             = sign > 0 ? problem.material.liquid : problem.material.solid;
@@ -209,9 +208,8 @@ namespace meltfront::cases
         {
           next.start = current;
           next.solid_at_origin = current->solid_at_origin();
-          const bool at_melting
-              = problem.initial_temperature(problem.inner) == melting
-                && uniform_temperature().has_value();
+          const bool at_melting = problem.initial_temperature(problem.inner) == melting
+                                  && uniform_temperature().has_value();
           (sign > 0 ? next.liquid_at_melting : next.solid_at_melting) = at_melting;
         }
         if(!waiting.empty())

@@ -14,8 +14,8 @@ namespace meltfront::cases
    * appears, SpectralOracle between. A wall that never passes the melting temperature
    * leaves the phase as it is.
    *
-   * Walls and initial temperature must agree with each other, unless that is uniform: then
-   * a wall may set off at once, by a jump or a kink.
+   * Walls and initial temperature must agree with each other, unless that is uniform:
+   * then a wall may set off at once, by a jump or a kink.
    *
    * @throws InputError for a problem that is incomplete or inconsistent, or has unequal
    * densities.

@@ -20,9 +20,9 @@ namespace meltfront::cases
     constexpr int layer_intervals = 38, phase_intervals = 12, before_intervals = 16;
     constexpr int n_points = 14;
 
-    /** Last coefficients in tau that are allowed, of the size of v, p or sigma: above what
-     * round-off in U leaves of them after the division by tau^2, and far below what is
-     * felt of them with the powers of tau in front. */
+    /** Last coefficients in tau that are allowed, of the size of v, p or sigma: above
+     * what round-off in U leaves of them after the division by tau^2, and far below what
+     * is felt of them with the powers of tau in front. */
     constexpr double allowed_tail = 3e-11;
 
     /** Points of Chebyshev, Radau and Gauss in (0, 1], the last one 1. */
@@ -118,10 +118,10 @@ namespace meltfront::cases
     {
       const std::vector<double> others = problem.before->fronts(time);
       if(!others.empty())
-        room = std::min(room,
-                        share_to_front
-                            * std::abs((problem.at_inner ? others.front() : others.back())
-                                       - wall));
+        room = std::min(
+            room,
+            share_to_front
+                * std::abs((problem.at_inner ? others.front() : others.back()) - wall));
     }
     return std::min(std::sqrt(problem.longest),
                     room / (2 * std::sqrt(old_phase.diffusivity()) * last_xi));
@@ -152,9 +152,10 @@ namespace meltfront::cases
                    Eigen::VectorXd(before_intervals + 1),
                    problem.wall.value ? problem.wall.value(time) : 0};
     for(int i = 0; i <= before_intervals; ++i)
-      result.old_excess[i] = problem.before->temperature(
-                                 wall + along * before_basis.nodes[i] * result.reach, time)
-                             - problem.material.melting_temperature;
+      result.old_excess[i]
+          = problem.before->temperature(
+                wall + along * before_basis.nodes[i] * result.reach, time)
+            - problem.material.melting_temperature;
     return result;
   }
 
@@ -164,8 +165,7 @@ namespace meltfront::cases
     const double root_a = std::sqrt(old_phase.diffusivity());
     const double latent = old_phase.density * problem.material.latent_heat;
     const double old_wall = last.old_excess[0];
-    const double old_slope
-        = before_basis.first.row(0).dot(last.old_excess) / last.reach;
+    const double old_slope = before_basis.first.row(0).dot(last.old_excess) / last.reach;
     const double tau = last.tau;
     double sigma = 0, wall_value = 0;
     switch(problem.onset)
@@ -257,7 +257,8 @@ namespace meltfront::cases
     const double melting = problem.material.melting_temperature;
     const double thickness = std::pow(tau, q) * sigma;
     const double root_a = std::sqrt(old_phase.diffusivity());
-    const Eigen::VectorXd first = phase_basis.first * u.p, second = phase_basis.second * u.p;
+    const Eigen::VectorXd first = phase_basis.first * u.p,
+                          second = phase_basis.second * u.p;
     const double slowness
         = std::pow(tau, 2 * q - 2) * sigma * sigma / (2 * new_phase.diffusivity());
     for(int i = 1; i < phase_intervals; ++i)
@@ -272,23 +273,21 @@ namespace meltfront::cases
                   * (e * u.p[i] + slope.p[i] - first[i] * x * (q + slope.sigma / sigma));
     }
     const double power = std::pow(tau, e);
-    result[layer_intervals]
-        = problem.wall.kind == BoundaryKind::fixed_temperature
-              ? u.p[0] - (at.given - melting) / power
-              : new_phase.conductivity * first[0]
-                    + sigma
-                          * heat_through(problem.wall.law(), at.given,
-                                         melting + power * u.p[0])
-                                .flux;
+    result[layer_intervals] = problem.wall.kind == BoundaryKind::fixed_temperature
+                                  ? u.p[0] - (at.given - melting) / power
+                                  : new_phase.conductivity * first[0]
+                                        + sigma
+                                              * heat_through(problem.wall.law(), at.given,
+                                                             melting + power * u.p[0])
+                                                    .flux;
     // The old phase's gradient at the front is the polynomial's, by its derivative.
     const Eigen::VectorXd old_first = before_basis.first * at.old_excess / at.reach;
-    const double old_gradient
-        = before_basis.interpolate(old_first, thickness / at.reach)
-          + std::pow(tau, g - 1) * layer_basis.first.row(0).dot(u.v) / last_xi
-                / (2 * root_a);
-    const double heat = new_phase.conductivity * std::pow(tau, e - q)
-                            * first[phase_intervals] / sigma
-                        - old_phase.conductivity * old_gradient;
+    const double old_gradient = before_basis.interpolate(old_first, thickness / at.reach)
+                                + std::pow(tau, g - 1) * layer_basis.first.row(0).dot(u.v)
+                                      / last_xi / (2 * root_a);
+    const double heat
+        = new_phase.conductivity * std::pow(tau, e - q) * first[phase_intervals] / sigma
+          - old_phase.conductivity * old_gradient;
     result[size() - 1] = (q * sigma + slope.sigma) / 2
                          - sign * std::pow(tau, 2 - q) * heat
                                / (old_phase.density * problem.material.latent_heat);
@@ -313,14 +312,12 @@ namespace meltfront::cases
         {
           const double shift = 1e-5 * scale[k];
           const Eigen::VectorXd step = shift * Eigen::VectorXd::Unit(n, k);
-          const Eigen::VectorXd by_value
-              = (residual(instants[i], values + step, slope)
-                 - residual(instants[i], values - step, slope))
-                / (2e-5);
-          const Eigen::VectorXd by_slope
-              = (residual(instants[i], values, slope + step)
-                 - residual(instants[i], values, slope - step))
-                / (2e-5);
+          const Eigen::VectorXd by_value = (residual(instants[i], values + step, slope)
+                                            - residual(instants[i], values - step, slope))
+                                           / (2e-5);
+          const Eigen::VectorXd by_slope = (residual(instants[i], values, slope + step)
+                                            - residual(instants[i], values, slope - step))
+                                           / (2e-5);
           for(int j = 0; j < n_points; ++j)
             jacobian.col(n * j + k).segment(n * i, n)
                 = points[i] * differentiation(i, j) * by_slope;
@@ -385,8 +382,8 @@ namespace meltfront::cases
     scale.head(layer_intervals).setConstant(temperatures > 0 ? temperatures : fallback);
     if(grows())
     {
-      const double phase = guess.segment(layer_intervals, phase_intervals)
-                               .lpNorm<Eigen::Infinity>();
+      const double phase
+          = guess.segment(layer_intervals, phase_intervals).lpNorm<Eigen::Infinity>();
       scale.segment(layer_intervals, phase_intervals)
           .setConstant(phase > 0 ? phase : fallback);
       scale[size() - 1] = guess[size() - 1];
@@ -439,8 +436,8 @@ namespace meltfront::cases
   {
     const double slack = 1e-9 * (end_time() - start_time());
     if(!(time <= end_time() + slack))
-      throw InputError(fmt::format("spectral oracle: time {} is after {}", time,
-                                   end_time()));
+      throw InputError(
+          fmt::format("spectral oracle: time {} is after {}", time, end_time()));
     return std::sqrt(std::max(time - problem.time, 0.));
   }
 
@@ -464,8 +461,7 @@ namespace meltfront::cases
     if(!grows())
       return result;
     const double tau = root_of_time(time);
-    const double thickness
-        = tau > 0 ? std::pow(tau, q) * unpack(at(tau)).sigma : 0;
+    const double thickness = tau > 0 ? std::pow(tau, q) * unpack(at(tau)).sigma : 0;
     result.insert(problem.at_inner ? result.begin() : result.end(),
                   wall + along * thickness);
     return result;
@@ -506,16 +502,15 @@ namespace meltfront::cases
     const double thickness = std::pow(tau, q) * u.sigma;
     const double front = wall + along * thickness;
     const double split = std::clamp(front, lower, upper);
-    const double layer
-        = 2 * std::sqrt(old_phase.diffusivity()) * tau * last_xi;
+    const double layer = 2 * std::sqrt(old_phase.diffusivity()) * tau * last_xi;
     const double from = problem.at_inner ? lower : split,
                  to = problem.at_inner ? split : upper;
     const double beyond_from = problem.at_inner ? split : lower,
                  beyond_to = problem.at_inner ? upper : split;
-    const double layer_from = std::clamp(std::min(front, front + along * layer), beyond_from,
-                                         beyond_to),
-                 layer_to = std::clamp(std::max(front, front + along * layer), beyond_from,
-                                       beyond_to);
+    const double layer_from
+        = std::clamp(std::min(front, front + along * layer), beyond_from, beyond_to),
+        layer_to
+        = std::clamp(std::max(front, front + along * layer), beyond_from, beyond_to);
     const double latent = sign > 0 ? 0
                                    : new_phase.density * problem.material.latent_heat
                                          * volume_between(symmetry(), from, to);
@@ -526,8 +521,8 @@ namespace meltfront::cases
                      [&](double r)
                      {
                        return std::pow(tau, e)
-                              * phase_basis.interpolate(
-                                  u.p, std::abs(r - wall) / thickness);
+                              * phase_basis.interpolate(u.p,
+                                                        std::abs(r - wall) / thickness);
                      },
                      [&](double) { return thickness; })
            + problem.before->heat_content(beyond_from, beyond_to, time)

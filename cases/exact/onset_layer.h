@@ -16,12 +16,12 @@ namespace meltfront::cases
   /** What sets in at a wall. */
   enum class Onset
   {
-    wall_layer,   ///< the wall's law, in a phase of uniform temperature; no new phase
-    jump,         ///< a new phase under a wall held beyond the melting temperature
-    at_melting,   ///< the same from a wall that passes the melting temperature, or from a
-                  ///< phase at it whose heat begins to be drawn (supplied)
-    by_wall_law   ///< from a wall that heat leaves (enters) by a law when it passes the
-                  ///< melting temperature
+    wall_layer, ///< the wall's law, in a phase of uniform temperature; no new phase
+    jump,       ///< a new phase under a wall held beyond the melting temperature
+    at_melting, ///< the same from a wall that passes the melting temperature, or from a
+                ///< phase at it whose heat begins to be drawn (supplied)
+    by_wall_law ///< from a wall that heat leaves (enters) by a law when it passes the
+                ///< melting temperature
   };
 
   struct OnsetProblem
@@ -50,8 +50,8 @@ namespace meltfront::cases
    *
    * where p, v and sigma are regular in tau. With (q, e, g) = (1, 0, 0) this is Neumann's
    * start from a jump, with (2, 2, 2) one from a temperature that passes the melting
-   * point, with (3, 3, 2) one under a law of heat, where the old phase's flux is the wall's
-   * at first. Polynomials in tau through points at which the heat equation in both
+   * point, with (3, 3, 2) one under a law of heat, where the old phase's flux is the
+   * wall's at first. Polynomials in tau through points at which the heat equation in both
    * phases, the wall's law and the Stefan condition hold (collocation in both directions;
    * a singular point of the first kind at tau = 0, which is none of the points) are found
    * by Newton's method. They are used as long as their last coefficients are at round-off
@@ -82,9 +82,9 @@ namespace meltfront::cases
     struct Instant
     {
       double tau, time;
-      double reach;                ///< of the polynomial for U (m)
-      Eigen::VectorXd old_excess;  ///< U - T_m at its nodes
-      double given;                ///< value of the wall
+      double reach;               ///< of the polynomial for U (m)
+      Eigen::VectorXd old_excess; ///< U - T_m at its nodes
+      double given;               ///< value of the wall
     };
 
     /** Unknowns of an instant, in this order: v, p, sigma. */

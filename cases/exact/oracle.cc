@@ -60,9 +60,10 @@ namespace meltfront::cases
       for(const double front : starting_fronts(problem))
       {
         if(!(front > last && front < problem.outer))
-          reject(fmt::format("the fronts must start inside {} ... {} one after the other, "
-                             "not at {}",
-                             problem.inner, problem.outer, front));
+          reject(
+              fmt::format("the fronts must start inside {} ... {} one after the other, "
+                          "not at {}",
+                          problem.inner, problem.outer, front));
         last = front;
       }
     }
@@ -243,8 +244,7 @@ namespace meltfront::cases
     {
       if(problem.nodes > 0)
         return std::make_unique<Integration>(
-            problem,
-            std::vector<int>(starting_fronts(problem).size() + 1, problem.nodes),
+            problem, std::vector<int>(starting_fronts(problem).size() + 1, problem.nodes),
             any_defect);
       Result result
           = integrate_resolved(problem, std::max(1e-13, 0.1 * problem.tolerance));
