@@ -11,6 +11,7 @@
 #include <cases/exact/oracle.h>
 #include <cases/exact/planar_neumann.h>
 #include <cases/exact/point_sink.h>
+#include <cases/exact/varying_neumann.h>
 
 #include <fmt/format.h>
 
@@ -84,6 +85,24 @@ namespace meltfront::cases
                                     dimension == 1 ? "" : "s"));
     }
 
+    /** Of a material whose properties depend on temperature or that melts over a range.
+     */
+    std::shared_ptr<const ExactSolution> varying_neumann(const PrmFile &prm,
+                                                         const Scene &scene, double far)
+    {
+      const double wall = wall_temperature(prm, scene);
+      try
+      {
+        return std::make_shared<VaryingNeumann>(VaryingMaterial::of(scene.material), wall,
+                                                far);
+      }
+      catch(const std::exception &error)
+      {
+        throw prm.error(exact_keys, "kind",
+                        fmt::format("gives no solution: {}", error.what()));
+      }
+    }
+
     KnownSolution closed_form(const PrmFile &prm, const Scene &scene,
                               const std::string &key)
     {
@@ -97,7 +116,9 @@ namespace meltfront::cases
       else
         prm.forbid(exact_keys, "lambda", "it is a key of the solutions of sinks");
       KnownSolution known;
-      if(kind == "neumann")
+      if(kind == "neumann" && scene.material.curves)
+        known.solution = varying_neumann(prm, scene, far);
+      else if(kind == "neumann")
         known.solution = construct<PlanarNeumann>(prm, scene.material,
                                                   wall_temperature(prm, scene), far);
       else if(kind == "frank")

@@ -20,10 +20,9 @@ namespace meltfront::cases
     constexpr int layer_intervals = 38, phase_intervals = 12, before_intervals = 16;
     constexpr int n_points = 14;
 
-    /** Last coefficients in tau that are allowed, of the size of v, p or sigma: above
-     * what round-off in U leaves of them after the division by tau^2, and far below what
-     * is felt of them with the powers of tau in front. */
-    constexpr double allowed_tail = 3e-11;
+    /** What the two highest powers of tau may leave: of the temperature in the old phase,
+     * in the new one and of its thickness. */
+    constexpr double allowed_tail = 1e-12;
 
     /** Points of Chebyshev, Radau and Gauss in (0, 1], the last one 1. */
     Eigen::VectorXd radau_points()
@@ -100,7 +99,7 @@ namespace meltfront::cases
     if(problem.onset == Onset::jump || problem.onset == Onset::wall_layer)
       q = 1, e = g = 0;
     double tau = longest_tau();
-    const int most_attempts = 40;
+    const int most_attempts = 20;
     int attempt = 0;
     while(!solve(tau) && ++attempt < most_attempts)
       tau *= 0.75;
@@ -337,7 +336,11 @@ namespace meltfront::cases
         solution.col(i) += scale.cwiseProduct(update.segment(n * i, n));
       if(grows() && !(solution.row(n - 1).minCoeff() > 0))
         return false;
-      const double size = update.lpNorm<Eigen::Infinity>();
+      double size = 0;
+      for(int i = 0; i < n_points; ++i)
+        size = std::max(size, weights_at(i)
+                                  .cwiseProduct(update.segment(n * i, n))
+                                  .lpNorm<Eigen::Infinity>());
       const double harmless = 1e-9;
       if(size < 1e-14 || (size < harmless && size > 0.3 * last_update))
         return true;
@@ -346,13 +349,38 @@ namespace meltfront::cases
     return false;
   }
 
-  bool OnsetLayer::resolved() const
+  Eigen::VectorXd OnsetLayer::weights_at(int point) const
   {
-    const Eigen::MatrixXd coefficients
-        = chebyshev_values(points).partialPivLu().solve(solution.transpose());
-    for(Eigen::Index k = 0; k < coefficients.cols(); ++k)
-      if(coefficients.col(k).tail(2).cwiseAbs().sum() > allowed_tail * scale[k])
+    Eigen::VectorXd weights
+        = Eigen::VectorXd::Constant(size(), std::pow(points[point], g));
+    if(grows())
+    {
+      weights.tail(phase_intervals + 1).setConstant(std::pow(points[point], e));
+      weights[size() - 1] = std::pow(points[point], q);
+    }
+    return weights;
+  }
+
+  bool OnsetLayer::resolved(double range) const
+  {
+    // Least squares by polynomials two degrees lower of what v, p and sigma count for: at
+    // small tau they are what round-off in U leaves of them, and of no effect.
+    const Eigen::MatrixXd basis = chebyshev_values(points).leftCols(n_points - 2);
+    Eigen::VectorXd allowed = allowed_tail * scale;
+    allowed.head(layer_intervals)
+        = allowed.head(layer_intervals)
+              .cwiseMax(allowed_tail * range / std::pow(last_tau, g));
+    for(Eigen::Index k = 0; k < size(); ++k)
+    {
+      Eigen::VectorXd weights(n_points);
+      for(int i = 0; i < n_points; ++i)
+        weights[i] = weights_at(i)[k];
+      const Eigen::MatrixXd weighted = weights.asDiagonal() * basis;
+      const Eigen::VectorXd values = weights.cwiseProduct(solution.row(k).transpose());
+      const Eigen::VectorXd fit = weighted.householderQr().solve(values);
+      if((weighted * fit - values).lpNorm<Eigen::Infinity>() > allowed[k])
         return false;
+    }
     return true;
   }
 
@@ -391,7 +419,8 @@ namespace meltfront::cases
         return false;
     }
     solution = guess.replicate(1, n_points);
-    return newton(instants) && resolved();
+    return newton(instants)
+           && resolved(instants.back().old_excess.lpNorm<Eigen::Infinity>());
   }
 
   std::string OnsetLayer::description() const

@@ -116,7 +116,12 @@ namespace meltfront::cases
     /** Find the polynomials up to a tau; false where they do not resolve it. */
     bool solve(double last_tau);
     bool newton(const std::vector<Instant> &instants);
-    bool resolved() const;
+
+    /** What the unknowns of a point count for, of what they do at the last one. */
+    Eigen::VectorXd weights_at(int point) const;
+
+    /** @param range  of the temperature (K) */
+    bool resolved(double range) const;
 
     /** Of the time, 0 before the onset. */
     double root_of_time(double time) const;
