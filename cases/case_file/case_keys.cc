@@ -200,10 +200,12 @@ namespace meltfront::cases
       prm.declare(
           exact,
           word_key("start", "neumann",
-                   {"neumann", "line sink", "point sink", "initial state", "wall flux"},
+                   {"neumann", "line sink", "point sink", "initial state", "wall flux",
+                    "one phase"},
                    "What the oracle starts from: a similarity solution, or "
                    "the scene's initial temperature with a front, or liquid that "
-                   "a flux out of x_min cools until it freezes."));
+                   "a flux out of x_min cools until it freezes, or one phase "
+                   "throughout until its walls, of any kind, make another one appear."));
       prm.declare(exact,
                   number_key("start time", "", "s",
                              "Time until which the oracle is the similarity solution.",

@@ -8,11 +8,15 @@
 #include <cases/exact/frank.h>
 #include <cases/exact/line_sink.h>
 #include <cases/exact/mushy_layer.h>
+#include <cases/exact/one_phase_start.h>
 #include <cases/exact/oracle.h>
 #include <cases/exact/planar_neumann.h>
 #include <cases/exact/point_sink.h>
+#include <cases/exact/varying_neumann.h>
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace meltfront::cases
 {
@@ -82,6 +86,24 @@ namespace meltfront::cases
                                     dimension == 1 ? "" : "s"));
     }
 
+    /** Of a material whose properties depend on temperature or that melts over a range.
+     */
+    std::shared_ptr<const ExactSolution> varying_neumann(const PrmFile &prm,
+                                                         const Scene &scene, double far)
+    {
+      const double wall = wall_temperature(prm, scene);
+      try
+      {
+        return std::make_shared<VaryingNeumann>(VaryingMaterial::of(scene.material), wall,
+                                                far);
+      }
+      catch(const std::exception &error)
+      {
+        throw prm.error(exact_keys, "kind",
+                        fmt::format("gives no solution: {}", error.what()));
+      }
+    }
+
     KnownSolution closed_form(const PrmFile &prm, const Scene &scene,
                               const std::string &key)
     {
@@ -95,7 +117,9 @@ namespace meltfront::cases
       else
         prm.forbid(exact_keys, "lambda", "it is a key of the solutions of sinks");
       KnownSolution known;
-      if(kind == "neumann")
+      if(kind == "neumann" && scene.material.curves)
+        known.solution = varying_neumann(prm, scene, far);
+      else if(kind == "neumann")
         known.solution = construct<PlanarNeumann>(prm, scene.material,
                                                   wall_temperature(prm, scene), far);
       else if(kind == "frank")
@@ -184,8 +208,10 @@ namespace meltfront::cases
                                     ? Position{domain.inner_radius, 0, 0}
                                 : side == Side::x_min ? domain.lower
                                                       : domain.upper;
-      return {wall.kind, [value = wall.value, position](double time)
-              { return value(position, time); }};
+      return {
+          wall.kind,
+          [value = wall.value, position](double time) { return value(position, time); },
+          wall.heat_transfer_coefficient, wall.emission_coefficient, wall.absolute_zero};
     }
 
     /** Heat that a line sink on the axis removes; 0 without one. */
@@ -203,6 +229,12 @@ namespace meltfront::cases
                    : (start.power ? -start.power(scene.start_time) : 0.);
     }
 
+    bool &far_phase_at_melting(OracleProblem &problem)
+    {
+      return problem.solid_at_origin ? problem.liquid_at_melting
+                                     : problem.solid_at_melting;
+    }
+
     /** The oracle starts from the scene's initial temperature with a given front. */
     void start_from_initial_state(const PrmFile &prm, const Scene &scene,
                                   OracleProblem &problem)
@@ -215,24 +247,25 @@ namespace meltfront::cases
         throw prm.error(exact_keys, "start",
                         "cannot be 'initial state' where that is 'exact'");
       problem.start_time = scene.start_time;
-      problem.initial_front = prm.get_number(exact_keys, "initial front");
-      if(problem.initial_front <= problem.inner || problem.initial_front >= problem.outer)
+      const double front = prm.get_number(exact_keys, "initial front");
+      if(front <= problem.inner || front >= problem.outer)
         throw prm.error(exact_keys, "initial front", "lies outside the domain");
+      problem.initial_fronts = {front};
       problem.initial_temperature = [field = scene.initial.temperature,
                                      time = scene.start_time](double coordinate) {
         return field({coordinate, 0, 0}, time);
       };
       const double melting = scene.material.melting_temperature;
       problem.solid_at_origin = problem.initial_temperature(problem.inner) < melting;
-      problem.one_phase = true;
+      bool far_at_melting = true;
       constexpr int probes = 8;
       for(int i = 1; i <= probes; ++i)
       {
-        const double coordinate = problem.initial_front
-                                  + (problem.outer - problem.initial_front) * i / probes;
+        const double coordinate = front + (problem.outer - front) * i / probes;
         if(problem.initial_temperature(coordinate) != melting)
-          problem.one_phase = false;
+          far_at_melting = false;
       }
+      far_phase_at_melting(problem) = far_at_melting;
     }
 
     /** The oracle starts soon after a flux has brought the wall to the melting point. */
@@ -258,6 +291,53 @@ namespace meltfront::cases
       problem.start_time = start->end_time();
     }
 
+    /** One phase fills the domain until its walls make another one appear. */
+    std::shared_ptr<const ExactSolution>
+    from_one_phase(const PrmFile &prm, const Scene &scene, OracleProblem problem)
+    {
+      for(const char *key :
+          {"start time", "initial front", "wall temperature", "far temperature"})
+        prm.forbid(exact_keys, key, "the walls decide when another phase appears");
+      if(!scene.initial.temperature.value || scene.initial.front)
+        throw prm.error(exact_keys, "start",
+                        "cannot be 'one phase' where the initial state is 'exact' or has "
+                        "a front");
+      if(!scene.sources.empty())
+        throw prm.error(exact_keys, "start", "cannot be 'one phase' with sources");
+      problem.start_time = scene.start_time;
+      problem.initial_temperature = [field = scene.initial.temperature,
+                                     time = scene.start_time](double coordinate) {
+        return field({coordinate, 0, 0}, time);
+      };
+      const double melting = scene.material.melting_temperature;
+      bool solid = false, liquid = false;
+      constexpr int probes = 64;
+      for(int i = 0; i <= probes; ++i)
+      {
+        const double excess
+            = problem.initial_temperature(std::lerp(problem.inner, problem.outer,
+                                                    static_cast<double>(i) / probes))
+              - melting;
+        solid |= excess < 0;
+        liquid |= excess > 0;
+      }
+      if(solid && liquid)
+        throw prm.error(exact_keys, "start",
+                        "cannot be 'one phase' where the initial temperature is on both "
+                        "sides of the melting temperature");
+      problem.solid_at_origin
+          = solid || (!liquid && scene.initial.solid_fraction_at_melting == 1);
+      try
+      {
+        return solve_from_one_phase(problem);
+      }
+      catch(const std::exception &error)
+      {
+        throw prm.error(exact_keys, "kind",
+                        fmt::format("gives no solution: {}", error.what()));
+      }
+    }
+
     KnownSolution oracle(const PrmFile &prm, const Scene &scene)
     {
       if(scene.symmetry == Symmetry::none)
@@ -279,6 +359,8 @@ namespace meltfront::cases
       const std::string word = prm.get_text(exact_keys, "start");
       if(scene.domain.shape != DomainShape::slab && word == "wall flux")
         throw prm.error(exact_keys, "start", "cannot be 'wall flux' but in a slab");
+      if(word == "one phase")
+        return {from_one_phase(prm, scene, problem), true};
       if(word == "initial state")
         start_from_initial_state(prm, scene, problem);
       else if(word == "wall flux")
@@ -295,7 +377,7 @@ namespace meltfront::cases
         problem.start_time = prm.get_number(exact_keys, "start time");
         if(!(problem.start_time < scene.end_time))
           throw prm.error(exact_keys, "start time", "must come before the scene's end");
-        problem.one_phase
+        far_phase_at_melting(problem)
             = far_temperature(prm, scene) == scene.material.melting_temperature;
       }
       problem.line_sink = line_sink_strength(prm, scene, start);

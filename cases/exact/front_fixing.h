@@ -6,21 +6,23 @@
 
 #include <Eigen/Dense>
 
+#include <vector>
+
 namespace meltfront::cases::spectral
 {
   /**
    * The Stefan problem in space: each phase mapped onto [0, 1] and collocated.
    *
-   * The state holds the nodal excesses T - T_m of the phase at the inner wall, those of
-   * the phase beyond the front, and the front. Nodes on the front (T = T_m) and on walls
-   * (given by the condition there) are left out. A phase that holds the axis or the
-   * centre is mapped by x = (r/s)^2, in which it is smooth:
+   * The state holds the nodal excesses T - T_m of each phase from the inner wall on, then
+   * the fronts. Nodes on fronts (T = T_m) and on walls (given by the condition there) are
+   * left out. A phase that holds the axis or the centre is mapped by x = (r/s)^2, in
+   * which it is smooth:
    *
    *   T_t = a (4 x T_xx + 2 (1 + m) T_x)/s^2 + 2 x s'/s T_x;
    *
-   * other phases linearly, with the nodes of the outer one drawn towards the front where
-   * its initial profile is steep there. With a line sink its T excludes Q/(2 pi k)
-   * ln(r/s), for which a uniform source Q/(2 pi k) s'/s stands in.
+   * other phases linearly, with the nodes of the last one drawn towards its front where
+   * its initial profile is steep there. With a line sink the T of the first excludes
+   * Q/(2 pi k) ln(r/s), for which a uniform source Q/(2 pi k) s'/s stands in.
    */
   class FrontFixing
   {
@@ -29,11 +31,13 @@ namespace meltfront::cases::spectral
     struct Profile
     {
       double time;
-      double front;
-      Eigen::VectorXd near, far; ///< excesses at all nodes, without the sink's logarithm
+      std::vector<double> edges; ///< inner end, fronts, outer end
+      /** Of each phase at all nodes, without the sink's logarithm. */
+      std::vector<Eigen::VectorXd> excess;
     };
 
-    FrontFixing(const OracleProblem &problem, int near_intervals, int far_intervals);
+    /** @param intervals  of each phase from the inner wall on */
+    FrontFixing(const OracleProblem &problem, const std::vector<int> &intervals);
 
     Eigen::VectorXd initial_state() const;
 
@@ -41,20 +45,21 @@ namespace meltfront::cases::spectral
 
     Eigen::VectorXd scale(const Eigen::VectorXd &state) const;
 
-    /** The front lies inside the domain. */
+    /** The fronts lie inside the domain in their order. */
     bool admissible(const Eigen::VectorXd &state) const;
 
-    /** @throws NumericalError where the front is at a wall, a phase is beyond the melting
-     * temperature (unless metastable), or a value is not finite. */
+    /** @throws NumericalError where a front is at a wall or another one, a phase is
+     * beyond the melting temperature (unless metastable), or a value is not finite. */
     void check(long step, double time, const Eigen::VectorXd &state) const;
+
+    /** How far the temperature of a wall is beyond the melting temperature, at most (K);
+     * negative: not at all. */
+    double beyond_at_walls(double time, const Eigen::VectorXd &state) const;
 
     /** Last Chebyshev coefficients of each phase, relative to the scale of temperature.
      */
-    struct Defect
-    {
-      double near, far;
-    };
-    Defect resolution_defect(double time, const Eigen::VectorXd &state) const;
+    std::vector<double> resolution_defects(double time,
+                                           const Eigen::VectorXd &state) const;
 
     Profile profile(double time, const Eigen::VectorXd &state) const;
 
@@ -63,21 +68,51 @@ namespace meltfront::cases::spectral
     double heat_content(const Profile &profile, double lower, double upper) const;
 
   private:
+    void add_phases(const std::vector<int> &intervals);
     void find_temperature_scale();
-    MappedPhase::Nodal near_nodal(double time, const Eigen::VectorXd &state) const;
-    MappedPhase::Nodal far_nodal(double time, const Eigen::VectorXd &state) const;
-    void near_rates(const MappedPhase::Derivatives &u, double front, double speed,
+
+    std::size_t n_fronts() const
+    {
+      return phases.size() - 1;
+    }
+
+    /** The phase at the inner end holds the axis. */
+    bool holds_axis(std::size_t phase) const
+    {
+      return phases[phase].low.kind == PhaseEnd::axis;
+    }
+
+    std::vector<double> edges(const Eigen::VectorXd &state) const;
+    MappedPhase::Nodal nodal(std::size_t phase, double time,
+                             const Eigen::VectorXd &state) const;
+
+    /** Heat that arrives at a front from both sides, positive where the phase before it
+     * loses heat by it (W/m^2). */
+    double heat_to_front(std::size_t front, const std::vector<double> &edge,
+                         const std::vector<MappedPhase::Derivatives> &u) const;
+
+    void axis_rates(const MappedPhase::Derivatives &u, double front, double speed,
                     Eigen::VectorXd &rate) const;
-    void far_rates(const MappedPhase::Derivatives &u, double front, double speed,
-                   Eigen::VectorXd &rate) const;
+
+    /** Speeds (m/s) of a phase's ends, and of the material at its lower end. */
+    struct Speeds
+    {
+      double lower = 0, upper = 0, material = 0;
+    };
+    void rates(std::size_t phase, const MappedPhase::Derivatives &u, double lower,
+               double upper, const Speeds &speeds, Eigen::VectorXd &rate) const;
+
     double logarithm(double coordinate, double front) const;
     double excess(const Profile &profile, double coordinate) const;
 
+    /** Number of the phase that holds a coordinate; at a front the one before it. */
+    std::size_t phase_at(const Profile &profile, double coordinate) const;
+
     OracleProblem problem;
-    int exponent;          ///< m: 0 planar, 1 cylindrical, 2 spherical
-    MappedPhase near, far; ///< at the inner wall, beyond the front
-    int size;              ///< of the state
-    double sink_factor;    ///< Q/(2 pi k), K
+    int exponent;                    ///< m: 0 planar, 1 cylindrical, 2 spherical
+    std::vector<MappedPhase> phases; ///< from the inner wall on
+    std::vector<int> first;          ///< of each phase in the state, then of the fronts
+    double sink_factor;              ///< Q/(2 pi k), K
     double temperature_scale;
   };
 } // namespace meltfront::cases::spectral

@@ -5,6 +5,7 @@
 #include <cases/exact/radau.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -13,6 +14,16 @@
 
 namespace meltfront::cases
 {
+  Boundary OracleWall::law() const
+  {
+    Boundary boundary;
+    boundary.kind = kind;
+    boundary.heat_transfer_coefficient = heat_transfer_coefficient;
+    boundary.emission_coefficient = emission_coefficient;
+    boundary.absolute_zero = absolute_zero;
+    return boundary;
+  }
+
   namespace
   {
     using spectral::FrontFixing;
@@ -30,6 +41,12 @@ namespace meltfront::cases
         reject("the " + which + " wall needs a value");
     }
 
+    std::vector<double> starting_fronts(const OracleProblem &problem)
+    {
+      return problem.start ? fronts_of(*problem.start, problem.start_time)
+                           : problem.initial_fronts;
+    }
+
     void check_start(const OracleProblem &problem)
     {
       if(!problem.start && !problem.initial_temperature)
@@ -39,11 +56,16 @@ namespace meltfront::cases
              || problem.start->solid_at_origin() != problem.solid_at_origin))
         reject("the solution to start from has another symmetry or holds the other phase "
                "at the origin");
-      const double front = problem.start ? problem.start->front(problem.start_time)
-                                         : problem.initial_front;
-      if(!(front > problem.inner && front < problem.outer))
-        reject(fmt::format("the front must start inside {} ... {}, not at {}",
-                           problem.inner, problem.outer, front));
+      double last = problem.inner;
+      for(const double front : starting_fronts(problem))
+      {
+        if(!(front > last && front < problem.outer))
+          reject(
+              fmt::format("the fronts must start inside {} ... {} one after the other, "
+                          "not at {}",
+                          problem.inner, problem.outer, front));
+        last = front;
+      }
     }
 
     void check_problem(const OracleProblem &problem)
@@ -61,8 +83,7 @@ namespace meltfront::cases
       const bool centre = problem.symmetry != Symmetry::planar && problem.inner == 0;
       if(!centre)
         check_wall(problem.inner_wall, "inner");
-      if(!problem.one_phase)
-        check_wall(problem.outer_wall, "outer");
+      check_wall(problem.outer_wall, "outer");
       if(problem.line_sink != 0
          && !(centre && problem.symmetry == Symmetry::cylindrical
               && problem.solid_at_origin))
@@ -74,23 +95,27 @@ namespace meltfront::cases
       check_start(problem);
     }
 
-    using Defect = FrontFixing::Defect;
+    const double any_defect = std::numeric_limits<double>::infinity();
 
-    /** Thrown out of a run that turns out to need more nodes. */
+    double largest(const std::vector<double> &values)
+    {
+      return *std::ranges::max_element(values);
+    }
+
+    /** Thrown out of a run that turns out to need more nodes: the defect by phase. */
     struct Unresolved
     {
-      Defect defect;
+      std::vector<double> defects;
     };
 
     /** The run with fixed numbers of Chebyshev intervals. */
     struct Integration
     {
       /** @throws Unresolved as soon as a defect exceeds what is allowed. */
-      Integration(const OracleProblem &problem, int near_intervals, int far_intervals,
+      Integration(const OracleProblem &problem, const std::vector<int> &intervals,
                   double allowed_defect)
-        : system(problem, near_intervals, far_intervals)
-        , near_intervals(near_intervals)
-        , far_intervals(far_intervals)
+        : system(problem, intervals)
+        , intervals(intervals)
       {
         spectral::StiffProblem stiff;
         stiff.name = "spectral oracle";
@@ -102,26 +127,32 @@ namespace meltfront::cases
             = [this](const Eigen::VectorXd &state) { return system.admissible(state); };
         stiff.observe = [&](long step, double time, const Eigen::VectorXd &state)
         {
-          const Defect now = system.resolution_defect(time, state);
-          defect = std::max({defect, now.near, now.far});
+          const std::vector<double> now = system.resolution_defects(time, state);
+          defect = std::max(defect, largest(now));
           if(defect > allowed_defect)
             throw Unresolved{now};
           system.check(step, time, state);
         };
+        if(std::isfinite(problem.longest_beyond))
+          stiff.finished = [&, beyond_since = any_defect](
+                               double time, const Eigen::VectorXd &state) mutable
+          {
+            if(system.beyond_at_walls(time, state) > 0)
+              beyond_since = std::min(beyond_since, time);
+            return time >= beyond_since + problem.longest_beyond;
+          };
         trajectory = spectral::RadauIntegrator(7).integrate(
             stiff, system.initial_state(), problem.start_time, problem.end_time,
             problem.tolerance);
       }
 
       FrontFixing system;
-      int near_intervals, far_intervals;
-      double defect = 0; ///< the largest over the run
+      std::vector<int> intervals; ///< by phase
+      double defect = 0;          ///< the largest over the run
       spectral::Trajectory trajectory;
     };
 
     using Result = std::unique_ptr<Integration>;
-
-    const double any_defect = std::numeric_limits<double>::infinity();
 
     /**
      * More nodes in each phase until the last coefficients are at round-off; null where
@@ -130,23 +161,23 @@ namespace meltfront::cases
     Result integrate_resolved(const OracleProblem &problem, double allowed)
     {
       const int most_intervals = 160, enough_to_judge = 60;
-      int near = 12, far = 12;
+      std::vector<int> intervals(starting_fronts(problem).size() + 1, 12);
       double last_defect = any_defect;
-      while(std::max(near, far) <= most_intervals)
+      while(*std::ranges::max_element(intervals) <= most_intervals)
         try
         {
-          return std::make_unique<Integration>(problem, near, far, allowed);
+          return std::make_unique<Integration>(problem, intervals, allowed);
         }
         catch(const Unresolved &unresolved)
         {
-          const double defect = std::max(unresolved.defect.near, unresolved.defect.far);
-          if(std::max(near, far) > enough_to_judge && defect > 0.3 * last_defect)
+          const double defect = largest(unresolved.defects);
+          if(*std::ranges::max_element(intervals) > enough_to_judge
+             && defect > 0.3 * last_defect)
             return nullptr;
           last_defect = defect;
-          if(unresolved.defect.near > allowed)
-            near += near / 3;
-          if(unresolved.defect.far > allowed)
-            far += far / 3;
+          for(std::size_t p = 0; p < intervals.size(); ++p)
+            if(unresolved.defects[p] > allowed)
+              intervals[p] += intervals[p] / 3;
         }
       return nullptr;
     }
@@ -161,9 +192,11 @@ namespace meltfront::cases
       {
         const double time = std::lerp(problem.start_time, problem.end_time,
                                       static_cast<double>(i) / samples);
-        const auto front = [&](const Integration &run)
-        { return run.system.profile(time, run.trajectory.state(time)).front; };
-        difference = std::max(difference, std::abs(front(a) - front(b)));
+        const auto edges = [&](const Integration &run)
+        { return run.system.profile(time, run.trajectory.state(time)).edges; };
+        const std::vector<double> of_a = edges(a), of_b = edges(b);
+        for(std::size_t i = 0; i < of_a.size(); ++i)
+          difference = std::max(difference, std::abs(of_a[i] - of_b[i]));
       }
       return difference / (problem.outer - problem.inner);
     }
@@ -181,8 +214,9 @@ namespace meltfront::cases
       for(int intervals = 24; intervals <= most_intervals; intervals += intervals / 2)
         try
         {
-          auto next
-              = std::make_unique<Integration>(problem, intervals, intervals, hopeless);
+          auto next = std::make_unique<Integration>(
+              problem, std::vector<int>(starting_fronts(problem).size() + 1, intervals),
+              hopeless);
           if(last)
             difference = front_difference(problem, *last, *next);
           last = std::move(next);
@@ -209,10 +243,14 @@ namespace meltfront::cases
     Result integrate(const OracleProblem &problem)
     {
       if(problem.nodes > 0)
-        return std::make_unique<Integration>(problem, problem.nodes, problem.nodes,
-                                             any_defect);
+        return std::make_unique<Integration>(
+            problem, std::vector<int>(starting_fronts(problem).size() + 1, problem.nodes),
+            any_defect);
       Result result
           = integrate_resolved(problem, std::max(1e-13, 0.1 * problem.tolerance));
+      if(!result && starting_fronts(problem).empty())
+        throw NumericalError("spectral oracle", 0, problem.start_time, "the temperature",
+                             "of the one phase is too steep or not smooth enough");
       return result ? std::move(result) : integrate_by_comparison(problem);
     }
   } // namespace
@@ -223,6 +261,8 @@ namespace meltfront::cases
     explicit Run(const OracleProblem &problem)
       : problem(problem)
       , integration(integrate(problem))
+      , end_time(std::isfinite(problem.longest_beyond) ? integration->trajectory.end()
+                                                       : problem.end_time)
     {
     }
 
@@ -239,10 +279,10 @@ namespace meltfront::cases
       std::shared_ptr<const FrontFixing::Profile> last = latest.load();
       if(last && last->time == time)
         return last;
-      const double slack = 1e-9 * (problem.end_time - problem.start_time);
-      if(!(time >= problem.start_time - slack && time <= problem.end_time + slack))
+      const double slack = 1e-9 * (end_time - problem.start_time);
+      if(!(time >= problem.start_time - slack && time <= end_time + slack))
         throw InputError(fmt::format("spectral oracle: time {} is outside {} ... {}",
-                                     time, problem.start_time, problem.end_time));
+                                     time, problem.start_time, end_time));
       last = std::make_shared<const FrontFixing::Profile>(
           integration->system.profile(time, integration->trajectory.state(time)));
       latest.store(last);
@@ -251,6 +291,7 @@ namespace meltfront::cases
 
     OracleProblem problem;
     std::unique_ptr<const Integration> integration;
+    double end_time;
 
   private:
     mutable std::atomic<std::shared_ptr<const FrontFixing::Profile>> latest;
@@ -267,9 +308,9 @@ namespace meltfront::cases
   std::string SpectralOracle::description() const
   {
     return fmt::format(
-        "spectral front-fixing solution on {:.6g} ... {:.6g} m, {} + {} "
-        "Chebyshev intervals, {} steps{}",
-        run->problem.inner, run->problem.outer, near_nodes(), far_nodes(), steps(),
+        "spectral front-fixing solution on {:.6g} ... {:.6g} m, {} Chebyshev intervals, "
+        "{} steps{}",
+        run->problem.inner, run->problem.outer, fmt::join(nodes(), " + "), steps(),
         run->problem.start ? ", started from: " + run->problem.start->description() : "");
   }
 
@@ -286,7 +327,7 @@ namespace meltfront::cases
 
   double SpectralOracle::end_time() const
   {
-    return run->problem.end_time;
+    return run->end_time;
   }
 
   bool SpectralOracle::solid_at_origin() const
@@ -294,10 +335,22 @@ namespace meltfront::cases
     return run->problem.solid_at_origin;
   }
 
-  double SpectralOracle::front(double time) const
+  double SpectralOracle::inner() const
   {
-    const ExactSolution *earlier = run->before(time);
-    return earlier ? earlier->front(time) : run->profile(time)->front;
+    return run->problem.inner;
+  }
+
+  double SpectralOracle::outer() const
+  {
+    return run->problem.outer;
+  }
+
+  std::vector<double> SpectralOracle::fronts(double time) const
+  {
+    if(const ExactSolution *earlier = run->before(time))
+      return fronts_of(*earlier, time);
+    const auto profile = run->profile(time);
+    return {profile->edges.begin() + 1, profile->edges.end() - 1};
   }
 
   double SpectralOracle::temperature(double coordinate, double time) const
@@ -314,14 +367,9 @@ namespace meltfront::cases
     return run->integration->system.heat_content(*run->profile(time), lower, upper);
   }
 
-  int SpectralOracle::near_nodes() const
+  const std::vector<int> &SpectralOracle::nodes() const
   {
-    return run->integration->near_intervals;
-  }
-
-  int SpectralOracle::far_nodes() const
-  {
-    return run->integration->far_intervals;
+    return run->integration->intervals;
   }
 
   long SpectralOracle::steps() const

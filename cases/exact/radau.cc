@@ -126,6 +126,11 @@ namespace meltfront::cases::spectral
     return value(after == pieces.begin() ? *after : *std::prev(after), time);
   }
 
+  double Trajectory::end() const
+  {
+    return pieces.back().start + pieces.back().length;
+  }
+
   RadauIntegrator::RadauIntegrator(int stages)
     : stages(stages)
     , abscissae(radau_abscissae(stages))
@@ -255,6 +260,8 @@ namespace meltfront::cases::spectral
       time = last ? end : time + length;
       state = states.col(stages);
       problem.observe(result.steps(), time, state);
+      if(problem.finished && problem.finished(time, state))
+        break;
       length *= factor;
     }
     return result;

@@ -20,6 +20,8 @@ namespace meltfront::cases::spectral
     std::function<bool(const Eigen::VectorXd &state)> admissible;
     /** Called at the start and after each step; may throw. */
     std::function<void(long step, double time, const Eigen::VectorXd &state)> observe;
+    /** If given: true ends the integration before its end. Asked after each step. */
+    std::function<bool(double time, const Eigen::VectorXd &state)> finished{};
     std::string name; ///< for messages
   };
 
@@ -28,6 +30,9 @@ namespace meltfront::cases::spectral
   {
   public:
     Eigen::VectorXd state(double time) const;
+
+    /** Where the last piece ends. */
+    double end() const;
 
     long steps() const
     {

@@ -45,7 +45,7 @@ namespace meltfront::cases
             << other.description();
       };
       problem.tolerance = 1e-13;
-      problem.nodes = std::max(oracle.near_nodes(), oracle.far_nodes());
+      problem.nodes = *std::ranges::max_element(oracle.nodes());
       expect_same();
       problem.nodes += 12;
       expect_same();
@@ -61,7 +61,7 @@ namespace meltfront::cases
       OracleProblem problem;
       problem.material = {{1, 1, 1}, {0.6, 1.5, 1}, 1, 0};
       problem.end_time = 1;
-      problem.initial_front = 0.3;
+      problem.initial_fronts = {0.3};
       // Meets the walls' conditions at the start, but not those of the moving front.
       problem.initial_temperature = [](double x)
       { return x < 0.3 ? (x - 0.3) : 0.4 * (1 - std::pow((1 - x) / 0.7, 2)); };
@@ -149,7 +149,7 @@ namespace meltfront::cases
     OracleProblem problem;
     problem.material = {{1, 1, 1}, {0.6, 1.5, 1}, 1, 0};
     problem.end_time = 1;
-    problem.initial_front = 0.3;
+    problem.initial_fronts = {0.3};
     problem.initial_temperature
         = [](double x) { return x < 0.3 ? (x - 0.3) : 1.5 * (x - 0.3); };
     problem.inner_wall = {BoundaryKind::fixed_temperature, [](double time)
@@ -191,7 +191,7 @@ namespace meltfront::cases
     problem.symmetry = Symmetry::spherical;
     problem.material = {{2, 1, 1}, {1, 2, 1}, 3, 0};
     problem.end_time = 0.1;
-    problem.initial_front = 0.5;
+    problem.initial_fronts = {0.5};
     problem.initial_temperature = [](double r)
     {
       const double liquid = std::sin(std::numbers::pi * (r - 0.5));
@@ -215,7 +215,7 @@ namespace meltfront::cases
     problem.end_time = 10;
     problem.start = exact;
     problem.inner_wall = {BoundaryKind::fixed_temperature, [](double) { return -1.; }};
-    problem.one_phase = true;
+    problem.liquid_at_melting = true;
     const double expected = std::pow(1 / (2 * exact->lambda()), 2);
     try
     {
@@ -234,7 +234,7 @@ namespace meltfront::cases
     // A solid core at its melting point, melted from outside by a liquid held warm.
     OracleProblem core;
     core.symmetry = Symmetry::cylindrical;
-    core.initial_front = 0.3;
+    core.initial_fronts = {0.3};
     core.initial_temperature
         = [](double r) { return r < 0.3 ? 0. : std::log(r / 0.3) / std::log(1 / 0.3); };
     core.outer_wall = {BoundaryKind::fixed_temperature, [](double) { return 1.; }};

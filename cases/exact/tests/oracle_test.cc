@@ -107,7 +107,7 @@ namespace meltfront::cases
     {
       OracleProblem problem = exact_problem(
           std::make_shared<PlanarNeumann>(water(), wall, 0), water(), 0, 1, 864, 86400);
-      problem.one_phase = true;
+      (wall < 0 ? problem.liquid_at_melting : problem.solid_at_melting) = true;
       expect_exact(problem);
     }
   }
@@ -168,7 +168,7 @@ namespace meltfront::cases
     OracleProblem problem = exact_problem(exact, unit_material(), 0, 1, 0.01, 0.25);
     const SpectralOracle from_solution(problem);
     problem.start = nullptr;
-    problem.initial_front = exact->front(0.01);
+    problem.initial_fronts = {exact->front(0.01)};
     problem.initial_temperature = [=](double x) { return exact->temperature(x, 0.01); };
     const SpectralOracle from_profile(problem);
     EXPECT_EQ(from_profile.start_time(), 0.01);
@@ -194,7 +194,7 @@ namespace meltfront::cases
         = {BoundaryKind::fixed_temperature, [&](double) { return profile(0.3); }};
     problem.outer_wall
         = {BoundaryKind::fixed_temperature, [&](double) { return profile(1); }};
-    problem.initial_front = 0.5;
+    problem.initial_fronts = {0.5};
     problem.initial_temperature = profile;
     const double front = SpectralOracle(problem).front(0.12);
     EXPECT_NEAR(front, 0.63204736885, 1e-11);

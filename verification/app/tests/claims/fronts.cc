@@ -106,7 +106,7 @@ namespace meltfront::verification::claims
       of.problem.material = scene.material;
       of.problem.inner = start.inner;
       of.problem.end_time = scene.end_time;
-      of.problem.initial_front = start.front;
+      of.problem.initial_fronts = {start.front};
       of.problem.initial_temperature = start;
       of.problem.nodes = 24;
       of.problem.tolerance = 1e-9;
@@ -196,7 +196,7 @@ namespace meltfront::verification::claims
       cases::OracleProblem &problem = of.problem;
       problem.material = scene.material;
       problem.end_time = end;
-      problem.initial_front = from;
+      problem.initial_fronts = {from};
       problem.initial_temperature = [exact](double x) { return exact(x, 0); };
       problem.inner_wall = {BoundaryKind::fixed_temperature,
                             [exact](double time) { return exact(0, time); }};
