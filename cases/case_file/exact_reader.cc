@@ -360,7 +360,7 @@ namespace meltfront::cases
       if(scene.domain.shape != DomainShape::slab && word == "wall flux")
         throw prm.error(exact_keys, "start", "cannot be 'wall flux' but in a slab");
       if(word == "one phase")
-        return {from_one_phase(prm, scene, problem), true};
+        return {from_one_phase(prm, scene, problem), true, {}, {}};
       if(word == "initial state")
         start_from_initial_state(prm, scene, problem);
       else if(word == "wall flux")

@@ -273,17 +273,15 @@ namespace meltfront::cases
     void require_reach(const PrmFile &prm, const std::string &here,
                        const std::string &key,
                        const std::shared_ptr<const PropertyCurve> &curve, double coldest,
-                       double warmest)
+                       double warmest, double slack)
     {
       if(!curve)
         return;
       const double first = curve->temperatures().front();
       const double last = curve->temperatures().back();
-      const double round_off
-          = 1e-9 * (std::abs(first) + std::abs(last) + std::abs(last - first));
       for(const double temperature : {coldest, warmest})
         if(std::isfinite(temperature) && coldest <= warmest
-           && !(temperature >= first - round_off && temperature <= last + round_off))
+           && !(temperature >= first - slack && temperature <= last + slack))
           throw prm.error(
               prm.given(here, key) ? here : solid_keys, key,
               fmt::format("is known from {:.6g} to {:.6g}, and the scene needs "
@@ -398,13 +396,16 @@ namespace meltfront::cases
     const bool melts = scene.changes_phase() || prm.opened(liquid_keys);
     const double molten
         = material.melting_range ? material.melting_range->liquidus : melting;
+    // Bounds of what varies in time are a little wider than what was sampled.
+    const double span = bounds.upper - bounds.lower;
+    const double slack = std::isfinite(span) ? 2e-3 * span : 0;
     const auto reach = [&](const std::string &here, const PhaseProperties &phase,
                            double coldest, double warmest)
     {
       require_reach(prm, here, conductivity_key, phase.conductivity_curve, coldest,
-                    warmest);
+                    warmest, slack);
       require_reach(prm, here, heat_capacity_key, phase.heat_capacity_curve, coldest,
-                    warmest);
+                    warmest, slack);
     };
     reach(solid_keys, material.solid, bounds.lower,
           melts ? std::min(molten, bounds.upper) : bounds.upper);

@@ -356,7 +356,7 @@ namespace meltfront::cases
         scene.initial.exact = known.solution;
       if(scene.alloy)
         scene.initial.concentration = known.concentration;
-      else if(known.solution->has_front())
+      else if(known.solution->has_front() && !scene.material.melting_range)
         scene.initial.front = exact_level_set(known.solution);
     }
     complete_sources(prm, known, scene);
