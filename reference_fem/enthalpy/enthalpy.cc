@@ -51,7 +51,16 @@ namespace meltfront::reference_fem
                  .front_origins
                  = {FrontOrigin::none, FrontOrigin::initial_front,
                     FrontOrigin::partly_melted, FrontOrigin::wall, FrontOrigin::source},
-                 .overshoot = overshoot}};
+                 .overshoot = overshoot},
+                {.form = "where liquid is displaced",
+                 .problems = {cases::ProblemKind::stefan},
+                 .effects = {Effect::phase_change, Effect::phase_conductivity,
+                             Effect::phase_heat_capacity, Effect::wall_temperature,
+                             Effect::wall_flux, Effect::robin_wall,
+                             Effect::radiating_wall, Effect::liquid_motion},
+                 .shapes = {{DomainShape::slab, {1}, walls}},
+                 .front_origins = {FrontOrigin::initial_front, FrontOrigin::wall},
+                 .most_fronts = 1}};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

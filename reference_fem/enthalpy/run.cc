@@ -27,9 +27,12 @@ namespace meltfront::reference_fem
 
   } // namespace
 
-  EnthalpyRun::EnthalpyRun(const cases::Scene &scene, const cases::EffectSet &effects,
+  EnthalpyRun::EnthalpyRun(const cases::Scene &in_space, const cases::EffectSet &effects,
                            const cases::Resolution &resolution)
-    : scene(scene)
+    : motion(effects.contains(Effect::liquid_motion)
+                 ? std::make_unique<LiquidMotion>(in_space)
+                 : nullptr)
+    , scene(motion ? motion->at_rest() : in_space)
     , effects(effects)
     , resolution(resolution)
     , options(options_for(scene, resolution))
@@ -86,6 +89,9 @@ namespace meltfront::reference_fem
       if(scene.inclusion && scene.material.curves)
         throw cases::Refusal("fem-enthalpy simulates an inclusion in a material of one "
                              "conductivity only");
+      if(options.front_within_cells && motion)
+        throw cases::Refusal("fem-enthalpy takes fronts at their places within cells "
+                             "(front = within_cells) where no liquid is displaced only");
       if(options.front_within_cells && scene.material.curves)
         throw cases::Refusal("fem-enthalpy takes fronts at their places within cells "
                              "(front = within_cells) where the phases' properties are "
@@ -344,6 +350,8 @@ namespace meltfront::reference_fem
           = std::max(statistics.graph_inconsistency, outcome.graph_inconsistency);
       statistics.iterations = std::max(statistics.iterations, outcome.iterations);
       accept(step);
+      if(motion)
+        move_liquid();
       reached(step_number, time);
       if(outcome.iterations > comfortable_iterations && !queue.empty())
       {
@@ -351,6 +359,22 @@ namespace meltfront::reference_fem
         ++statistics.halvings;
       }
     }
+  }
+
+  void EnthalpyRun::move_liquid()
+  {
+    const LiquidMotion::Entered entered
+        = motion->move(mesh, enthalpy, enthalpy_before, time);
+    boundary_heat.now += entered.now;
+    boundary_heat.before += entered.before;
+    for(std::size_t i = entered.first; i < u.size(); ++i)
+    {
+      u.set(i, solver->kirchhoff_at_enthalpy(i, enthalpy[i]));
+      u_before.set(i, solver->kirchhoff_at_enthalpy(i, enthalpy_before[i]));
+    }
+    u_accepted = u;
+    linear_solver->conductances_changed();
+    check_balance();
   }
 
   void EnthalpyRun::require_halvable(const StepFormula &step,

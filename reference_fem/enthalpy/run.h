@@ -6,6 +6,7 @@
 #include <reference_fem/enthalpy/alloy_solver.h>
 #include <reference_fem/enthalpy/front_conduction.h>
 #include <reference_fem/enthalpy/heat_sources.h>
+#include <reference_fem/enthalpy/liquid_motion.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/options.h>
 #include <reference_fem/enthalpy/time_scheme.h>
@@ -68,6 +69,7 @@ namespace meltfront::reference_fem
     StepOutcome attempt(const StepFormula &step);
     StepOutcome solve_with_fronts(const StepFormula &step);
     void accept(const StepFormula &step);
+    void move_liquid();
     void require_halvable(const StepFormula &step, const StepOutcome &outcome) const;
     StepOutcome solve(StepFormula &step);
     void check_temperatures(const StepFormula &step) const;
@@ -81,7 +83,8 @@ namespace meltfront::reference_fem
     double latent_heat(std::size_t node) const;
     std::vector<cases::EffectCost> effect_costs() const;
 
-    const cases::Scene &scene;
+    std::unique_ptr<LiquidMotion> motion; ///< null where no liquid is displaced
+    const cases::Scene &scene;            ///< in the coordinate of mass where one is
     const cases::EffectSet &effects;
     const cases::Resolution &resolution;
     RunOptions options;

@@ -105,6 +105,8 @@ namespace meltfront::reference_fem
     snapshot.heat.boundary = boundary_heat.now;
     snapshot.heat.sources = source_heat();
     snapshot.heat.initial = initial_heat;
+    if(motion)
+      motion->return_to_space(mesh, snapshot);
     if(scene.alloy)
     {
       const double mass
@@ -158,6 +160,9 @@ namespace meltfront::reference_fem
         break;
       case cases::Effect::moving_source:
         result.push_back(sources->cost_of_moving());
+        break;
+      case cases::Effect::liquid_motion:
+        result.push_back(motion->cost());
         break;
       case cases::Effect::volumetric_source:
         result.push_back(release->cost());

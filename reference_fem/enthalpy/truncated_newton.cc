@@ -345,7 +345,8 @@ namespace meltfront::reference_fem
     const bool latent
         = effects.contains(Effect::phase_change) && material.latent_heat > 0;
     const bool two_slopes
-        = (effects.contains(Effect::phase_conductivity)
+        = ((effects.contains(Effect::phase_conductivity)
+            || effects.contains(Effect::liquid_motion))
            && material.solid.conductivity != material.liquid.conductivity)
           || (effects.contains(Effect::phase_heat_capacity)
               && material.solid.specific_heat_capacity

@@ -59,6 +59,35 @@ namespace meltfront::reference_fem::tests
       EXPECT_LT(difference_from_disk(40), 1e-12);
     }
 
+    /** The wall that lets heat in by a law melts a hollow cylinder as it does an annulus.
+     */
+    double difference_from_annulus(const Boundary &outer)
+    {
+      Scene turned = cylinder(two_phases(), -0.3, 0.1);
+      turned.domain.lower[0] = 0.5;
+      set_boundary(turned, Side::x_max, outer);
+      Scene round = ball(two_phases(), 2, 1, -0.3, 0.1);
+      round.domain.shape = DomainShape::shell;
+      round.domain.inner_radius = 0.5;
+      round.symmetry = Symmetry::cylindrical;
+      set_boundary(round, Side::inner, Boundary());
+      set_boundary(round, Side::outer, outer);
+      const OptionTexts steps{{"steps", "200"}};
+      const RunRecord of_body = run(turned, 12, steps), of_shell = run(round, 48, steps);
+      EXPECT_LT(of_body.solid.back(), 0.95 * of_body.volume.back());
+      return std::abs(2 * of_body.solid.back() - of_shell.solid.back());
+    }
+
+    TEST(Axisymmetric, AHollowCylinderThatMeltsIsAnAnnulus)
+    {
+      EXPECT_LT(difference_from_annulus(flux_wall(4)), 1e-12);
+      Boundary surrounded;
+      surrounded.kind = BoundaryKind::heat_transfer;
+      surrounded.value = Field::uniform(2);
+      surrounded.heat_transfer_coefficient = 3;
+      EXPECT_LT(difference_from_annulus(surrounded), 1e-12);
+    }
+
     /** 1 + J_0(k r) cos(2 pi z), no slope at any wall. */
     TEST(Axisymmetric, AWaveIsOfSecondOrder)
     {
