@@ -27,6 +27,10 @@ namespace meltfront::particles
     , front_rule(parameters.front)
     , exchange_effect(Effect::phase_conductivity)
   {
+    const bool follows_planes = front_rule == FrontRule::plane && dis.dimension == 2
+                                && !is_implicit(parameters.time_scheme);
+    if(front_rule == FrontRule::plane)
+      front_rule = FrontRule::sub_particle;
     // Without latent heat no particle melts gradually: fronts lie between particles.
     if(front_rule == FrontRule::sub_particle)
     {
@@ -37,6 +41,8 @@ namespace meltfront::particles
     }
     if(exchange_at_fronts())
       front_exchange.emplace(material, front_rule, conduction.rows);
+    if(follows_planes && front_rule == FrontRule::sub_particle)
+      front_exchange->follow_planes(dis);
     if(variable.mapped())
       mapped.resize(padded_size());
     if(effects.contains(Effect::heat_sources))
