@@ -110,6 +110,18 @@ namespace meltfront::particles
         apply_to_slice(slice, first, second, first_sums, second_sums);
     }
 
+    /** Call a function with each neighbour of a row and its coefficient, padding left
+     * out. */
+    template <typename Visit>
+    void visit_row(std::size_t row, const Visit &visit) const
+    {
+      const std::size_t slice = row / lanes;
+      for(std::size_t e = slice_begin[slice] + row % lanes; e < slice_begin[slice + 1];
+          e += lanes)
+        if(neighbours_of[e] != row)
+          visit(neighbours_of[e], coefficient[e]);
+    }
+
     /** A coefficient by its row and its neighbour. */
     struct Entry
     {

@@ -1,4 +1,5 @@
 #include <particles/sph/front_exchange.h>
+#include <particles/sph/plane_pair.h>
 
 namespace meltfront::particles
 {
@@ -75,6 +76,8 @@ namespace meltfront::particles
         [&]
         {
           find_fronts(state.u);
+          if(planes)
+            return apply_planes(rows, state, flow);
           with_pair(state,
                     [&](const auto &pair) { rows.apply_to_slices(fronts, pair, flow); });
         });
@@ -82,10 +85,73 @@ namespace meltfront::particles
       touched += rows.interactions(slice);
   }
 
+  void FrontExchange::follow_planes(const Discretisation &dis)
+  {
+    meter.measure_setup([&] { planes.emplace(dis); });
+  }
+
+  void FrontExchange::apply_planes(const ParticleOperator &rows, FrontState state,
+                                   std::span<double> flow)
+  {
+    planes->update(fronts, state.enthalpy, latent_heat);
+    const PlanePair pair{state, latent_heat, planes->distance()};
+    rows.apply_to_slices(fronts, pair, flow);
+    settle(rows, state, flow);
+  }
+
+  /**
+   * What a solid and a liquid particle leave over goes to the melting particles that both
+   * reach, by their coefficients. Where there is none, the pair exchanges as
+   * SubParticlePair does.
+   */
+  void FrontExchange::settle(const ParticleOperator &rows, FrontState state,
+                             std::span<double> flow) const
+  {
+    const PlanePair pair{state, latent_heat, planes->distance()};
+    const SubParticlePair direct{state, latent_heat};
+    const auto visit_between = [&](std::size_t a, std::size_t b, const auto &visit)
+    {
+      rows.visit_row(a,
+                     [&](std::size_t m, double to_a)
+                     {
+                       if(state.u[m] != 0)
+                         return;
+                       rows.visit_row(b,
+                                      [&](std::size_t same, double to_b)
+                                      {
+                                        if(same == m)
+                                          visit(m, to_a * to_b);
+                                      });
+                     });
+    };
+    const auto settle_pair = [&](std::size_t a, std::size_t b, double coefficient)
+    {
+      if(!(a < b && state.u[a] * state.u[b] < 0))
+        return;
+      double weight = 0;
+      visit_between(a, b, [&](std::size_t, double share) { weight += share; });
+      const double to_a = coefficient * pair(a, b), to_b = coefficient * pair(b, a);
+      if(weight > 0)
+        return visit_between(a, b,
+                             [&](std::size_t m, double share)
+                             { flow[m] -= (to_a + to_b) * share / weight; });
+      const double exchanged = coefficient * direct(a, b);
+      flow[a] += exchanged - to_a;
+      flow[b] -= exchanged + to_b;
+    };
+    constexpr std::size_t lanes = ParticleOperator::lanes;
+    for(const std::uint32_t slice : fronts)
+      for(std::size_t a = slice * lanes; a < std::min((slice + 1) * lanes, rows.rows());
+          ++a)
+        rows.visit_row(a, [&](std::size_t b, double coefficient)
+                       { settle_pair(a, b, coefficient); });
+  }
+
   cases::EffectCost FrontExchange::cost(cases::Effect effect) const
   {
     return meter.cost(effect, offsets.size() * sizeof(offsets[0])
                                   + adjacent.size() * sizeof(adjacent[0]) + phases.size()
-                                  + fronts.capacity() * sizeof(fronts[0]));
+                                  + fronts.capacity() * sizeof(fronts[0])
+                                  + (planes ? planes->bytes() : 0));
   }
 } // namespace meltfront::particles

@@ -4,10 +4,12 @@
 #include <cases/effect_meter.h>
 #include <cases/material.h>
 #include <particles/core/particle_operator.h>
+#include <particles/sph/front_planes.h>
 #include <particles/sph/parameters.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -145,6 +147,10 @@ namespace meltfront::particles
     FrontExchange(const cases::Material &material, FrontRule rule,
                   const ParticleOperator &rows);
 
+    /** Take the front's place from FrontPlanes in place of a melting particle's own solid
+     * fraction; for a rule of sub_particle in the plane. */
+    void follow_planes(const Discretisation &discretisation);
+
     /** The largest factor by which a pair exchanges more than u_b - u_a. */
     static double largest_factor(FrontRule rule);
 
@@ -179,6 +185,10 @@ namespace meltfront::particles
   private:
     void find_fronts(const double *u);
     bool update_phases(const double *u);
+    void apply_planes(const ParticleOperator &rows, FrontState state,
+                      std::span<double> flow);
+    void settle(const ParticleOperator &rows, FrontState state,
+                std::span<double> flow) const;
 
     FrontRule rule;
     double latent_heat;
@@ -188,6 +198,7 @@ namespace meltfront::particles
     std::vector<std::uint32_t> adjacent; ///< slices that a slice's rows reach
     std::vector<unsigned char> phases;   ///< of a slice's particles, a set of bits
     std::vector<std::uint32_t> fronts;   ///< slices that reach more than one phase
+    std::optional<FrontPlanes> planes;
     long touched = 0;
     cases::EffectMeter meter;
   };

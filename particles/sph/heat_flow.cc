@@ -52,6 +52,12 @@ namespace meltfront::particles
     const bool melts_gradually = sharp_latent_heat(material) > 0;
     if(material.curves)
       require_rule_for_curves(front_rule);
+    const bool follows_planes
+        = front_rule == FrontRule::plane && dis.dimension == 2
+          && scene.domain.shape != cases::DomainShape::axisymmetric
+          && !is_implicit(parameters.time_scheme);
+    if(front_rule == FrontRule::plane)
+      front_rule = FrontRule::sub_particle;
     // Without latent heat no particle melts gradually: fronts lie between particles.
     if(front_rule == FrontRule::sub_particle)
     {
@@ -66,6 +72,8 @@ namespace meltfront::particles
     // Without a jump u_b - u_a holds whatever u's slope is between the particles.
     if(exchange_at_fronts() && (melts_gradually || !material.curves))
       front_exchange.emplace(at_fronts(material), front_rule, conduction.rows);
+    if(follows_planes && front_rule == FrontRule::sub_particle)
+      front_exchange->follow_planes(dis);
     if(variable.mapped())
       mapped.resize(padded_size());
     if(effects.contains(Effect::heat_sources))

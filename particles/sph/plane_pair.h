@@ -1,0 +1,75 @@
+#ifndef meltfront_particles_sph_plane_pair_h
+#define meltfront_particles_sph_plane_pair_h
+
+#include <particles/sph/front_exchange.h>
+
+namespace meltfront::particles
+{
+  /**
+   * What drives heat between particles at a front whose place is known by the signed
+   * distance d of each particle (FrontPlanes), with linear temperature in each phase.
+   *
+   * A solid or liquid particle of the Kirchhoff variable u has the slope u/d across the
+   * front, so that a partner at the distance d' sees u (d - d')/d in place of u: this is
+   * what a pair with a melting partner exchanges. Between solid and liquid each side
+   * takes what its own slope gives; what one leaves over melts or freezes what lies
+   * between (FrontExchange::settle). Then a linear temperature in a phase stays as it is
+   * whatever way the front runs across the lattice. Factors of u are within 0 and 2.
+   */
+  struct PlanePair
+  {
+    FrontState state;
+    double latent_heat;
+    const double *distance; ///< from the front, in spacings; negative in the solid
+
+    /** Written without branches, so that eight rows advance together. */
+    double operator()(std::size_t a, std::size_t b) const
+    {
+      const double own = state.u[a], other = state.u[b];
+      const double difference = other - own;
+      const bool melting = own == 0;
+      const double partner = melting ? other : own;
+      const double factor = slope_factor(distance[melting ? b : a], partner,
+                                         std::abs(distance[b] - distance[a]),
+                                         melting ? distance[a] : distance[b]);
+      const double deviation = own * other > 0 ? 0.
+                               : own * other < 0
+                                   ? -own * across(distance[a], distance[b]) - difference
+                                   : difference * (factor - 1);
+      return difference + latent_share(a, b) * deviation;
+    }
+
+    double latent_share(std::size_t a, std::size_t b) const
+    {
+      const double sensible
+          = sensible_heat(state.enthalpy[a]) + sensible_heat(state.enthalpy[b]);
+      return latent_heat / std::max(latent_heat, sensible);
+    }
+
+  private:
+    /** Nearest to the front that a particle's slope is trusted, in spacings. */
+    static constexpr double nearest = 0.25;
+
+    /** (d - d')/d of a particle of one phase at d to a melting one at d'; none where the
+     * melting one lies deeper in the phase. */
+    static double slope_factor(double own, double u, double apart, double melting)
+    {
+      const double depth = u < 0 ? -own : own;
+      const double beyond = u < 0 ? melting - own : own - melting;
+      return beyond > 0 ? std::min(2., apart / std::max(depth, nearest)) : 0.;
+    }
+
+    static double across(double own, double other)
+    {
+      return std::min(2., std::abs(other - own) / std::max(std::abs(own), nearest));
+    }
+
+    /** |c (T - T_m)| */
+    double sensible_heat(double enthalpy) const
+    {
+      return std::max(-enthalpy, 0.) + std::max(enthalpy - latent_heat, 0.);
+    }
+  };
+} // namespace meltfront::particles
+
+#endif
