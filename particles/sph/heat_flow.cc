@@ -35,6 +35,15 @@ namespace meltfront::particles
         throw cases::Refusal("where properties depend on temperature, or the material "
                              "melts over a range, sph needs front = sub_particle");
     }
+    /** @throws cases::Refusal where fronts are not followed as lines of the plane */
+    void require_place_for_planes(const Discretisation &dis,
+                                  const SphParameters &parameters)
+    {
+      if(dis.dimension != 2 || dis.scene.domain.shape == cases::DomainShape::axisymmetric
+         || is_implicit(parameters.time_scheme))
+        throw cases::Refusal("sph follows fronts as lines (front = plane) in two "
+                             "dimensions, not about an axis, and with explicit steps");
+    }
   } // namespace
 
   HeatFlow::HeatFlow(const Discretisation &dis, const cases::EffectSet &effects,
@@ -52,10 +61,9 @@ namespace meltfront::particles
     const bool melts_gradually = sharp_latent_heat(material) > 0;
     if(material.curves)
       require_rule_for_curves(front_rule);
-    const bool follows_planes
-        = front_rule == FrontRule::plane && dis.dimension == 2
-          && scene.domain.shape != cases::DomainShape::axisymmetric
-          && !is_implicit(parameters.time_scheme);
+    const bool follows_planes = front_rule == FrontRule::plane;
+    if(follows_planes)
+      require_place_for_planes(dis, parameters);
     if(front_rule == FrontRule::plane)
       front_rule = FrontRule::sub_particle;
     // Without latent heat no particle melts gradually: fronts lie between particles.

@@ -107,8 +107,8 @@ namespace meltfront::particles
         "of a quadratic is exact.");
     options.add("front", values.front,
                 "Exchange of heat at a front: with the front at its place within the "
-                "melting particle (plane: in two dimensions and explicit steps as a line "
-                "through the particles about it), with a melting particle conducting as "
+                "melting particle (plane: as a line through the particles about it; two "
+                "dimensions, explicit steps), with a melting particle conducting as "
                 "its partner, or "
                 "as the liquid until it has frozen.",
                 {{"sub_particle", FrontRule::sub_particle},

@@ -16,8 +16,8 @@ namespace meltfront::particles
   {
     sub_particle, ///< the front lies within the melting particle, where its solid
                   ///< fraction puts it
-    plane,        ///< as sub_particle; in two dimensions and explicit steps, where the
-                  ///< solid fraction of the particles about it puts a straight front
+    plane,        ///< in two dimensions and explicit steps: where the solid fraction of
+                  ///< the particles about it puts a straight front
     partner,      ///< a melting particle has the conductivity of its partner
     liquid        ///< that of the liquid until it has frozen (Monaghan et al. 2005,
                   ///< section 3)
