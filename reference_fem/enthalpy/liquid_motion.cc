@@ -201,12 +201,12 @@ namespace meltfront::reference_fem
     for(std::size_t i = 0; i < enthalpy.size(); ++i)
     {
       const double fraction = solid_fraction(enthalpy[i]);
-      if(liquid && fraction > 0.5)
+      if(liquid && fraction > 0)
         throw cases::Refusal(
             fmt::format("fem-enthalpy moves liquid only away from solid at x_min: at t = "
                         "{:.6g} s there is solid beyond liquid",
                         time));
-      liquid = liquid || fraction < 0.5;
+      liquid = fraction == 0;
       if(fraction > 0)
         beyond = i + 1;
     }

@@ -47,6 +47,8 @@ namespace meltfront::reference_fem
     slack = obeys_maximum_principle
                 ? cases::overshoot_of_round_off
                 : cases::allowed_overshoot(overshoot, mesh.spacing, scene.domain);
+    if(motion && mesh.dimension > 1)
+      throw cases::Refusal("fem-enthalpy moves displaced liquid in one dimension only");
     const std::size_t n = mesh.volume.size();
     free.assign(n, 1);
     if(effects.contains(Effect::heat_sources))
@@ -64,6 +66,12 @@ namespace meltfront::reference_fem
     enthalpy = alloy ? alloy->initial_enthalpy()
                      : initial_enthalpy(scene, *geometry, mesh, free);
     enthalpy_before = enthalpy;
+    if(motion)
+    {
+      // Cells that the front cuts hold a little more or less solid than lies in them.
+      motion->move(mesh, enthalpy, enthalpy_before, time);
+      linear_solver->conductances_changed();
+    }
     u = CompensatedVector(n);
     for(std::size_t i = 0; i < n; ++i)
       u.set(i, solver->kirchhoff_at_enthalpy(i, enthalpy[i]));

@@ -111,7 +111,7 @@ namespace meltfront::reference_fem::tests
       expect_refusal(slab(material, 1, 0.1, 1, fixed_wall(-1), Boundary()),
                      "no liquid is displaced", {{"front", "within_cells"}});
       expect_refusal(slab(material, 1, 0.1, 1, fixed_wall(-1), Boundary()),
-                     "in 1 dimensions", {{"dimension", "2"}});
+                     "one dimension only", {{"dimension", "2"}});
     }
   } // namespace
 } // namespace meltfront::reference_fem::tests

@@ -265,11 +265,11 @@ namespace meltfront::reference_fem::tests
       EXPECT_EQ(run(without, 48).temperature, run(forced, 48).temperature);
     }
 
-    TEST(Effects, LiquidMotionIsRefused)
+    TEST(Effects, LiquidMotionIsRefusedInThePlane)
     {
       Material material = water();
       material.solid.density = 917;
-      Scene scene = slab(material, 1, 10, 0, 1000);
+      const Scene scene = box(material, 2, {}, {1, 1, 0}, 10, 1000);
       NoObserver nobody;
       EXPECT_THROW(solve(*make_fem_enthalpy(), scene, {}, nobody), Refusal);
     }

@@ -44,6 +44,8 @@ namespace meltfront::verification::claims
       trial.n = trial.scene.material.gibbs_thomson_coefficient != 0 ? 24
                 : trial.scene.sources.empty()                       ? 18
                                                                     : 28;
+    if(method == "fem-enthalpy" && shape == DomainShape::axisymmetric)
+      trial.n = 36;
     if(method == "fem-enthalpy" && shape == DomainShape::ball)
       trial.n = !trial.scene.sources.empty() ? 64
                 : dimension == 2             ? 32
