@@ -148,7 +148,7 @@ namespace meltfront::particles::testing
       oracle.material = contrast();
       oracle.inner = 0.4;
       oracle.end_time = 0.06;
-      oracle.initial_front = 0.6;
+      oracle.initial_fronts = {0.6};
       oracle.initial_temperature = [](double r)
       { return r < 0.6 ? 5 * (r - 0.6) : std::sin(pi / 2 * (r - 0.6) / 0.4); };
       oracle.inner_wall
@@ -187,7 +187,7 @@ namespace meltfront::particles::testing
       oracle.material = contrast();
       oracle.outer = 1.6;
       oracle.end_time = 0.1;
-      oracle.initial_front = 0.6;
+      oracle.initial_fronts = {0.6};
       oracle.initial_temperature = [](double r)
       { return r < 0.6 ? 0.5 * (r * r / 0.36 - 1) : 2 * std::sin(pi / 2 * (r - 0.6)); };
       oracle.nodes = 24;
