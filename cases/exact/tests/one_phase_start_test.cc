@@ -1,12 +1,15 @@
 #include <cases/error.h>
+#include <cases/exact/heat_quadrature.h>
 #include <cases/exact/one_phase_start.h>
 #include <cases/exact/planar_neumann.h>
 #include <cases/exact/tests/materials.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace meltfront::cases
 {
@@ -33,27 +36,49 @@ namespace meltfront::cases
       return problem;
     }
 
-    /** Heat that came through the walls of unit measure, by Simpson's rule in the root of
-     * the time. */
+    /** When a front leaves its wall, where the wall's temperature has a kink. */
+    double onset(const LayeredSolution &solution, std::size_t front, double end)
+    {
+      const double at_wall = solution.fronts(0)[front];
+      double before = 0, after = end;
+      while(after - before > 1e-14 * end)
+      {
+        const double middle = (before + after) / 2;
+        (solution.fronts(middle)[front] == at_wall ? before : after) = middle;
+      }
+      return after;
+    }
+
+    /** Heat that came through walls under heat transfer, per area: by Gauss quadrature
+     * between the onsets, over the root of the time since each. */
     double heat_gained(const OracleProblem &problem, const LayeredSolution &solution)
     {
-      const int panels = 400;
-      const double last = std::sqrt(problem.end_time);
-      double sum = 0;
-      for(int i = 0; i <= panels; ++i)
+      std::vector<double> times{0, problem.end_time};
+      for(std::size_t i = 0; i < solution.fronts(0).size(); ++i)
+        times.push_back(onset(solution, i, problem.end_time));
+      std::ranges::sort(times);
+      const auto flux = [&](double time)
       {
-        const double tau = last * i / panels, time = tau * tau;
-        double flux = 0;
+        double sum = 0;
         for(const OracleWall *wall : {&problem.inner_wall, &problem.outer_wall})
           if(wall->kind == BoundaryKind::heat_transfer)
-            flux += wall->heat_transfer_coefficient
-                    * (wall->value(time)
-                       - solution.temperature(wall == &problem.inner_wall ? problem.inner
-                                                                          : problem.outer,
-                                              time));
-        sum += (i == 0 || i == panels ? 1 : i % 2 == 1 ? 4 : 2) * 2 * tau * flux;
+            sum += wall->heat_transfer_coefficient
+                   * (wall->value(time)
+                      - solution.temperature(wall == &problem.inner_wall ? problem.inner
+                                                                         : problem.outer,
+                                             time));
+        return sum;
+      };
+      double heat = 0;
+      for(std::size_t i = 0; i + 1 < times.size(); ++i)
+      {
+        const double last = std::sqrt(times[i + 1] - times[i]);
+        heat += integrate_panels(
+            Symmetry::planar, 0, last,
+            [&](double tau) { return 2 * tau * flux(times[i] + tau * tau); },
+            [&](double) { return last / 16; });
       }
-      return sum * last / panels / 3;
+      return heat;
     }
   } // namespace
 
