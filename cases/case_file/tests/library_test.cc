@@ -171,8 +171,9 @@ TEST(Library, ExactSolutionsSatisfyTheirHeldWallsAndInitialStates)
         = bounds.upper
           - (std::isfinite(bounds.lower) ? bounds.lower
                                          : scene.material.melting_temperature);
-    const double inner = scene.domain.inner_radius;
-    const double side = scene.domain.round() ? scene.domain.radius : scene.domain.side();
+    const Domain &domain = scene.domain;
+    const double inner = domain.round() ? domain.inner_radius : domain.lower[0];
+    const double side = domain.round() ? domain.radius : domain.upper[0];
     for(const double share : {0.11, 0.37, 0.73, 0.99})
     {
       const double x = inner + share * (side - inner);

@@ -125,8 +125,11 @@ TEST(MaterialCase, WhatCannotBeIsRefused)
   EXPECT_TRUE(holds(about(ranged, "set solidus temperature = -2",
                           "set solidus temperature = -2\n    set solid fraction = lever"),
                     "'partition coefficient'"));
-  // What is known exactly of constant properties is not known of these.
-  EXPECT_TRUE(
-      holds(complaint(varying + "subsection Exact solution\n  set kind = neumann\nend\n"),
-            "do not depend on temperature"));
+  // Neumann's solution is known of these, others are not.
+  EXPECT_EQ(complaint(varying + "subsection Exact solution\n  set kind = neumann\nend\n"),
+            "no complaint");
+  EXPECT_TRUE(holds(complaint(varying
+                              + "subsection Exact solution\n  set kind = oracle\n"
+                                "  set start = one phase\nend\n"),
+                    "do not depend on temperature"));
 }
