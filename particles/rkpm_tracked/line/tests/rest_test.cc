@@ -97,6 +97,7 @@ namespace meltfront::particles::rkpm_tracked
       problem.walls[0] = {.kind = cases::BoundaryKind::heat_transfer,
                           .value = [](double) { return 550.; },
                           .law = {.kind = cases::BoundaryKind::heat_transfer,
+                                  .value = {},
                                   .heat_transfer_coefficient = 2}};
       // 2 (550 - T) = (T - 430)/X = 100/(1 - X).
       const double front = resting_front(problem);
@@ -110,6 +111,7 @@ namespace meltfront::particles::rkpm_tracked
       problem.walls[0] = {.kind = cases::BoundaryKind::radiation,
                           .value = [](double) { return 550.; },
                           .law = {.kind = cases::BoundaryKind::radiation,
+                                  .value = {},
                                   .emission_coefficient = 4e-9,
                                   .absolute_zero = 0}};
       // 4e-9 (550^4 - T^4) = (T - 430)/X = 100/(1 - X).
