@@ -2,6 +2,7 @@
 #include <cases/case_file/vary_case.h>
 #include <cases/error.h>
 #include <verification/matrix/matrix_file.h>
+#include <verification/record/label.h>
 
 #include <gtest/gtest.h>
 
@@ -186,7 +187,10 @@ namespace meltfront::verification
       for(const std::string &name : cases::library_names())
       {
         const cases::Case c = cases::load_case(name);
-        EXPECT_TRUE(bounded.contains(name) || !c.criteria.empty()
+        const bool of_family
+            = std::ranges::any_of(bounded, [&name](const std::string &family)
+                                  { return in_family(family, name); });
+        EXPECT_TRUE(of_family || bounded.contains(name) || !c.criteria.empty()
                     || std::ranges::find(c.tags, "hard") != c.tags.end())
             << name;
       }

@@ -316,7 +316,7 @@ namespace meltfront::verification::claims
           {
             of.start.straight = true;
             of.trial.scene.material.liquid.density = second ? 0.25 : 4;
-            of.trial.scene.end_time = 0.2;
+            of.trial.scene.end_time = 0.17;
             wall(of.trial.scene, far_side(of.trial.scene.domain))
                 = held_at([](const Position &, double) { return 1.; });
           });
