@@ -1,5 +1,4 @@
 #include <cases/error.h>
-#include <cases/wall_law.h>
 #include <particles/rkpm_tracked/line/collocation.h>
 
 #include <algorithm>
@@ -9,10 +8,6 @@ namespace meltfront::particles::rkpm_tracked
 {
   namespace
   {
-    /** Newton's passes for walls that radiate: few are needed. */
-    constexpr int most_passes = 20;
-    constexpr double same_temperature = 1e-13;
-
     /** Spacings over the thickness of a layer before a front, V h/a: up to the one it is
      * resolved, from the other on it is fitted. */
     constexpr double resolved_peclet = 0.25, unresolved_peclet = 0.75;
@@ -161,35 +156,6 @@ namespace meltfront::particles::rkpm_tracked
       right_side[p] += problem.volumetric_source(cloud.position[0][p], time) / capacity;
   }
 
-  void LineCollocation::add_wall_row(std::size_t point, int side,
-                                     const LineInterval &interval, double time)
-  {
-    const LineWall &wall = problem.walls[static_cast<std::size_t>(side)];
-    const LineStencil &row = rows[point];
-    std::vector<double> &values = coefficients[point];
-    values.assign(row.size(), 0.);
-    right_side[point] = 0;
-    if(wall.fixed())
-    {
-      values[point - row.first] = 1;
-      right_side[point] = wall.value(time);
-      return;
-    }
-    const double conductivity = problem.phase(interval.solid).conductivity;
-    const double outward = side == 0 ? -1 : 1;
-    for(std::size_t j = 0; j < row.size(); ++j)
-      values[j] = outward * conductivity * row.slope[j];
-    if(wall.kind == BoundaryKind::flux)
-      right_side[point] = wall.value(time);
-    if(cases::exchanges_heat(wall.kind))
-    {
-      const cases::HeatTransfer transfer = cases::heat_transfer_near(
-          wall.law, wall.value(time), wall_guess[static_cast<std::size_t>(side)]);
-      values[point - row.first] += transfer.coefficient;
-      right_side[point] = transfer.coefficient * transfer.ambient;
-    }
-  }
-
   void LineCollocation::make_rows(const LineInterval &interval, const StepTerms &terms)
   {
     const std::size_t points = cloud.size();
@@ -300,25 +266,6 @@ namespace meltfront::particles::rkpm_tracked
       slopes[side] += (side == 0 ? 1 : -1) * unseen[side].density * unseen[side].reach
                       / problem.phase(interval.solid).conductivity;
     return slopes;
-  }
-
-  /** Whether radiating walls have the temperatures about which their laws were
-   * linearised, which become those just found. */
-  bool LineCollocation::walls_settled(const LineInterval &interval)
-  {
-    bool settled = true;
-    for(const std::size_t side : {0, 1})
-      if(problem.walls[side].radiates()
-         && !(side == 0 ? interval.lower_front : interval.upper_front))
-      {
-        const double found = side == 0 ? right_side.front() : right_side.back();
-        settled = settled
-                  && !(std::abs(found - wall_guess[side])
-                       > same_temperature
-                             * std::abs(found - problem.walls[side].law.absolute_zero));
-        wall_guess[side] = found;
-      }
-    return settled;
   }
 
   /** By bisection, from what the two nodes nearest to the front continue to it. */
@@ -446,34 +393,5 @@ namespace meltfront::particles::rkpm_tracked
   {
     gather_values(interval, temperature);
     return end_slopes();
-  }
-
-  double LineCollocation::exchanging_wall(const LineInterval &interval, std::size_t side,
-                                          double ambient,
-                                          std::span<const double> temperature)
-  {
-    gather_values(interval, temperature);
-    const std::size_t point = side == 0 ? 0 : cloud.size() - 1;
-    const LineStencil &row = rows[point];
-    const double conductivity = problem.phase(interval.solid).conductivity;
-    double value = right_side[point];
-    for(int pass = 0; pass < most_passes; ++pass)
-    {
-      const cases::HeatTransfer transfer
-          = cases::heat_transfer_near(problem.walls[side].law, ambient, value);
-      double own = transfer.coefficient, others = 0;
-      for(std::size_t j = 0; j < row.size(); ++j)
-      {
-        const double coefficient = (side == 0 ? -1 : 1) * conductivity * row.slope[j];
-        if(row.first + j == point)
-          own += coefficient;
-        else
-          others += coefficient * right_side[row.first + j];
-      }
-      value = (transfer.coefficient * transfer.ambient - others) / own;
-      if(!problem.walls[side].radiates())
-        break;
-    }
-    return value;
   }
 } // namespace meltfront::particles::rkpm_tracked

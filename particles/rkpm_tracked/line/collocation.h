@@ -126,6 +126,8 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<std::vector<double>> coefficients;
     std::vector<double> right_side;
     BandMatrix matrix;
+    /** Newton's passes for walls that radiate: few are needed. */
+    static constexpr int most_passes = 20;
     std::array<double, 2> wall_guess{}; ///< about which radiation is linearised (K)
     long entries = 0;
     std::array<UnseenRelease, 2> unseen{}; ///< at the lower and the upper front
