@@ -49,6 +49,8 @@ namespace meltfront::verification
 
   int measure_dimension(const StoredCase &record)
   {
+    if(record.scene.domain.shape == cases::DomainShape::axisymmetric)
+      return 3;
     if(record.scene.symmetry == cases::Symmetry::none)
       return record.scene.domain.dimension;
     return record.scene.symmetry == cases::Symmetry::planar        ? 1

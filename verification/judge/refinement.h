@@ -36,7 +36,8 @@ namespace meltfront::verification
   };
 
   /** Of which power of a length volumes are in the measure of the scene: 1 in planar
-   * scenes, 2 in cylindrical, 3 in spherical ones, else the dimension. */
+   * scenes, 2 in cylindrical, 3 in spherical ones, 3 about an axis,
+   * else the dimension. */
   int measure_dimension(const StoredCase &record);
 
   /**
