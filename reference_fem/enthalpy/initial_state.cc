@@ -106,6 +106,10 @@ namespace meltfront::reference_fem
                           && !(exact->front(scene.start_time) > 0);
       if(!(scene.material.latent_heat > 0) || begins)
         return {};
+      // Of a front of any shape the phase is at hand, and its distance takes a search.
+      if(exact && !exact->depends_on_one_coordinate() && !exact->mushy())
+        return cases::Field{"exact", [exact](const Position &p, double time)
+                            { return 0.5 - exact->solid_fraction(p, time); }};
       if(scene.initial.front || !exact)
         return scene.initial.front;
       return cases::exact_level(exact);
