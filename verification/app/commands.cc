@@ -5,6 +5,7 @@
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
 #include <verification/app/methods.h>
+#include <verification/judge/coverage.h>
 #include <verification/judge/criteria.h>
 #include <verification/judge/stability.h>
 #include <verification/matrix/matrix_file.h>
@@ -66,6 +67,7 @@ namespace meltfront::verification
       }
       write_summary(directory, result);
       write_report(result, directory);
+      write_atomically(directory + "/coverage.csv", coverage_csv(coverage_of(result)));
       write_atomically(directory + "/capabilities.txt", capability_text());
       std::fputs(console_summary(result).c_str(), stdout);
       fmt::print("Report: {}\n", std::filesystem::absolute(directory + "/report.html")

@@ -122,9 +122,18 @@ namespace meltfront::verification
     visit("front_isotherm", series.front_isotherm, since_later);
     visit("front_exact", series.front_exact, since_later);
     visit("solid_volume", series.solid_volume, since_later);
+    visit("heat", series.heat, since_later);
     visit("budget_defect", series.budget_defect, since_later);
     visit("temperature_min", series.temperature_min, since_later);
     visit("temperature_max", series.temperature_max, since_later);
+  }
+
+  void fields(const auto &visit, Like<TemperatureProbe> auto &probe)
+  {
+    visit("coordinate", probe.coordinate);
+    visit("place", probe.place);
+    visit("temperature", probe.temperature);
+    visit("temperature_exact", probe.temperature_exact);
   }
 
   void fields(const auto &visit, Like<RunProfile> auto &profile)
@@ -162,6 +171,8 @@ namespace meltfront::verification
     visit("quantities", record.quantities);
     visit("series", record.series);
     visit("profile", record.profile);
+    visit("probes", record.probes, if_any);
+    visit("solid_volume_exact", record.solid_volume_exact, since_later);
     visit("intermediate_profiles", record.intermediate_profiles, since_later);
     visit("frames", record.frames, since_later);
     visit("particle_frames", record.particle_frames, if_any);

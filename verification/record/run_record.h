@@ -29,6 +29,7 @@ namespace meltfront::verification
     std::vector<double> front_isotherm; ///< by T = T_m (m); NaN where there is none
     std::vector<double> front_exact;    ///< empty without an exact solution
     std::vector<double> solid_volume;   ///< in the measure of the scene (m, m^2, m^3)
+    std::vector<double> heat;           ///< taken in since the start (J/m^2, J/m, J)
     std::vector<double> budget_defect;  ///< relative
     std::vector<double> temperature_min;
     std::vector<double> temperature_max;
@@ -48,6 +49,15 @@ namespace meltfront::verification
     /** Sites in the plane for a picture (2D sites, or the slice nearest z = 0), at most
      * 6000. */
     std::vector<double> picture_x, picture_y, picture_solid_fraction, picture_temperature;
+  };
+
+  /** The temperature at a place at the end. */
+  struct TemperatureProbe
+  {
+    std::string coordinate{}; ///< `x` or `r`, the one that the scene depends on, or empty
+    std::vector<double> place; ///< that coordinate, or all of a point (m)
+    double temperature = 0;
+    double temperature_exact = cases::nan; ///< NaN without an exact solution
   };
 
   /** Points that a method tracked on the front at a time (m), in the plane z = 0 or the
@@ -112,6 +122,8 @@ namespace meltfront::verification
 
     RunSeries series;
     RunProfile profile;
+    std::vector<TemperatureProbe> probes;   ///< at places that are the same for all runs
+    double solid_volume_exact = cases::nan; ///< at the end; NaN where it is unknown
     std::vector<RunProfile>
         intermediate_profiles;      ///< at Measurement::intermediate_times or some
     std::vector<FrontFrame> frames; ///< at Measurement::intermediate_times and at the end

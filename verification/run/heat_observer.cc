@@ -3,6 +3,7 @@
 #include <verification/measure/formulas/front_shape.h>
 #include <verification/run/end_profile.h>
 #include <verification/run/heat_observer.h>
+#include <verification/run/temperature_probes.h>
 
 #include <fmt/format.h>
 
@@ -89,6 +90,8 @@ namespace meltfront::verification
     run_series.front.push_back(sighting.front.latent_heat);
     run_series.front_isotherm.push_back(sighting.front.isotherm);
     run_series.solid_volume.push_back(sighting.solid_volume);
+    const cases::HeatBudget &heat = sighting.snapshot.heat;
+    run_series.heat.push_back(heat.stored + heat.latent - heat.initial);
     run_series.budget_defect.push_back(sighting.snapshot.heat.defect());
     run_series.temperature_min.push_back(sighting.lowest);
     run_series.temperature_max.push_back(sighting.highest);
@@ -112,6 +115,10 @@ namespace meltfront::verification
     if(!sighting.at_end)
       return;
     end_profile = profile();
+    probes
+        = read_probes(scene, snapshot, *sighting.coordinates, exact, description.spacing);
+    if(exact && scene.changes_phase())
+      exact_volume = exact->solid_volume(snapshot.time);
     if(front_frames.empty() || front_frames.back().time < snapshot.time)
       keep_front(snapshot);
   }
@@ -129,6 +136,8 @@ namespace meltfront::verification
   {
     RunObserver::keep_results(record);
     record.profile = end_profile;
+    record.probes = probes;
+    record.solid_volume_exact = exact_volume;
     record.intermediate_profiles = profiles;
   }
 

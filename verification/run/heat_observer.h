@@ -1,6 +1,7 @@
 #ifndef meltfront_verification_run_heat_observer_h
 #define meltfront_verification_run_heat_observer_h
 
+#include <cases/numbers.h>
 #include <verification/measure/checks/snapshot_checks.h>
 #include <verification/measure/formulas/run_statistics.h>
 #include <verification/run/run_observer.h>
@@ -50,6 +51,8 @@ namespace meltfront::verification
     std::optional<FrontReader> reader;
     SnapshotTimes intermediate_times;
     RunProfile end_profile;
+    std::vector<TemperatureProbe> probes;
+    double exact_volume = cases::nan; ///< of the solid at the end
     /** States of an alloy at the intermediate times; of a pure substance at the one of
      * which a picture is kept. */
     std::vector<RunProfile> profiles;

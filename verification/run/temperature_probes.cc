@@ -1,0 +1,236 @@
+#include <cases/numbers.h>
+#include <cases/outline.h>
+#include <verification/measure/formulas/front_reader.h>
+#include <verification/measure/formulas/site_coordinates.h>
+#include <verification/run/temperature_probes.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using cases::nan;
+
+    constexpr int probes_along_line = 20;
+    constexpr std::array<int, 4> probes_along_side{0, 0, 5, 3}; ///< by dimension
+    constexpr std::size_t points_of_polynomial = 6;
+
+    /** Ascending coordinates, each once, with their temperature and phase. */
+    struct Profile
+    {
+      std::vector<double> coordinate, temperature;
+      std::vector<bool> solid;
+    };
+
+    Profile profile_of(const cases::Snapshot &snapshot,
+                       const std::vector<double> &coordinates, double spacing)
+    {
+      std::vector<double> places(coordinates);
+      std::vector<double> temperatures(snapshot.temperature.begin(),
+                                       snapshot.temperature.end());
+      std::vector<double> fractions(snapshot.solid_fraction.begin(),
+                                    snapshot.solid_fraction.end());
+      if(snapshot.dimension > 1)
+      {
+        const Shells shells(coordinates, spacing);
+        places = shells.coordinate;
+        temperatures = shells.means(snapshot.temperature);
+        fractions = shells.means(snapshot.solid_fraction);
+      }
+      std::vector<std::size_t> order(places.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::ranges::stable_sort(order, {}, [&](std::size_t i) { return places[i]; });
+      Profile profile;
+      for(const std::size_t i : order)
+        if(profile.coordinate.empty()
+           || places[i] > profile.coordinate.back() + 1e-9 * spacing)
+        {
+          profile.coordinate.push_back(places[i]);
+          profile.temperature.push_back(temperatures[i]);
+          profile.solid.push_back(fractions[i] > 0.5);
+        }
+      return profile;
+    }
+
+    /** Neville's scheme through the points from `first` on. */
+    double polynomial(const Profile &profile, std::size_t first, std::size_t points,
+                      double place)
+    {
+      std::vector<double> value(profile.temperature.begin() + first,
+                                profile.temperature.begin() + first + points);
+      const double *x = profile.coordinate.data() + first;
+      for(std::size_t level = 1; level < points; ++level)
+        for(std::size_t i = 0; i + level < points; ++i)
+          value[i] = ((place - x[i + level]) * value[i] + (x[i] - place) * value[i + 1])
+                     / (x[i] - x[i + level]);
+      return value[0];
+    }
+
+    double temperature_at(const Profile &profile, double place)
+    {
+      const std::size_t size = profile.coordinate.size();
+      if(size == 0)
+        return nan;
+      const auto above = std::ranges::lower_bound(profile.coordinate, place);
+      auto nearest = static_cast<std::size_t>(above - profile.coordinate.begin());
+      if(nearest == size
+         || (nearest > 0
+             && place - profile.coordinate[nearest - 1]
+                    < profile.coordinate[nearest] - place))
+        --nearest;
+      // As many points on either side as its phase allows.
+      std::size_t first = nearest, last = nearest;
+      const auto may_grow_down = [&]
+      { return first > 0 && profile.solid[first - 1] == profile.solid[nearest]; };
+      const auto may_grow_up = [&]
+      { return last + 1 < size && profile.solid[last + 1] == profile.solid[nearest]; };
+      while(last - first + 1 < points_of_polynomial && (may_grow_down() || may_grow_up()))
+      {
+        const bool down_is_nearer = may_grow_down()
+                                    && (!may_grow_up()
+                                        || place - profile.coordinate[first - 1]
+                                               <= profile.coordinate[last + 1] - place);
+        down_is_nearer ? --first : ++last;
+      }
+      return polynomial(profile, first, last - first + 1, place);
+    }
+
+    std::vector<TemperatureProbe> along_line(const cases::Scene &scene,
+                                             const cases::Snapshot &snapshot,
+                                             const std::vector<double> &coordinates,
+                                             const cases::ExactSolution *exact,
+                                             double spacing)
+    {
+      const cases::Domain &domain = scene.domain;
+      const bool planar = measured_symmetry(scene, exact) == cases::Symmetry::planar;
+      const double lower = planar ? domain.lower[0] : domain.inner_radius;
+      const double upper = planar           ? domain.upper[0]
+                           : domain.round() ? domain.radius
+                                            : domain.side() / 2;
+      const Profile profile = profile_of(snapshot, coordinates, spacing);
+      std::vector<TemperatureProbe> probes;
+      for(int i = 0; i < probes_along_line; ++i)
+      {
+        const double place = lower + (i + 0.5) * (upper - lower) / probes_along_line;
+        probes.push_back({planar ? "x" : "r",
+                          {place},
+                          temperature_at(profile, place),
+                          exact ? exact->temperature(place, snapshot.time) : nan});
+      }
+      return probes;
+    }
+
+    bool inside(const cases::Domain &domain, const cases::Position &place)
+    {
+      if(domain.outline)
+        return domain.outline->inside(place);
+      if(!domain.round())
+        return true;
+      const double r = std::hypot(place[0], place[1], place[2]);
+      return r > domain.inner_radius && r < domain.radius;
+    }
+
+    std::vector<cases::Position> places_inside(const cases::Domain &domain)
+    {
+      const int parts = probes_along_side[domain.dimension];
+      const auto coordinate = [&](int d, int i)
+      {
+        const double lower = domain.round() ? -domain.radius : domain.lower[d];
+        const double upper = domain.round() ? domain.radius : domain.upper[d];
+        return lower + (i + 0.5) * (upper - lower) / parts;
+      };
+      std::vector<cases::Position> places;
+      const int layers = domain.dimension == 3 ? parts : 1;
+      for(int k = 0; k < layers; ++k)
+        for(int j = 0; j < parts; ++j)
+          for(int i = 0; i < parts; ++i)
+          {
+            const cases::Position place{coordinate(0, i), coordinate(1, j),
+                                        domain.dimension == 3 ? coordinate(2, k) : 0};
+            if(inside(domain, place))
+              places.push_back(place);
+          }
+      return places;
+    }
+
+    /** 1, x, y, ..., x x, x y, ... about a place, in units of the spacing. */
+    Eigen::RowVectorXd monomials(const cases::Position &offset, int dimension)
+    {
+      Eigen::RowVectorXd row(1 + dimension + dimension * (dimension + 1) / 2);
+      int column = 0;
+      row[column++] = 1;
+      for(int d = 0; d < dimension; ++d)
+        row[column++] = offset[d];
+      for(int d = 0; d < dimension; ++d)
+        for(int e = d; e < dimension; ++e)
+          row[column++] = offset[d] * offset[e];
+      return row;
+    }
+
+    double fitted_temperature(const cases::Snapshot &snapshot,
+                              const cases::Position &place, double spacing)
+    {
+      constexpr double reach = 2.5; // in spacings
+      const std::size_t sites = snapshot.temperature.size();
+      std::vector<cases::Position> offsets(sites);
+      std::vector<double> distance(sites);
+      for(std::size_t i = 0; i < sites; ++i)
+      {
+        const cases::Position site = site_position(snapshot, i);
+        for(int d = 0; d < snapshot.dimension; ++d)
+          offsets[i][d] = (site[d] - place[d]) / spacing;
+        distance[i] = std::hypot(offsets[i][0], offsets[i][1], offsets[i][2]);
+      }
+      if(sites == 0)
+        return nan;
+      const auto nearest = static_cast<std::size_t>(std::ranges::min_element(distance)
+                                                    - distance.begin());
+      const bool solid = snapshot.solid_fraction[nearest] > 0.5;
+      std::vector<std::size_t> near;
+      for(std::size_t i = 0; i < sites; ++i)
+        if(distance[i] < reach && (snapshot.solid_fraction[i] > 0.5) == solid)
+          near.push_back(i);
+      const auto columns = monomials({}, snapshot.dimension).size();
+      if(static_cast<Eigen::Index>(near.size()) < columns)
+        return snapshot.temperature[nearest];
+      Eigen::MatrixXd rows(near.size(), columns);
+      Eigen::VectorXd values(near.size());
+      for(std::size_t k = 0; k < near.size(); ++k)
+      {
+        const double weight = 1 - distance[near[k]] / reach;
+        rows.row(k) = weight * monomials(offsets[near[k]], snapshot.dimension);
+        values[k] = weight * snapshot.temperature[near[k]];
+      }
+      return rows.completeOrthogonalDecomposition().solve(values)[0];
+    }
+  } // namespace
+
+  std::vector<TemperatureProbe> read_probes(const cases::Scene &scene,
+                                            const cases::Snapshot &snapshot,
+                                            const std::vector<double> &coordinates,
+                                            const cases::ExactSolution *exact,
+                                            double spacing)
+  {
+    const bool one_coordinate = scene.symmetry != cases::Symmetry::none
+                                || (exact && exact->depends_on_one_coordinate())
+                                || scene.domain.dimension == 1;
+    if(one_coordinate)
+      return along_line(scene, snapshot, coordinates, exact, spacing);
+    std::vector<TemperatureProbe> probes;
+    for(const cases::Position &place : places_inside(scene.domain))
+    {
+      TemperatureProbe probe{{},
+                             {place.begin(), place.begin() + scene.domain.dimension},
+                             fitted_temperature(snapshot, place, spacing),
+                             exact ? exact->temperature(place, snapshot.time) : nan};
+      probes.push_back(std::move(probe));
+    }
+    return probes;
+  }
+} // namespace meltfront::verification
