@@ -29,6 +29,9 @@ namespace meltfront::verification
     {
       if(!(known.error > 0) || !std::isfinite(known.bar.bar))
         return;
+      const bool positions = known.quantity.starts_with("front");
+      if(floor > 0 && !positions)
+        return;
       const std::string kind = kind_of(known.quantity);
       Instances &row = table[{method, kind, known.bar.levels}];
       row.counts.method = method;
@@ -40,9 +43,7 @@ namespace meltfront::verification
         return;
       }
       ++row.counts.instances;
-      const bool positions = known.quantity.starts_with("front");
-      row.counts.covered
-          += known.error <= known.bar.bar + (positions ? floor : 0) ? 1 : 0;
+      row.counts.covered += known.error <= known.bar.bar + floor ? 1 : 0;
       row.ratios.push_back(known.bar.bar / known.error);
     }
 

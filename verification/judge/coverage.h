@@ -29,7 +29,8 @@ namespace meltfront::verification
    * Hold the bars of every ladder against the exact solution, where there is one: each
    * ladder of m levels tells of m - 1 bars, one for each finest level. True errors below
    * 1e-12 of the quantity's size count as that; where the exact solution holds only
-   * approximately, up to its floor more than the bar is covered too. Sorted by method and
+   * approximately, a front is covered up to the solution's floor beyond the bar, and
+   * other quantities, of which no floor is known, are left out. Sorted by method and
    * quantity.
    */
   std::vector<Coverage> coverage_of(const MatrixResult &result);

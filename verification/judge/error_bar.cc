@@ -88,8 +88,8 @@ namespace meltfront::verification
       result.converging = true;
       result.value = finest.value;
       result.order = std::min(1., order_cap(finest, coarser, recipe, result.remark));
-      const double width
-          = std::isnan(recipe.local_difference) ? norm : recipe.local_difference;
+      // Whether terms of the error cancel at a place only a third level could tell.
+      const double width = std::fmax(norm, recipe.local_difference);
       const double a = std::isnan(width) ? d : std::sqrt((d * d + width * width) / 2);
       result.bar = factor_of_two_levels * a
                    / (std::pow(coarser.spacing / finest.spacing, result.order) - 1);

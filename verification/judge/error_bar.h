@@ -54,7 +54,8 @@ namespace meltfront::verification
     double factor;        ///< F
     bool in_time = false; ///< the ladder refines time only
     /** Of the two finest levels around the place of a value, where D_21 is over all
-     * places: the order is that of all, the width that of the place. */
+     * places: the order is that of all, the width that of the place (of two levels the
+     * larger). */
     double local_difference = cases::nan;
   };
 
