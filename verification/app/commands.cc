@@ -38,11 +38,6 @@ namespace meltfront::verification
     const char *const program_version = MELTFRONT_VERSION;
     std::string command_line;
 
-    std::string default_directory(const std::string &name)
-    {
-      return "results/" + short_case_name(name);
-    }
-
     void make_directory(const std::string &directory)
     {
       std::error_code error;
@@ -55,55 +50,10 @@ namespace meltfront::verification
     /** Judge a finished matrix, write its summary and report, print what came of it. */
     int conclude(MatrixResult &result, const std::string &directory)
     {
-      if(result.hard_cases)
-      {
-        result.stability = judge_stability(result);
-        result.passed = std::all_of(result.criteria.begin(), result.criteria.end(),
-                                    [](const CriterionResult &c) { return c.passed; })
-                        && std::ranges::all_of(result.findings, &FindingResult::holds)
-                        && std::none_of(result.stability.begin(), result.stability.end(),
-                                        [](const StabilityVerdict &v)
-                                        { return v.verdict == "failed"; });
-      }
-      write_summary(directory, result);
-      write_report(result, directory);
-      write_atomically(directory + "/coverage.csv", coverage_csv(coverage_of(result)));
-      write_atomically(directory + "/capabilities.txt", capability_text());
+      write_results(result, directory);
       std::fputs(console_summary(result).c_str(), stdout);
-      fmt::print("Report: {}\n", std::filesystem::absolute(directory + "/report.html")
-                                     .lexically_normal()
-                                     .string());
+      print_place_of_report(directory);
       return result.passed ? all_well : criterion_failed;
-    }
-
-    /** Load a case and hold the names in its criteria and its reference against what
-     * there is. */
-    cases::Case load_checked_case(const std::string &name)
-    {
-      cases::Case c = cases::load_case(name);
-      const auto check = [&c](const std::string &where, const auto &check_it)
-      {
-        try
-        {
-          check_it();
-        }
-        catch(const cases::InputError &error)
-        {
-          throw cases::InputError(fmt::format("{}: {}: {}", c.file, where, error.what()));
-        }
-      };
-      if(c.reference)
-        check("reference", [&] { check_label(c.reference->label, method_named); });
-      for(const cases::Criterion &criterion : c.criteria)
-        check(fmt::format("criterion '{}'", criterion.text),
-              [&]
-              {
-                if(criterion.method != cases::any_method)
-                  check_label(criterion.method, method_named);
-                if(criterion.statistic != cases::Statistic::failure)
-                  require_quantity(criterion.quantity);
-              });
-      return c;
     }
 
     /** Bytes that a run may take. @param gigabytes that were asked for; 0: all there is
@@ -116,13 +66,7 @@ namespace meltfront::verification
     int run_and_conclude(const Matrix &matrix, const std::string &directory, int jobs,
                          double memory)
     {
-      RunnerOptions options;
-      options.directory = directory;
-      options.jobs = jobs;
-      options.memory_limit = memory_limit(memory);
-      options.program_version = program_version;
-      options.command_line = command_line;
-      options.progress = stderr;
+      RunnerOptions options = runner_options(directory, jobs, memory);
       int status = all_well;
       options.conclude
           = [&](MatrixResult &result) { status = conclude(result, directory); };
@@ -232,6 +176,76 @@ namespace meltfront::verification
       command_line += fmt::format(" {}", argv[i]);
   }
 
+  std::string default_directory(const std::string &name)
+  {
+    return "results/" + short_case_name(name);
+  }
+
+  RunnerOptions runner_options(const std::string &directory, int jobs, double memory)
+  {
+    RunnerOptions options;
+    options.directory = directory;
+    options.jobs = jobs;
+    options.memory_limit = memory_limit(memory);
+    options.program_version = program_version;
+    options.command_line = command_line;
+    options.progress = stderr;
+    return options;
+  }
+
+  cases::Case load_checked_case(const std::string &name)
+  {
+    cases::Case c = cases::load_case(name);
+    const auto check = [&c](const std::string &where, const auto &check_it)
+    {
+      try
+      {
+        check_it();
+      }
+      catch(const cases::InputError &error)
+      {
+        throw cases::InputError(fmt::format("{}: {}: {}", c.file, where, error.what()));
+      }
+    };
+    if(c.reference)
+      check("reference", [&] { check_label(c.reference->label, method_named); });
+    for(const cases::Criterion &criterion : c.criteria)
+      check(fmt::format("criterion '{}'", criterion.text),
+            [&]
+            {
+              if(criterion.method != cases::any_method)
+                check_label(criterion.method, method_named);
+              if(criterion.statistic != cases::Statistic::failure)
+                require_quantity(criterion.quantity);
+            });
+    return c;
+  }
+
+  void write_results(MatrixResult &result, const std::string &directory)
+  {
+    if(result.hard_cases)
+    {
+      result.stability = judge_stability(result);
+      result.passed = std::all_of(result.criteria.begin(), result.criteria.end(),
+                                  [](const CriterionResult &c) { return c.passed; })
+                      && std::ranges::all_of(result.findings, &FindingResult::holds)
+                      && std::none_of(result.stability.begin(), result.stability.end(),
+                                      [](const StabilityVerdict &v)
+                                      { return v.verdict == "failed"; });
+    }
+    write_summary(directory, result);
+    write_report(result, directory);
+    write_atomically(directory + "/coverage.csv", coverage_csv(coverage_of(result)));
+    write_atomically(directory + "/capabilities.txt", capability_text());
+  }
+
+  void print_place_of_report(const std::string &directory)
+  {
+    fmt::print("Report: {}\n", std::filesystem::absolute(directory + "/report.html")
+                                   .lexically_normal()
+                                   .string());
+  }
+
   int verify(const VerifyArguments &arguments)
   {
     const Matrix matrix = load_matrix(arguments.matrix);
@@ -273,24 +287,6 @@ namespace meltfront::verification
     default:
       return run_failed;
     }
-  }
-
-  int compare(const CompareArguments &arguments)
-  {
-    const cases::Case c = cases::load_case(arguments.case_name);
-    Matrix matrix;
-    matrix.name = "compare-" + c.scene.name;
-    matrix.title = fmt::format("Every method on {}", c.scene.name);
-    MatrixBlock block;
-    block.cases = {arguments.case_name};
-    for(const auto &method : methods())
-      block.methods.push_back(method->name());
-    block.resolutions = arguments.resolutions;
-    matrix.blocks = {block};
-    return run_and_conclude(matrix,
-                            arguments.output.empty() ? default_directory(matrix.name)
-                                                     : arguments.output,
-                            arguments.jobs, arguments.memory);
   }
 
   int report(const std::string &directory)

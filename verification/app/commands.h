@@ -1,6 +1,9 @@
 #ifndef meltfront_verification_app_commands_h
 #define meltfront_verification_app_commands_h
 
+#include <verification/judge/matrix_result.h>
+#include <verification/matrix/runner.h>
+
 #include <string>
 #include <vector>
 
@@ -38,17 +41,25 @@ namespace meltfront::verification
     double time_limit = 3600; ///< s; 0: none
   };
 
-  struct CompareArguments
-  {
-    std::string case_name;
-    std::vector<int> resolutions{20, 40, 80, 160};
-    std::string output; ///< directory; empty: results/compare-CASE
-    int jobs = 0;
-    double memory = 0; ///< GB that a run may take; 0: what the machine has
-  };
-
   /** The command line as it was typed, for provenance. */
   void set_command_line(int argc, char **argv);
+
+  /** `results/NAME` for the name, or the path, of a case or matrix. */
+  std::string default_directory(const std::string &name);
+
+  /** How every command runs a matrix. @param memory GB that a run may take; 0: what the
+   * machine has */
+  RunnerOptions runner_options(const std::string &directory, int jobs, double memory);
+
+  /** Load a case and hold the names in its criteria and its reference against what there
+   * is. @throws InputError */
+  cases::Case load_checked_case(const std::string &name);
+
+  /** Judge a finished matrix and write its summary, report, coverage and capabilities. */
+  void write_results(MatrixResult &result, const std::string &directory);
+
+  /** Print where the report of a directory is. */
+  void print_place_of_report(const std::string &directory);
 
   /** Run a matrix, write the report, print every criterion with its figure. */
   int verify(const VerifyArguments &arguments);
@@ -56,9 +67,6 @@ namespace meltfront::verification
   /** One run, in a process of its own: run.json, front.csv, picture.svg and fields for
    * ParaView. One that crashes or takes longer than it may is recorded as failed. */
   int run(const RunArguments &arguments);
-
-  /** Every method on one case, as a matrix of its own. */
-  int compare(const CompareArguments &arguments);
 
   /** Tables and plots again from finished runs; nothing is run. */
   int report(const std::string &directory);

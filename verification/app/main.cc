@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <cases/options.h>
+#include <verification/app/answer_commands.h>
 #include <verification/app/calibrate.h>
 #include <verification/app/capability_list.h>
 #include <verification/app/commands.h>
@@ -27,6 +28,7 @@ namespace
     VerifyArguments verify_arguments;
     RunArguments run_arguments;
     CompareArguments compare_arguments;
+    AdviseArguments advise_arguments;
     CrosscheckArguments crosscheck_arguments;
     CalibrateArguments calibrate_arguments;
     std::string report_directory;
@@ -40,6 +42,7 @@ namespace
     void declare_verify();
     void declare_run();
     void declare_compare();
+    void declare_advise();
     void declare_crosscheck();
     void declare_calibrate();
     void declare_others();
@@ -54,6 +57,7 @@ namespace
     declare_verify();
     declare_run();
     declare_compare();
+    declare_advise();
     declare_crosscheck();
     declare_calibrate();
     declare_others();
@@ -128,11 +132,15 @@ namespace
   void CommandLine::declare_compare()
   {
     auto *command = app.add_subcommand(
-        "compare", "run all methods that support a case and compare them");
+        "compare", "what every method that can answers to a case, with error bars");
     CompareArguments &a = compare_arguments;
     command->add_option("case", a.case_name, "case of the library, or a case file")
         ->required();
-    command->add_option("--n", a.resolutions, "resolutions (20,40,80,160)")
+    command->add_option("--within", a.within, "seconds for all runs (60)")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--n", a.resolutions,
+                     "resolutions of all methods, instead of those that time allows")
         ->delimiter(',')
         ->check(CLI::Range(2, 1000000));
     command->add_option("--out", a.output, "directory (results/compare-CASE)");
@@ -140,6 +148,32 @@ namespace
         ->check(CLI::Range(0, 1024));
     add_memory_option(command, a.memory);
     command->callback([this] { action = [this] { return compare(compare_arguments); }; });
+  }
+
+  void CommandLine::declare_advise()
+  {
+    auto *command = app.add_subcommand(
+        "advise", "the cheapest method and resolution that reach an error, then the run");
+    AdviseArguments &a = advise_arguments;
+    command->add_option("case", a.case_name, "case of the library, or a case file")
+        ->required();
+    command
+        ->add_option("--front-error", a.front_error,
+                     "wanted error of the front, root mean square over time, relative to "
+                     "its end (1e-3)")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--temperature-error", a.temperature_error,
+                     "wanted error of the temperature at the end, root mean square over "
+                     "places, relative to its range (not asked for)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--within", a.within, "seconds for all runs (60)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--out", a.output, "directory (results/advise-CASE)");
+    command->add_option("--jobs", a.jobs, "number of concurrent runs (one per core)")
+        ->check(CLI::Range(0, 1024));
+    add_memory_option(command, a.memory);
+    command->callback([this] { action = [this] { return advise(advise_arguments); }; });
   }
 
   void CommandLine::declare_crosscheck()

@@ -350,4 +350,10 @@ namespace meltfront::verification
       bars.push_back(std::move(bar));
     return bars;
   }
+
+  double course_difference(const RunRecord &one, const RunRecord &other,
+                           std::vector<double> RunSeries::*quantity)
+  {
+    return CommonCourse({&one, &other}, quantity).differences(false).front();
+  }
 } // namespace meltfront::verification

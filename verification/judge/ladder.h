@@ -50,6 +50,11 @@ namespace meltfront::verification
    * places within a tenth of the length.
    */
   std::vector<QuantityBar> bars_of(const Ladder &ladder);
+
+  /** Root mean square over the times above of the difference of two runs' courses; NaN
+   * where one has none. */
+  double course_difference(const RunRecord &one, const RunRecord &other,
+                           std::vector<double> RunSeries::*quantity);
 } // namespace meltfront::verification
 
 #endif

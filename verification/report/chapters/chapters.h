@@ -47,6 +47,13 @@ namespace meltfront::verification
   /** The cheapest method for wanted errors, and all work-precision diagrams. */
   Markup cost_chapter(const ReportContext &context);
 
+  /** What the methods answer to each question about a scene, with error bars, who agrees
+   * with whom, and the cheapest for wanted errors; of a report on one case. */
+  Markup answers_chapter(const ReportContext &context);
+
+  /** How often the true error lies within the error bar; empty without exact solution. */
+  Markup coverage_chapter(const ReportContext &context);
+
   /** Orders of time schemes and of elements by degree, over all cases; empty where no
    * label refines time or sets a degree. */
   Markup orders_chapter(const ReportContext &context);

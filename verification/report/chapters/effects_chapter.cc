@@ -63,7 +63,7 @@ namespace meltfront::verification
       return fmt::format("{:.{}f} %", value, value < 10 ? 1 : 0);
     }
 
-    std::string words(Effect effect)
+    std::string effect_words(Effect effect)
     {
       std::string name = to_string(effect);
       std::replace(name.begin(), name.end(), '_', ' ');
@@ -131,7 +131,7 @@ namespace meltfront::verification
     const std::vector<Effect> effects = decided_effects(context);
     Markup head = element("th", std::string("case"));
     for(const Effect effect : effects)
-      head += element("th", {{"title", description(effect)}}, text(words(effect)));
+      head += element("th", {{"title", description(effect)}}, text(effect_words(effect)));
     Markup rows;
     for(const CaseRuns &runs : context.runs)
       if(const auto *decisions = decisions_of(runs); decisions && !decisions->empty())
@@ -180,7 +180,7 @@ namespace meltfront::verification
     for(const cases::EffectDecision &decision : *decisions)
     {
       Markup row
-          = element("td", words(decision.effect))
+          = element("td", effect_words(decision.effect))
             + element("td", decision.on ? badge("good", "on") : badge("none", "off"))
             + element("td", decision.reason);
       for(const RunRecord *run : finest)

@@ -1,0 +1,209 @@
+#include <cases/case_file/case_file.h>
+#include <cases/error.h>
+#include <verification/app/answer_commands.h>
+#include <verification/app/commands.h>
+#include <verification/app/methods.h>
+#include <verification/judge/answers.h>
+#include <verification/matrix/matrix_files.h>
+#include <verification/record/json_values.h>
+#include <verification/studies/ladders/advice.h>
+#include <verification/studies/ladders/capable_methods.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    /** A comparison looks at many runs: each is repeated little. */
+    constexpr RepeatPolicy few_repeats{3, 0.2, 0.5};
+
+    CapableMethods methods_for(const cases::Case &c)
+    {
+      std::vector<const cases::Method *> all;
+      for(const auto &method : methods())
+        all.push_back(method.get());
+      CapableMethods found = capable_methods(c, all);
+      if(found.capable.empty())
+        throw cases::InputError(fmt::format("no method takes the case {}: {}",
+                                            c.scene.name,
+                                            fmt::join(found.left_out, "; ")));
+      return found;
+    }
+
+    LadderGrowth growth_of(const std::string &case_name, const cases::Case &c,
+                           const std::string &title, const CapableMethods &found,
+                           const std::string &directory, int jobs, double memory,
+                           double within)
+    {
+      RunnerOptions options = runner_options(directory, jobs, memory);
+      options.repeats = few_repeats;
+      return LadderGrowth(case_name, c.scene.domain.dimension, title, found.capable,
+                          options, load_checked_case, method_named, within);
+    }
+
+    /** What a reader must know of the levels: where they end and who is not there. */
+    std::string description_of(const LadderGrowth &growth, const CapableMethods &found,
+                               double within)
+    {
+      std::string text = fmt::format("Levels as {} s allowed.", within);
+      for(const std::string &stop : growth.stops())
+        text += fmt::format(" Ended early: {}.", stop);
+      for(const std::string &reason : found.left_out)
+        text += fmt::format(" Left out: {}.", reason);
+      return text;
+    }
+
+    std::string interval_text(double value, double bar)
+    {
+      return std::isfinite(bar) ? fmt::format("{:.8g} +- {:.2g}", value, bar)
+                                : fmt::format("{:.8g}, no error bar", value);
+    }
+
+    void print_answer(const Answer &answer)
+    {
+      const Consensus &consensus = answer.consensus;
+      fmt::print("\n{}{}: {}{}\n", answer.quantity,
+                 answer.unit.empty() ? "" : " (" + answer.unit + ")",
+                 interval_text(consensus.value, consensus.bar),
+                 consensus.agreed            ? fmt::format(", {} of {} methods agree",
+                                                           consensus.support, answer.methods.size())
+                 : answer.methods.size() < 2 ? ", confirmed by no other method"
+                                             : ", NO CONSENSUS: the methods contradict "
+                                               "each other");
+      for(const MethodAnswer &one : answer.methods)
+        fmt::print("  {:24} n = {:<5} {}D  {:32} {:>9}  {:8.2g} s{}{}\n", one.label,
+                   one.n, one.dimension, interval_text(one.bar.value, one.bar.bar),
+                   std::isnan(one.distance_in_bars)
+                       ? "-"
+                       : fmt::format("{:.2g} bars", one.distance_in_bars),
+                   one.cpu_seconds, one.bar.remark.empty() ? "" : "  " + one.bar.remark,
+                   one.distance_in_bars > 1 ? "  CONTRADICTS" : "");
+    }
+
+    void print_temperatures(const std::vector<Answer> &answers)
+    {
+      std::string without;
+      int places = 0;
+      for(const Answer &answer : answers)
+        if(answer.quantity.starts_with("temperature"))
+        {
+          ++places;
+          if(!answer.consensus.agreed)
+            without += "\n  no consensus on the " + answer.quantity;
+          else
+            fmt::print("{}{}: {}", places == 1 ? "\n" : "", answer.quantity,
+                       interval_text(answer.consensus.value, answer.consensus.bar)
+                           + "\n");
+        }
+      if(!without.empty())
+        fmt::print("{}\n", without.substr(1));
+    }
+
+    void print_cheapest(const std::vector<LevelError> &levels)
+    {
+      if(levels.empty())
+        return;
+      fmt::print("\nThe cheapest for a relative error of the front:\n");
+      for(const double wanted : errors_of_interest)
+        if(const LevelError *best = cheapest_level(levels, wanted))
+          fmt::print("  {:.0e}  {} n = {} in {}D, {:.2g} s\n", wanted, best->label,
+                     best->n, best->dimension, best->cpu_seconds);
+        else
+          fmt::print("  {:.0e}  not reached\n", wanted);
+    }
+
+    /** Answers of what a growth has made, to the console and to `answers.json`. */
+    std::vector<Answer> tell_answers(const MatrixResult &result,
+                                     const std::string &directory)
+    {
+      const StoredCase &record = result.cases.front();
+      const std::vector<Answer> answers = answers_of(result, record);
+      write_json(directory + "/answers.json", answers_json(answers));
+      for(const Answer &answer : answers)
+        if(!answer.quantity.starts_with("temperature"))
+          print_answer(answer);
+      print_temperatures(answers);
+      print_cheapest(level_errors(result, record));
+      return answers;
+    }
+
+    void print_remarks(const LadderGrowth &growth, const CapableMethods &found)
+    {
+      for(const std::string &stop : growth.stops())
+        fmt::print("Ended early: {}\n", stop);
+      for(const std::string &reason : found.left_out)
+        fmt::print("Left out: {}\n", reason);
+    }
+
+    bool contradictory(const std::vector<Answer> &answers)
+    {
+      return std::ranges::any_of(
+          answers, [](const Answer &answer)
+          { return !answer.consensus.agreed && answer.methods.size() > 1; });
+    }
+  } // namespace
+
+  int compare(const CompareArguments &arguments)
+  {
+    const cases::Case c = load_checked_case(arguments.case_name);
+    const std::string title = "compare-" + c.scene.name;
+    const std::string directory
+        = arguments.output.empty() ? default_directory(title) : arguments.output;
+    const CapableMethods found = methods_for(c);
+    LadderGrowth growth = growth_of(arguments.case_name, c, title, found, directory,
+                                    arguments.jobs, arguments.memory, arguments.within);
+    if(arguments.resolutions.empty())
+      while(growth.grow())
+        ;
+    else
+      growth.make_all(arguments.resolutions);
+    growth.conclude(description_of(growth, found, arguments.within),
+                    [&](MatrixResult &result) { write_results(result, directory); });
+    const std::vector<Answer> answers = tell_answers(growth.result(), directory);
+    fmt::print("\n");
+    print_remarks(growth, found);
+    print_place_of_report(directory);
+    return answers.empty()          ? run_failed
+           : contradictory(answers) ? criterion_failed
+                                    : all_well;
+  }
+
+  int advise(const AdviseArguments &arguments)
+  {
+    const cases::Case c = load_checked_case(arguments.case_name);
+    const std::string title = "advise-" + c.scene.name;
+    const std::string directory
+        = arguments.output.empty() ? default_directory(title) : arguments.output;
+    const CapableMethods found = methods_for(c);
+    LadderGrowth growth = growth_of(arguments.case_name, c, title, found, directory,
+                                    arguments.jobs, arguments.memory, arguments.within);
+    const Advice advice
+        = advise(growth, {arguments.front_error, arguments.temperature_error});
+    growth.conclude(description_of(growth, found, arguments.within),
+                    [&](MatrixResult &result) { write_results(result, directory); });
+    tell_answers(growth.result(), directory);
+    write_json(directory + "/advice.json", advice);
+    fmt::print("\n");
+    for(const MethodForecast &one : advice.forecasts)
+      fmt::print("  {:24} n = {:<7} error {:.1e}, {:.2g} s of CPU{}\n",
+                 one.method->name(), one.n, one.error, one.seconds,
+                 one.doubt.empty() ? "" : "; " + one.doubt);
+    if(!advice.method.empty())
+      fmt::print("Advice: {} at n = {}: predicted error {:.2g} in {:.2g} s of CPU; came "
+                 "out: {} {:.2g} in {:.2g} s{}\n",
+                 advice.method, advice.n, advice.predicted_error,
+                 advice.predicted_seconds, advice.error_is_true ? "error" : "error bar",
+                 advice.error, advice.seconds,
+                 advice.reachable ? "" : "; the wanted error is NOT REACHED");
+    if(!advice.explanation.empty())
+      fmt::print("{}\n", advice.explanation);
+    print_place_of_report(directory);
+    return advice.reachable ? all_well : criterion_failed;
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,52 @@
+#include <cases/error.h>
+#include <cases/run.h>
+#include <verification/studies/ladders/capable_methods.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    /** `sph: takes no alloy` or `sph takes no alloy` without the name. */
+    std::string reason_alone(const std::string &message, const std::string &method)
+    {
+      if(!message.starts_with(method))
+        return message;
+      const auto first = message.find_first_not_of(": ", method.size());
+      return first == std::string::npos ? message : message.substr(first);
+    }
+  } // namespace
+
+  CapableMethods capable_methods(const cases::Case &c,
+                                 const std::vector<const cases::Method *> &all)
+  {
+    const cases::EffectSet effects = cases::effects_called_for(c.scene);
+    const cases::Scene scene = cases::simulated_scene(c.scene, effects);
+    CapableMethods found;
+    std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
+    for(const cases::Method *method : all)
+      try
+      {
+        cases::require_capable(*method, scene, effects, 1);
+        found.capable.push_back(method);
+      }
+      catch(const cases::Refusal &refusal)
+      {
+        const std::string reason = reason_alone(refusal.what(), method->name());
+        const auto known = std::ranges::find(
+            reasons, reason, &std::pair<std::string, std::vector<std::string>>::first);
+        if(known == reasons.end())
+          reasons.push_back({reason, {method->name()}});
+        else
+          known->second.push_back(method->name());
+      }
+    for(const auto &[reason, names] : reasons)
+      found.left_out.push_back(fmt::format("{}: {}", fmt::join(names, ", "), reason));
+    return found;
+  }
+} // namespace meltfront::verification

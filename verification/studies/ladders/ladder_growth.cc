@@ -1,0 +1,228 @@
+#include <cases/numbers.h>
+#include <verification/studies/ladders/ladder_growth.h>
+#include <verification/studies/ladders/method_priors.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    constexpr int coarsest_level = 20, coarsest_in_space = 10;
+    constexpr std::size_t most_levels = 8;
+    constexpr double refinement_of_line = 2, refinement_of_plane = 1.5;
+    /** Predictions of the growth are within 2 in 9 of 10. */
+    constexpr double safety = 1.5;
+    constexpr double shortest_limit = 1; // s
+
+    double seconds_of(const RunRecord &run)
+    {
+      return run.cost.setup_wall + run.cost.stepping_wall;
+    }
+
+    int next_resolution(const RunRecord &finest)
+    {
+      const double ratio
+          = finest.description.dimension == 1 ? refinement_of_line : refinement_of_plane;
+      // Even numbers, so that symmetric scenes have cells on either side.
+      return 2 * static_cast<int>(std::lround(finest.n * ratio / 2));
+    }
+  } // namespace
+
+  LadderGrowth::LadderGrowth(const std::string &case_name, int dimension,
+                             const std::string &title,
+                             const std::vector<const cases::Method *> &methods,
+                             const RunnerOptions &options, CaseLoader load_case,
+                             MethodLookup lookup, double within)
+    : case_name(case_name)
+    , coarsest(dimension == 3 ? coarsest_in_space : coarsest_level)
+    , title(title)
+    , options(options)
+    , load_case(std::move(load_case))
+    , lookup(std::move(lookup))
+    , within(within)
+    , start(std::chrono::steady_clock::now())
+  {
+    for(const cases::Method *method : methods)
+      growing.push_back({method, {}});
+  }
+
+  double LadderGrowth::seconds_left() const
+  {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    return within - spent.count();
+  }
+
+  const MatrixResult &LadderGrowth::result() const
+  {
+    return made;
+  }
+
+  const std::vector<GrowingLadder> &LadderGrowth::ladders() const
+  {
+    return growing;
+  }
+
+  Matrix LadderGrowth::matrix() const
+  {
+    Matrix matrix;
+    matrix.name = title;
+    matrix.title = title;
+    matrix.description = description;
+    matrix.time_limit = std::max(seconds_left(), shortest_limit);
+    for(const GrowingLadder &ladder : growing)
+      if(!ladder.resolutions.empty())
+      {
+        MatrixBlock block;
+        block.cases = {case_name};
+        block.methods = {ladder.method->name()};
+        block.resolutions = ladder.resolutions;
+        matrix.blocks.push_back(std::move(block));
+      }
+    return matrix;
+  }
+
+  void LadderGrowth::run(const std::function<void(MatrixResult &)> &what)
+  {
+    RunnerOptions now = options;
+    now.conclude = what;
+    made = run_matrix(matrix(), now, load_case, lookup);
+  }
+
+  const RunRecord *LadderGrowth::finest(const cases::Method &method) const
+  {
+    const RunRecord *best = nullptr;
+    for(const RunRecord &run : made.runs)
+      if(run.method == method.name() && run.status == RunStatus::finished
+         && (!best || run.n > best->n))
+        best = &run;
+    return best;
+  }
+
+  double LadderGrowth::predicted_seconds(const cases::Method &method, int n) const
+  {
+    const RunRecord *known = finest(method);
+    if(!known)
+      return cases::nan;
+    const double growth
+        = method_prior(method.name(), known->description.dimension).growth;
+    return seconds_of(*known) * std::pow(static_cast<double>(n) / known->n, growth);
+  }
+
+  /** A level that did not finish ends its ladder. */
+  void LadderGrowth::drop_ended(GrowingLadder &ladder)
+  {
+    const int n = ladder.resolutions.back();
+    const auto run = std::ranges::find_if(
+        made.runs, [&](const RunRecord &one)
+        { return one.method == ladder.method->name() && one.n == n; });
+    if(run == made.runs.end() || run->status == RunStatus::finished)
+      return;
+    const auto ended = run->provenance.find("ended");
+    const bool out_of_time = ended != run->provenance.end() && ended->second == "killed"
+                             && run->message.find("time limit") != std::string::npos;
+    if(out_of_time)
+      ladder.stopped = fmt::format(
+          "n = {} was ended when the time was up, after {:.0f} s", n, within);
+    // The first level may be too coarse for it.
+    else if(ladder.resolutions.size() > 1 || n > coarsest)
+      ladder.stopped
+          = fmt::format("{} at n = {}: {}", to_string(run->status), n, run->message);
+    if(out_of_time)
+    {
+      std::filesystem::remove_all(fmt::format("{}/runs/{}/{}/n={}", options.directory,
+                                              short_case_name(case_name), run->label, n));
+      ladder.resolutions.pop_back();
+    }
+  }
+
+  bool LadderGrowth::grow(double share)
+  {
+    struct Candidate
+    {
+      GrowingLadder *ladder;
+      int n;
+      double seconds; ///< predicted, 0 if unknown
+    };
+    const double left = share * seconds_left();
+    std::vector<Candidate> candidates;
+    for(GrowingLadder &ladder : growing)
+    {
+      if(!ladder.stopped.empty() || ladder.resolutions.size() >= most_levels)
+        continue;
+      const RunRecord *known = finest(*ladder.method);
+      if(!known)
+        candidates.push_back(
+            {&ladder,
+             ladder.resolutions.empty() ? coarsest : 2 * ladder.resolutions.back(), 0});
+      else if(known->n == ladder.resolutions.back())
+      {
+        const int n = next_resolution(*known);
+        candidates.push_back({&ladder, n, safety * predicted_seconds(*ladder.method, n)});
+      }
+    }
+    std::ranges::sort(candidates, {}, &Candidate::seconds);
+    const int jobs
+        = options.jobs > 0
+              ? options.jobs
+              : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    double sum = 0;
+    bool any = false;
+    for(const Candidate &one : candidates)
+    {
+      sum += one.seconds;
+      if(one.seconds > left || sum > jobs * left)
+      {
+        one.ladder->stopped = fmt::format("n = {} would take about {:.2g} s", one.n,
+                                          one.seconds / safety);
+        continue;
+      }
+      one.ladder->resolutions.push_back(one.n);
+      any = true;
+    }
+    if(!any)
+      return false;
+    run({});
+    for(const Candidate &one : candidates)
+      if(one.ladder->stopped.empty())
+        drop_ended(*one.ladder);
+    return true;
+  }
+
+  void LadderGrowth::make(const cases::Method &method, int n)
+  {
+    for(GrowingLadder &ladder : growing)
+      if(ladder.method == &method
+         && std::ranges::find(ladder.resolutions, n) == ladder.resolutions.end())
+        ladder.resolutions.push_back(n);
+    run({});
+  }
+
+  void LadderGrowth::make_all(const std::vector<int> &resolutions)
+  {
+    for(GrowingLadder &ladder : growing)
+      ladder.resolutions = resolutions;
+    run({});
+  }
+
+  std::vector<std::string> LadderGrowth::stops() const
+  {
+    std::vector<std::string> sentences;
+    for(const GrowingLadder &ladder : growing)
+      if(!ladder.stopped.empty())
+        sentences.push_back(fmt::format("{}: {}", ladder.method->name(), ladder.stopped));
+    return sentences;
+  }
+
+  void LadderGrowth::conclude(const std::string &text,
+                              const std::function<void(MatrixResult &)> &what)
+  {
+    description = text;
+    run(what);
+  }
+} // namespace meltfront::verification

@@ -1,0 +1,95 @@
+#ifndef meltfront_verification_studies_ladders_ladder_growth_h
+#define meltfront_verification_studies_ladders_ladder_growth_h
+
+#include <cases/method.h>
+#include <verification/judge/matrix_result.h>
+#include <verification/matrix/runner.h>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace meltfront::verification
+{
+  /** A method with the resolutions that it was given. */
+  struct GrowingLadder
+  {
+    const cases::Method *method;
+    std::vector<int> resolutions;
+    std::string stopped{}; ///< why no finer one follows; empty while one may
+  };
+
+  /**
+   * Resolutions of several methods on one case, coarse to fine, that are chosen while
+   * time lasts.
+   *
+   * Each stage makes the next level of every ladder, in parallel and resumable by
+   * run_matrix(). A level is made if the time it is predicted to take, t (n'/n)^q with
+   * the growth q of other cases (method_prior()) and half as much again, fits into what
+   * is left; the dearest are left out first. A run that takes longer than all that is
+   * left is ended; its ladder ends at the level before.
+   */
+  class LadderGrowth
+  {
+  public:
+    /**
+     * @param case_name by name or path
+     * @param dimension of its domain
+     * @param within seconds by the clock for all
+     */
+    LadderGrowth(const std::string &case_name, int dimension, const std::string &title,
+                 const std::vector<const cases::Method *> &methods,
+                 const RunnerOptions &options, CaseLoader load_case, MethodLookup lookup,
+                 double within);
+
+    /** Make the next level of every ladder that has time for it.
+     * @param share of the time left that it may take
+     * @return false if there is none */
+    bool grow(double share = 1);
+
+    /** Make one level of one method, whatever it takes. */
+    void make(const cases::Method &method, int n);
+
+    /** Make these levels of every method, whatever they take. */
+    void make_all(const std::vector<int> &resolutions);
+
+    double seconds_left() const;
+
+    /** What has been made, each stage over again. */
+    const MatrixResult &result() const;
+
+    const std::vector<GrowingLadder> &ladders() const;
+
+    /** A sentence for every ladder that ended for another reason than enough levels. */
+    std::vector<std::string> stops() const;
+
+    /** Write the plan anew, with a text on how its levels were chosen, and do what is to
+     * be done with the result. */
+    void conclude(const std::string &description,
+                  const std::function<void(MatrixResult &)> &what);
+
+    /** The finished run of a method at its finest level; null for none. */
+    const RunRecord *finest(const cases::Method &method) const;
+
+    /** Seconds that a method is predicted to take at n; NaN before it has run. */
+    double predicted_seconds(const cases::Method &method, int n) const;
+
+  private:
+    Matrix matrix() const;
+    void run(const std::function<void(MatrixResult &)> &what);
+    void drop_ended(GrowingLadder &ladder);
+
+    std::string case_name;
+    int coarsest; ///< level of every ladder
+    std::string title, description;
+    std::vector<GrowingLadder> growing;
+    RunnerOptions options;
+    CaseLoader load_case;
+    MethodLookup lookup;
+    double within;
+    std::chrono::steady_clock::time_point start;
+    MatrixResult made;
+  };
+} // namespace meltfront::verification
+
+#endif
