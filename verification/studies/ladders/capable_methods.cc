@@ -6,19 +6,22 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <regex>
 #include <utility>
 
 namespace meltfront::verification
 {
   namespace
   {
-    /** `sph: takes no alloy` or `sph takes no alloy` without the name. */
+    /** `sph: takes no alloy (the reason)` or `sph takes no alloy` without the name and
+     * the reason of each effect, which the page tells in its table of effects. */
     std::string reason_alone(const std::string &message, const std::string &method)
     {
-      if(!message.starts_with(method))
-        return message;
-      const auto first = message.find_first_not_of(": ", method.size());
-      return first == std::string::npos ? message : message.substr(first);
+      std::string reason = message;
+      if(message.starts_with(method))
+        reason.erase(0, message.find_first_not_of(": ", method.size()));
+      static const std::regex in_brackets(R"( \([^()]*(\([^()]*\)[^()]*)*\))");
+      return std::regex_replace(reason, in_brackets, "");
     }
   } // namespace
 
