@@ -120,9 +120,10 @@ namespace meltfront::verification
       {
         std::vector<QuantityBar> bars;
         const RunRecord &finest = *levels.back();
-        add("front", &RunSeries::front,
-            finest.series.front_exact.empty() ? nan : finest.series.front_exact.back(),
-            bars);
+        if(one_coordinate())
+          add("front", &RunSeries::front,
+              finest.series.front_exact.empty() ? nan : finest.series.front_exact.back(),
+              bars);
         add_course(bars);
         add("solid_volume", &RunSeries::solid_volume, finest.solid_volume_exact, bars);
         add("heat", &RunSeries::heat, nan, bars);
@@ -130,6 +131,13 @@ namespace meltfront::verification
       }
 
     private:
+      /** Else the record's front is that of a circle or ball of the solid's volume. */
+      bool one_coordinate() const
+      {
+        const auto &probes = levels.back()->probes;
+        return probes.empty() || !probes.front().coordinate.empty();
+      }
+
       BarRecipe recipe(double scale) const
       {
         return {scale, constants.order_in_space, constants.order_in_time,

@@ -151,7 +151,17 @@ TEST(App, CompareMeasuresEveryMethodAndItsReportCanBeMadeAgain)
   const TemporaryDirectory directory;
   const Outcome outcome = run_program("compare plane-one-phase --n 8,16,24,32 --out "
                                       + directory.path().string());
-  EXPECT_TRUE(outcome.status == 0 || outcome.status == 1) << outcome.output;
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+  const nlohmann::json answers = read_json(directory.path() / "answers.json");
+  ASSERT_FALSE(answers.empty());
+  EXPECT_EQ(answers.front().at("quantity"), "front");
+  const double exact = answers.front().at("exact");
+  for(const nlohmann::json &method : answers.front().at("methods"))
+    // The form as published misses the front there, and does not converge.
+    if(method.at("method") != "sph-2005")
+    {
+      EXPECT_NEAR(method.at("value").get<double>(), exact, 0.02 * exact) << method;
+    }
   const nlohmann::json summary = read_json(directory.path() / "summary.json");
   EXPECT_TRUE(summary.contains("passed"));
   for(const char *file :
@@ -159,7 +169,7 @@ TEST(App, CompareMeasuresEveryMethodAndItsReportCanBeMadeAgain)
        "tables/plane-one-phase.tex", "runs/plane-one-phase/sph/n=32/run.json"})
     EXPECT_TRUE(fs::exists(directory.path() / file)) << file;
   fs::remove(directory.path() / "report.html");
-  EXPECT_EQ(run_program("report " + directory.path().string()).status, outcome.status);
+  EXPECT_LE(run_program("report " + directory.path().string()).status, 1);
   EXPECT_TRUE(fs::exists(directory.path() / "report.html"));
 }
 

@@ -191,6 +191,35 @@ namespace meltfront::verification
       return forecast;
     }
 
+    const RunRecord &level_at(const Ladder &ladder, int n)
+    {
+      return **std::ranges::find(ladder.levels, n, &RunRecord::n);
+    }
+
+    /** Relative to the front; NaN without an exact one. */
+    double true_error(const Ladder &ladder, int n)
+    {
+      const RunRecord &run = level_at(ladder, n);
+      const auto &exact = run.series.front_exact;
+      return has_front(ladder) && !exact.empty()
+                 ? run.quantity("front_rms") / std::abs(exact.back())
+                 : nan;
+    }
+
+    /** Of a level, relative: its distance from the finest and the error bar of that. */
+    double told_error(const Ladder &ladder, int n)
+    {
+      const bool front = has_front(ladder);
+      for(const QuantityBar &known : bars_of(ladder))
+        if(known.quantity == (front ? front_course : "solid_volume"))
+          return (known.bar.bar
+                  + course_difference(level_at(ladder, n), *ladder.levels.back(),
+                                      front ? &RunSeries::front
+                                            : &RunSeries::solid_volume))
+                 / known.scale;
+      return nan;
+    }
+
     void take_outcome(const MatrixResult &result, const MethodForecast &chosen,
                       Advice &advice)
     {
@@ -207,16 +236,11 @@ namespace meltfront::verification
           advice.options = run.options;
           advice.seconds = cpu_seconds_of(run);
         }
-      Ladder ladder = *ladder_of(ladders_of(result), chosen.method->name());
-      std::erase_if(ladder.levels,
-                    [&](const RunRecord *run) { return run->n > chosen.n; });
-      for(const QuantityBar &known : bars_of(ladder))
-        if(known.quantity == (has_front(ladder) ? front_course : "solid_volume"))
-        {
-          advice.error_is_true = std::isfinite(known.error);
-          advice.error
-              = (advice.error_is_true ? known.error : known.bar.bar) / known.scale;
-        }
+      const Ladder ladder = *ladder_of(ladders_of(result), chosen.method->name());
+      advice.error = true_error(ladder, chosen.n);
+      advice.error_is_true = std::isfinite(advice.error);
+      if(!advice.error_is_true)
+        advice.error = told_error(ladder, chosen.n);
     }
 
     /** What the time allows, of the method with the least error in it. */

@@ -178,8 +178,10 @@ namespace meltfront::verification
       sum += one.seconds;
       if(one.seconds > left || sum > jobs * left)
       {
-        one.ladder->stopped = fmt::format("n = {} would take about {:.2g} s", one.n,
-                                          one.seconds / safety);
+        one.ladder->stopped = left > 0
+                                  ? fmt::format("n = {} would take about {:.2g} s", one.n,
+                                                one.seconds / safety)
+                                  : fmt::format("the time was up before n = {}", one.n);
         continue;
       }
       one.ladder->resolutions.push_back(one.n);

@@ -1,0 +1,215 @@
+#include <verification/judge/answers.h>
+#include <verification/run/tests/fakes.h>
+#include <verification/studies/ladders/advice.h>
+#include <verification/studies/ladders/capable_methods.h>
+#include <verification/studies/ladders/ladder_growth.h>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <thread>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using tests::FakeMethod;
+    using tests::ScratchDirectory;
+
+    /** Time that the processor counts, unlike that of a sleep. */
+    void work_for(int milliseconds)
+    {
+      const std::clock_t end = std::clock() + milliseconds * (CLOCKS_PER_SEC / 1000);
+      while(std::clock() < end)
+        ;
+    }
+
+    class LadderTest : public ::testing::Test
+    {
+    protected:
+      LadderTest()
+      {
+        options.directory = scratch.path("out");
+        options.jobs = 2;
+        options.program_version = "1";
+        options.repeats.most = 1;
+      }
+
+      void add(const std::string &name, double order, FakeMethod::Act act = {},
+               tests::Cheat cheat = {})
+      {
+        methods.emplace(name, std::make_unique<FakeMethod>(name, act, 0.1, order, cheat));
+      }
+
+      LadderGrowth growth(double within)
+      {
+        std::vector<const cases::Method *> all;
+        for(const auto &[name, method] : methods)
+          all.push_back(method.get());
+        return LadderGrowth(
+            "slab", 1, "levels", all, options,
+            [](const std::string &name) { return tests::slab_case(name); },
+            [this](const std::string &name) -> const cases::Method &
+            { return *methods.at(name); },
+            within);
+      }
+
+      static const Answer &answer(const std::vector<Answer> &answers,
+                                  const std::string &quantity)
+      {
+        return *std::ranges::find(answers, quantity, &Answer::quantity);
+      }
+
+      ScratchDirectory scratch;
+      std::map<std::string, std::unique_ptr<FakeMethod>> methods;
+      RunnerOptions options;
+    };
+
+    TEST_F(LadderTest, GrowsUntilThereAreEnoughLevels)
+    {
+      add("one", 1);
+      add("two", 2);
+      LadderGrowth levels = growth(600);
+      while(levels.grow())
+        ;
+      for(const GrowingLadder &ladder : levels.ladders())
+        EXPECT_EQ(ladder.resolutions,
+                  (std::vector<int>{20, 40, 80, 160, 320, 640, 1280, 2560}));
+      EXPECT_TRUE(levels.stops().empty());
+
+      const auto answers = answers_of(levels.result(), levels.result().cases.front());
+      const Answer &front = answer(answers, "front");
+      EXPECT_TRUE(front.consensus.agreed);
+      EXPECT_EQ(front.methods.size(), 2u);
+      EXPECT_EQ(front.consensus.value, front.methods[1].bar.value);
+      for(const MethodAnswer &one : front.methods)
+        EXPECT_LE(one.error, one.bar.bar) << one.label;
+      const auto errors = level_errors(levels.result(), levels.result().cases.front());
+      EXPECT_EQ(errors.size(), 16u);
+      ASSERT_NE(cheapest_level(errors, 1e-2), nullptr);
+      EXPECT_LE(cheapest_level(errors, 1e-2)->error, 1e-2);
+      EXPECT_EQ(cheapest_level(errors, 1e-12), nullptr);
+    }
+
+    TEST_F(LadderTest, EndsWhatTakesLongerThanThereIsTime)
+    {
+      add("good", 1);
+      add("slow", 1,
+          [](const cases::Scene &, const cases::Resolution &resolution)
+          {
+            if(resolution.n > 20)
+              std::this_thread::sleep_for(std::chrono::seconds(1000));
+          });
+      LadderGrowth levels = growth(3);
+      while(levels.grow())
+        ;
+      ASSERT_EQ(levels.stops().size(), 2u);
+      EXPECT_TRUE(levels.stops()[0].starts_with("good: the time was up before n = "))
+          << levels.stops()[0];
+      EXPECT_TRUE(levels.stops()[1].starts_with("slow: n = 40 was ended"))
+          << levels.stops()[1];
+      EXPECT_EQ(levels.finest(*methods.at("slow"))->n, 20);
+      levels.conclude("as time allowed", [](MatrixResult &result)
+                      { EXPECT_EQ(result.description, "as time allowed"); });
+      for(const RunRecord &run : levels.result().runs)
+        EXPECT_EQ(run.status, RunStatus::finished) << run.label << " " << run.n;
+    }
+
+    TEST_F(LadderTest, AMethodThatFailsEndsItsLadderAndSaysWhy)
+    {
+      add("failing", 1,
+          [](const cases::Scene &, const cases::Resolution &resolution)
+          {
+            if(resolution.n > 40)
+              throw cases::NumericalError("failing", 3, 0.5, "temperature", "is bad");
+          });
+      LadderGrowth levels = growth(600);
+      while(levels.grow())
+        ;
+      ASSERT_EQ(levels.stops().size(), 1u);
+      EXPECT_NE(levels.stops().front().find("failed at n = 80"), std::string::npos);
+      EXPECT_EQ(levels.finest(*methods.at("failing"))->n, 40);
+    }
+
+    TEST_F(LadderTest, AWrongLimitContradictsTheOthers)
+    {
+      add("one", 1);
+      add("two", 2);
+      add("wrong", 2, {},
+          [](tests::State &state)
+          {
+            for(double &fraction : state.solid_fraction)
+              fraction *= 0.9;
+          });
+      LadderGrowth levels = growth(600);
+      for(int level = 0; level < 5; ++level)
+        levels.grow();
+      const auto answers = answers_of(levels.result(), levels.result().cases.front());
+      const Answer &volume = answer(answers, "solid_volume");
+      EXPECT_TRUE(volume.consensus.agreed);
+      EXPECT_EQ(volume.consensus.support, 2);
+      for(const MethodAnswer &one : volume.methods)
+        EXPECT_EQ(one.distance_in_bars > 1, one.label == "wrong");
+    }
+
+    TEST_F(LadderTest, AdviceMeetsTheErrorAndIsRun)
+    {
+      // The orders that the priors know.
+      add("fem-enthalpy", 1.44);
+      add("rkpm-tracked", 1.96);
+      for(const double wanted : {1e-2, 1e-3, 1e-4})
+      {
+        LadderGrowth levels = growth(600);
+        const Advice advice = advise(levels, {wanted});
+        EXPECT_TRUE(advice.reachable) << advice.explanation;
+        EXPECT_TRUE(advice.error_is_true);
+        EXPECT_LE(advice.error, wanted);
+        EXPECT_LE(advice.predicted_error, wanted);
+        EXPECT_GT(advice.error, wanted / 30);
+        EXPECT_EQ(advice.forecasts.size(), 2u);
+        std::filesystem::remove_all(options.directory);
+      }
+    }
+
+    TEST_F(LadderTest, AdviceSaysWhatIsReachable)
+    {
+      add("fem-enthalpy", 1.44,
+          [](const cases::Scene &, const cases::Resolution &resolution)
+          { work_for(resolution.n); });
+      LadderGrowth levels = growth(3);
+      const Advice advice = advise(levels, {1e-9});
+      EXPECT_FALSE(advice.reachable);
+      EXPECT_NE(advice.explanation.find("out of reach"), std::string::npos)
+          << advice.explanation;
+      EXPECT_GT(advice.error, 1e-9) << advice.n << advice.explanation;
+    }
+
+    TEST_F(LadderTest, MethodsThatCannotAreLeftOutByReason)
+    {
+      class Narrow : public FakeMethod
+      {
+      public:
+        using FakeMethod::FakeMethod;
+
+        std::vector<cases::Capabilities> capabilities() const override
+        {
+          auto narrow = tests::fake_capabilities();
+          narrow.shapes.erase(narrow.shapes.begin());
+          return {narrow};
+        }
+      };
+      const FakeMethod good("good");
+      const Narrow first("first"), second("second");
+      const CapableMethods found
+          = capable_methods(tests::slab_case("slab"), {&good, &first, &second});
+      ASSERT_EQ(found.capable.size(), 1u);
+      EXPECT_EQ(found.capable.front(), &good);
+      ASSERT_EQ(found.left_out.size(), 1u);
+      EXPECT_TRUE(found.left_out.front().starts_with("first, second: "))
+          << found.left_out.front();
+    }
+  } // namespace
+} // namespace meltfront::verification
