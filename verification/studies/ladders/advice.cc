@@ -54,16 +54,14 @@ namespace meltfront::verification
       if(levels < 2 || !(differences.back() >= 0))
         return model;
       model.n = n.back();
-      model.order = order;
-      if(lowest_order < order)
+      model.order = levels > 2 ? order : lowest_order;
+      if(levels > 2)
       {
-        const double ratio
-            = levels > 2 ? differences[levels - 3] / differences[levels - 2] : nan;
         const double observed
-            = std::log(ratio)
+            = std::log(differences[levels - 3] / differences[levels - 2])
               / std::log(static_cast<double>(n[levels - 1]) / n[levels - 2]);
-        model.order = std::isfinite(observed) ? std::clamp(observed, least_order, order)
-                                              : lowest_order;
+        if(std::isfinite(observed))
+          model.order = std::clamp(observed, least_order, order);
       }
       const double refined = static_cast<double>(n[levels - 1]) / n[levels - 2];
       model.error = differences.back() / (std::pow(refined, model.order) - 1);
@@ -375,7 +373,8 @@ namespace meltfront::verification
       return advice;
     }
     MethodForecast chosen = advice.forecasts.front();
-    advice.reachable = chosen.seconds <= growth.seconds_left();
+    const bool made = growth.finest(*chosen.method)->n >= chosen.n;
+    advice.reachable = made || chosen.seconds <= growth.seconds_left();
     if(!advice.reachable)
     {
       chosen = best_of_all(growth, advice.forecasts);

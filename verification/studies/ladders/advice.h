@@ -56,8 +56,9 @@ namespace meltfront::verification
    * difference of the two finest courses over the size of the front, E = D/((n_2/n_1)^p -
    * 1) is the error of the finest; n = s n_2 (E/wanted)^(1/p) reaches the wanted one with
    * a margin s of 1.5 for errors down to 1e-3 and 1.25 below (a coarser level that does
-   * so already will do); p and the growth of the time are those of other cases
-   * (method_prior()). No exact solution is looked at.
+   * so already will do); p is that of other cases (method_prior()) or, where three
+   * levels show a lower one, that; the growth of the time is that of other cases. No
+   * exact solution is looked at.
    */
   std::vector<MethodForecast> forecasts(const LadderGrowth &growth,
                                         const StoredCase &record,
