@@ -43,8 +43,9 @@ namespace meltfront::verification
     {
       RunnerOptions options = runner_options(directory, jobs, memory);
       options.repeats = few_repeats;
-      return LadderGrowth(case_name, c.scene.domain.dimension, title, found.capable,
-                          options, load_checked_case, method_named, within);
+      return LadderGrowth(
+          case_name, c.scene.domain.dimension, title, found.capable, options,
+          [&c](const std::string &) { return c; }, method_named, within);
     }
 
     /** What a reader must know of the levels: where they end and who is not there. */

@@ -229,4 +229,14 @@ namespace meltfront::verification
         best = &level;
     return best;
   }
+
+  const LevelError *most_accurate_level(const std::vector<LevelError> &levels,
+                                        double seconds)
+  {
+    const LevelError *best = nullptr;
+    for(const LevelError &level : levels)
+      if(level.cpu_seconds <= seconds && (!best || level.error < best->error))
+        best = &level;
+    return best;
+  }
 } // namespace meltfront::verification

@@ -68,6 +68,14 @@ namespace meltfront::verification
 
   /** The cheapest level whose error is at most the wanted one; null if there is none. */
   const LevelError *cheapest_level(const std::vector<LevelError> &levels, double wanted);
+
+  /** Processor times (s) for which the most accurate method is told. */
+  inline constexpr double times_of_interest[] = {1e-3, 1e-2, 1e-1, 1, 10};
+
+  /** The most accurate level that takes at most so much processor time (s); null for
+   * none. */
+  const LevelError *most_accurate_level(const std::vector<LevelError> &levels,
+                                        double seconds);
 } // namespace meltfront::verification
 
 #endif

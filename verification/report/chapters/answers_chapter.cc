@@ -144,6 +144,26 @@ namespace meltfront::verification
       table.groups.push_back(std::move(group));
       return table;
     }
+    Table most_accurate_table(const std::vector<LevelError> &levels)
+    {
+      Table table;
+      table.columns = {{"CPU of at most", "", false},
+                       {"most accurate", "", false},
+                       {"n", "", true},
+                       {"dimension", "", true},
+                       {"relative error of the front", "", true}};
+      RowGroup group;
+      for(const double seconds : times_of_interest)
+        if(const LevelError *best = most_accurate_level(levels, seconds))
+          group.rows.push_back({{duration_text(seconds)},
+                                {best->label},
+                                {NumberText{grouped(best->n), {}}},
+                                {NumberText{grouped(best->dimension), {}}},
+                                {number_text(best->error, 2, Notation::scientific)}});
+      if(!group.rows.empty())
+        table.groups.push_back(std::move(group));
+      return table;
+    }
   } // namespace
 
   Markup answers_chapter(const ReportContext &context)
@@ -163,7 +183,16 @@ namespace meltfront::verification
     const std::vector<LevelError> levels = level_errors(context.result, record);
     Markup content = element("h2", "What the methods answer") + list("ul", verdicts);
     if(!levels.empty())
+    {
       content += element("h3", "The cheapest") + table_markup(cheapest_table(levels));
+      if(const Table table = most_accurate_table(levels); !table.empty())
+        content += element("h3", "The most accurate") + table_markup(table);
+      content
+          += element("p", {{"class", "nothing"}},
+                     text("CPU seconds of set-up and stepping. A planar or round scene "
+                          "runs along a line where a method can: one in the plane "
+                          "does more work for the same answer."));
+    }
     return content + element("h3", "All answers")
            + element("p",
                      "Values at the end of the finest run of each method, with error "

@@ -35,6 +35,7 @@ namespace meltfront::verification
     /**
      * @param case_name by name or path
      * @param dimension of its domain
+     * @param load_case is called at every stage
      * @param within seconds by the clock for all
      */
     LadderGrowth(const std::string &case_name, int dimension, const std::string &title,
