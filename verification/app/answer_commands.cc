@@ -49,15 +49,15 @@ namespace meltfront::verification
     }
 
     /** What a reader must know of the levels: where they end and who is not there. */
-    std::string description_of(const LadderGrowth &growth, const CapableMethods &found,
-                               double within)
+    std::vector<std::string> remarks_on(const LadderGrowth &growth,
+                                        const CapableMethods &found)
     {
-      std::string text = fmt::format("Levels as {} s allowed.", within);
+      std::vector<std::string> remarks;
       for(const std::string &stop : growth.stops())
-        text += fmt::format(" Ended early: {}.", stop);
+        remarks.push_back("Ended early: " + stop);
       for(const std::string &reason : found.left_out)
-        text += fmt::format(" Left out: {}.", reason);
-      return text;
+        remarks.push_back("Left out: " + reason);
+      return remarks;
     }
 
     std::string interval_text(double value, double bar)
@@ -134,14 +134,6 @@ namespace meltfront::verification
       return answers;
     }
 
-    void print_remarks(const LadderGrowth &growth, const CapableMethods &found)
-    {
-      for(const std::string &stop : growth.stops())
-        fmt::print("Ended early: {}\n", stop);
-      for(const std::string &reason : found.left_out)
-        fmt::print("Left out: {}\n", reason);
-    }
-
     bool contradictory(const std::vector<Answer> &answers)
     {
       return std::ranges::any_of(
@@ -164,11 +156,12 @@ namespace meltfront::verification
         ;
     else
       growth.make_all(arguments.resolutions);
-    growth.conclude(description_of(growth, found, arguments.within),
+    growth.conclude(remarks_on(growth, found),
                     [&](MatrixResult &result) { write_results(result, directory); });
     const std::vector<Answer> answers = tell_answers(growth.result(), directory);
     fmt::print("\n");
-    print_remarks(growth, found);
+    for(const std::string &remark : remarks_on(growth, found))
+      fmt::print("{}\n", remark);
     print_place_of_report(directory);
     return answers.empty()          ? run_failed
            : contradictory(answers) ? criterion_failed
@@ -186,7 +179,7 @@ namespace meltfront::verification
                                     arguments.jobs, arguments.memory, arguments.within);
     const Advice advice
         = advise(growth, {arguments.front_error, arguments.temperature_error});
-    growth.conclude(description_of(growth, found, arguments.within),
+    growth.conclude(remarks_on(growth, found),
                     [&](MatrixResult &result) { write_results(result, directory); });
     tell_answers(growth.result(), directory);
     write_json(directory + "/advice.json", advice);

@@ -74,6 +74,7 @@ namespace meltfront::verification
     std::vector<StabilityVerdict> stability; ///< of a matrix of hard cases, else empty
     std::vector<std::string>
         omissions; ///< runs that failed or were left out, each with its reason
+    std::vector<std::string> remarks{}; ///< on how it was planned
     bool passed = false;
   };
 } // namespace meltfront::verification

@@ -65,6 +65,8 @@ namespace meltfront::verification
     std::vector<MatrixCriterion> criteria{};
     std::vector<Finding> findings{}; ///< what the runs are claimed to show
     std::vector<Picture> pictures{}; ///< what its report draws
+    /** What a reader must know of how it was planned, a sentence each. */
+    std::vector<std::string> remarks{};
   };
 
   /** A case of a matrix: as written, or with values that the matrix gives to its keys. */

@@ -86,6 +86,7 @@ namespace meltfront::verification
     write_json(directory + "/matrix.json", {{"name", matrix.name},
                                             {"title", matrix.title},
                                             {"description", matrix.description},
+                                            {"remarks", matrix.remarks},
                                             {"hard_cases", matrix.hard_cases},
                                             {"date", current_date()},
                                             {"program_version", program_version},
@@ -130,6 +131,7 @@ namespace meltfront::verification
       result.name = matrix.at("name");
       result.title = matrix.at("title");
       result.description = matrix.at("description");
+      result.remarks = matrix.value("remarks", std::vector<std::string>());
       result.hard_cases = matrix.at("hard_cases");
       result.date = matrix.at("date");
       result.program_version = matrix.at("program_version");

@@ -193,6 +193,12 @@ namespace meltfront::verification
                           "runs along a line where a method can: one in the plane "
                           "does more work for the same answer."));
     }
+    std::vector<Markup> remarks;
+    for(const std::string &remark : context.result.remarks)
+      remarks.push_back(text(remark + "."));
+    if(!remarks.empty())
+      content += element("h3", "Where levels end, and who is not there")
+                 + list("ul", remarks);
     return content + element("h3", "All answers")
            + element("p",
                      "Values at the end of the finest run of each method, with error "

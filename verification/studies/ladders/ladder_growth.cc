@@ -73,7 +73,7 @@ namespace meltfront::verification
     Matrix matrix;
     matrix.name = title;
     matrix.title = title;
-    matrix.description = description;
+    matrix.remarks = remarks;
     matrix.time_limit = std::max(seconds_left(), shortest_limit);
     for(const GrowingLadder &ladder : growing)
       if(!ladder.resolutions.empty())
@@ -221,10 +221,10 @@ namespace meltfront::verification
     return sentences;
   }
 
-  void LadderGrowth::conclude(const std::string &text,
+  void LadderGrowth::conclude(const std::vector<std::string> &words,
                               const std::function<void(MatrixResult &)> &what)
   {
-    description = text;
+    remarks = words;
     run(what);
   }
 } // namespace meltfront::verification

@@ -64,9 +64,9 @@ namespace meltfront::verification
     /** A sentence for every ladder that ended for another reason than enough levels. */
     std::vector<std::string> stops() const;
 
-    /** Write the plan anew, with a text on how its levels were chosen, and do what is to
+    /** Write the plan anew, with remarks on how its levels were chosen, and do what is to
      * be done with the result. */
-    void conclude(const std::string &description,
+    void conclude(const std::vector<std::string> &remarks,
                   const std::function<void(MatrixResult &)> &what);
 
     /** The finished run of a method at its finest level; null for none. */
@@ -82,7 +82,8 @@ namespace meltfront::verification
 
     std::string case_name;
     int coarsest; ///< level of every ladder
-    std::string title, description;
+    std::string title;
+    std::vector<std::string> remarks;
     std::vector<GrowingLadder> growing;
     RunnerOptions options;
     CaseLoader load_case;

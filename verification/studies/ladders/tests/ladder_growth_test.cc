@@ -112,8 +112,8 @@ namespace meltfront::verification
       EXPECT_TRUE(levels.stops()[1].starts_with("slow: n = 40 was ended"))
           << levels.stops()[1];
       EXPECT_EQ(levels.finest(*methods.at("slow"))->n, 20);
-      levels.conclude("as time allowed", [](MatrixResult &result)
-                      { EXPECT_EQ(result.description, "as time allowed"); });
+      levels.conclude({"as time allowed"}, [](MatrixResult &result)
+                      { EXPECT_EQ(result.remarks.front(), "as time allowed"); });
       for(const RunRecord &run : levels.result().runs)
         EXPECT_EQ(run.status, RunStatus::finished) << run.label << " " << run.n;
     }
