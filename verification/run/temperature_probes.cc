@@ -133,7 +133,7 @@ namespace meltfront::verification
       if(!domain.round())
         return true;
       const double r = std::hypot(place[0], place[1], place[2]);
-      return r > domain.inner_radius && r < domain.radius;
+      return r >= domain.inner_radius && r < domain.radius;
     }
 
     std::vector<cases::Position> places_inside(const cases::Domain &domain)
