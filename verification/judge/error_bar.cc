@@ -42,26 +42,6 @@ namespace meltfront::verification
       return found == orders.end() ? 2 : found->second;
     }
 
-    /** p with ratio = r21^p (r32^p - 1)/(r21^p - 1), which rises with p; -1 for none that
-     * is positive. */
-    double observed_order(double ratio, double r21, double r32)
-    {
-      const auto excess = [&](double p)
-      {
-        return std::pow(r21, p) * std::expm1(p * std::log(r32))
-                   / std::expm1(p * std::log(r21))
-               - ratio;
-      };
-      const double least = 1e-6;
-      if(excess(least) >= 0)
-        return -1;
-      if(excess(highest_observed) <= 0)
-        return highest_observed;
-      const auto [lower, upper] = boost::math::tools::bisect(
-          excess, least, highest_observed, boost::math::tools::eps_tolerance<double>(40));
-      return (lower + upper) / 2;
-    }
-
     /** The highest order that refined steps allow to believe in. */
     double order_cap(const BarLevel &finest, const BarLevel &coarser,
                      const BarRecipe &recipe, std::string &remark)
@@ -124,6 +104,24 @@ namespace meltfront::verification
     if(constants.order_in_time == 0)
       constants.order_in_time = in_time;
     return constants;
+  }
+
+  double observed_order(double ratio, double r21, double r32)
+  {
+    const auto excess = [&](double p)
+    {
+      return std::pow(r21, p) * std::expm1(p * std::log(r32))
+                 / std::expm1(p * std::log(r21))
+             - ratio;
+    };
+    const double least = 1e-6;
+    if(excess(least) >= 0)
+      return -1;
+    if(excess(highest_observed) <= 0)
+      return highest_observed;
+    const auto [lower, upper] = boost::math::tools::bisect(
+        excess, least, highest_observed, boost::math::tools::eps_tolerance<double>(40));
+    return (lower + upper) / 2;
   }
 
   ErrorBar error_bar(std::span<const BarLevel> levels,

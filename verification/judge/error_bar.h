@@ -23,6 +23,13 @@ namespace meltfront::verification
 
   BarConstants bar_constants(const RunRecord &run);
 
+  /**
+   * The order that differences of three levels show (1 the finest): p with D_32/D_21 =
+   * r_21^p (r_32^p - 1)/(r_21^p - 1), which rises with p; -1 for none that is positive,
+   * 20 at most.
+   */
+  double observed_order(double difference_ratio, double r21, double r32);
+
   /** One level of a ladder of resolutions, for one quantity. */
   struct BarLevel
   {

@@ -57,9 +57,11 @@ namespace meltfront::verification
       model.order = levels > 2 ? order : lowest_order;
       if(levels > 2)
       {
+        const auto ratio
+            = [&](std::size_t k) { return static_cast<double>(n[k]) / n[k - 1]; };
         const double observed
-            = std::log(differences[levels - 3] / differences[levels - 2])
-              / std::log(static_cast<double>(n[levels - 1]) / n[levels - 2]);
+            = observed_order(differences[levels - 3] / differences[levels - 2],
+                             ratio(levels - 1), ratio(levels - 2));
         if(std::isfinite(observed))
           model.order = std::clamp(observed, least_order, order);
       }
@@ -199,9 +201,12 @@ namespace meltfront::verification
     {
       const RunRecord &run = level_at(ladder, n);
       const auto &exact = run.series.front_exact;
-      return has_front(ladder) && !exact.empty()
-                 ? run.quantity("front_rms") / std::abs(exact.back())
-                 : nan;
+      if(!has_front(ladder) || exact.empty())
+        return nan;
+      // Few steps have no root mean square.
+      const double rms = run.quantity("front_rms");
+      return (std::isfinite(rms) ? rms : run.quantity("front_end"))
+             / std::abs(exact.back());
     }
 
     /** Of a level, relative: its distance from the finest and the error bar of that. */
