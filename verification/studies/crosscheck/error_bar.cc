@@ -1,3 +1,4 @@
+#include <verification/judge/error_bar.h>
 #include <verification/studies/crosscheck/error_bar.h>
 
 #include <algorithm>
@@ -44,24 +45,6 @@ namespace meltfront::verification
     {
       return std::pow(finest.spacing, p)
              / (std::pow(coarser.spacing, p) - std::pow(finer.spacing, p));
-    }
-
-    /** p with ratio = r21^p (r32^p - 1)/(r21^p - 1), which rises with p. */
-    double observed_order(double ratio, double r21, double r32)
-    {
-      const auto right_side = [&](double p)
-      { return std::pow(r21, p) * (std::pow(r32, p) - 1) / (std::pow(r21, p) - 1); };
-      double lower = 1e-3, upper = 20;
-      if(ratio <= right_side(lower))
-        return 0;
-      if(ratio >= right_side(upper))
-        return upper;
-      for(int i = 0; i < 60; ++i)
-      {
-        const double middle = (lower + upper) / 2;
-        (right_side(middle) < ratio ? lower : upper) = middle;
-      }
-      return lower;
     }
   } // namespace
 
