@@ -77,6 +77,9 @@ namespace meltfront::verification
         const double away = std::abs(answers[i].value - result.value);
         result.distance_in_bars[i] = away > 0 ? away / (answers[i].bar + result.bar) : 0;
       }
+    if(result.agreed)
+      result.support = static_cast<int>(std::ranges::count_if(
+          result.distance_in_bars, [](double bars) { return bars <= 1; }));
     return result;
   }
 } // namespace meltfront::verification

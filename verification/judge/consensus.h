@@ -24,7 +24,7 @@ namespace meltfront::verification
     /** Two answers agree at least. False: the value and bar are the middle and half the
      * width of what the answers cover, and none is confirmed. */
     bool agreed = false;
-    int support = 0; ///< answers that agree with the one that most agree with
+    int support = 0; ///< answers that agree with it
     /** For each answer, its distance from the consensus over the sum of both bars: above
      * 1 it contradicts the consensus. NaN for one that took no part. */
     std::vector<double> distance_in_bars;
