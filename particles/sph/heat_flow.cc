@@ -95,12 +95,7 @@ namespace meltfront::particles
     if(effects.contains(Effect::wall_flux))
       wall_flux.emplace(dis, conduction);
     if(effects.contains(Effect::robin_wall) || effects.contains(Effect::radiating_wall))
-    {
-      if(dis.layout != LatticeLayout::cell_centred)
-        throw cases::Refusal("particles on the walls (layout = edge) exchange no heat "
-                             "with surroundings; layout = cell does");
       wall_exchange.emplace(dis, conduction);
-    }
     if(moving)
     {
       liquid_end.emplace(*moving, dis);

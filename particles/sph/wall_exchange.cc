@@ -1,3 +1,4 @@
+#include <cases/error.h>
 #include <particles/sph/wall_exchange.h>
 
 #include <algorithm>
@@ -25,6 +26,9 @@ namespace meltfront::particles
     , boundaries(boundaries_of(rows))
     , values(discretisation.scene, rows.exchange_points, links)
   {
+    if(discretisation.layout != LatticeLayout::cell_centred)
+      throw cases::Refusal("particles on the walls (layout = edge) exchange no heat with "
+                           "surroundings; layout = cell does");
   }
 
   void WallExchange::prepare_step(double begin, double end)
@@ -32,10 +36,9 @@ namespace meltfront::particles
     meter.measure_setup([&] { values.average_step(begin, end); });
   }
 
-  WallExchange::Layer WallExchange::layer(std::size_t link, double enthalpy,
+  WallExchange::Layer WallExchange::layer(double depth, double enthalpy,
                                           double ambient) const
   {
-    const double depth = depths[link];
     if(material.curves)
     {
       // Within half a spacing the conductivity is the particle's to first order.
@@ -44,7 +47,7 @@ namespace meltfront::particles
       return enthalpy < 0 || enthalpy > jump
                  ? Layer{state.temperature, depth / state.conductivity,
                          1 / state.capacity, 0}
-                 : melting_layer(link, enthalpy, ambient);
+                 : melting_layer(depth, enthalpy, ambient);
     }
     if(enthalpy < 0 || enthalpy > material.latent_heat)
     {
@@ -53,13 +56,13 @@ namespace meltfront::particles
       return {material.temperature(enthalpy), depth / phase.conductivity,
               1 / phase.specific_heat_capacity, 0};
     }
-    return melting_layer(link, enthalpy, ambient);
+    return melting_layer(depth, enthalpy, ambient);
   }
 
-  WallExchange::Layer WallExchange::melting_layer(std::size_t link, double enthalpy,
+  WallExchange::Layer WallExchange::melting_layer(double depth, double enthalpy,
                                                   double ambient) const
   {
-    const double latent = sharp_latent_heat, depth = depths[link];
+    const double latent = sharp_latent_heat;
     // Cold surroundings freeze it from the wall on, warm ones melt it.
     const bool freezes = ambient < material.melting_temperature;
     const double changed
@@ -76,43 +79,29 @@ namespace meltfront::particles
   double WallExchange::add(double fraction, std::span<const double> enthalpy,
                            std::span<double> flow, double flow_scale)
   {
-    return meter.measure(
-        [&]
+    return add(
+        [&](std::size_t row, const cases::Boundary &wall, double ambient, double depth)
         {
-          double sum = 0;
-          for(std::size_t i = 0; i < links.size(); ++i)
-          {
-            const WallLink &link = links[i];
-            const double ambient = values.at(link.point, fraction);
-            const Layer behind = layer(i, enthalpy[link.row], ambient);
-            const double heat
-                = link.strength
-                  * cases::heat_through_layer(*boundaries[i], ambient, behind.temperature,
-                                              behind.resistance)
-                        .flux
-                  / flow_scale;
-            flow[link.row] += heat;
-            sum += heat;
-          }
-          return sum;
-        });
+          const Layer behind = layer(depth, enthalpy[row], ambient);
+          return cases::heat_through_layer(wall, ambient, behind.temperature,
+                                           behind.resistance)
+              .flux;
+        },
+        fraction, flow, flow_scale);
   }
 
   void WallExchange::differentiate(double fraction, std::span<const double> enthalpy,
                                    std::span<double> diagonal, double flow_scale) const
   {
-    for(std::size_t i = 0; i < links.size(); ++i)
-    {
-      const WallLink &link = links[i];
-      const double ambient = values.at(link.point, fraction);
-      const Layer behind = layer(i, enthalpy[link.row], ambient);
-      const cases::HeatThroughLayer through = cases::heat_through_layer(
-          *boundaries[i], ambient, behind.temperature, behind.resistance);
-      diagonal[link.row]
-          += link.strength
-             * (through.slope * behind.warming + through.by_resistance * behind.growth)
-             / flow_scale;
-    }
+    differentiate(
+        [&](std::size_t row, const cases::Boundary &wall, double ambient, double depth)
+        {
+          const Layer behind = layer(depth, enthalpy[row], ambient);
+          const cases::HeatThroughLayer through = cases::heat_through_layer(
+              wall, ambient, behind.temperature, behind.resistance);
+          return through.slope * behind.warming + through.by_resistance * behind.growth;
+        },
+        fraction, diagonal, flow_scale);
   }
 
   cases::EffectCost WallExchange::cost(cases::Effect effect) const

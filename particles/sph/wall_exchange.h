@@ -13,25 +13,66 @@ namespace meltfront::particles
   /**
    * Walls that exchange heat with their surroundings, by heat transfer or radiation. Each
    * particle near such a wall takes its share of the wall's area, as of a flux, and lies
-   * behind a layer through which heat flows steadily: of its depth and its own phase, or,
-   * while it melts, up to the front within it, of the phase that the surroundings make.
+   * behind a layer of its depth, through which heat flows steadily. What the layer is
+   * made of is told by those who add the heat; of one substance it is of the particle's
+   * own phase, or, while that melts, up to the front within it, of the phase that the
+   * surroundings make.
    */
   class WallExchange
   {
   public:
+    /** @throws cases::Refusal for particles on the walls */
     WallExchange(const Discretisation &discretisation, const ConductionRows &rows);
 
     void prepare_step(double begin, double end);
 
     /**
-     * Add the walls' heat to the particles' flows, in units of `flow_scale`.
+     * Add the walls' heat to the particles' flows, in units of `flow_scale`:
+     * through(row, wall, ambient temperature, depth) in W/m^2.
      * @return heat flow into the scene, in the flows' unit.
      */
+    template <typename Through>
+    double add(const Through &through, double fraction, std::span<double> flow,
+               double flow_scale)
+    {
+      return meter.measure(
+          [&]
+          {
+            double sum = 0;
+            visit(fraction,
+                  [&](const WallLink &link, const cases::Boundary &wall, double ambient,
+                      double depth)
+                  {
+                    const double heat = link.strength
+                                        * through(link.row, wall, ambient, depth)
+                                        / flow_scale;
+                    flow[link.row] += heat;
+                    sum += heat;
+                  });
+            return sum;
+          });
+    }
+
+    /** The same of one substance. */
     double add(double fraction, std::span<const double> enthalpy, std::span<double> flow,
                double flow_scale);
 
     /** Add to the rows' entries of `diagonal` how this heat follows the particles'
-     * enthalpies. */
+     * enthalpies: rate(row, wall, ambient temperature, depth) in W/m^2 per J/kg. */
+    template <typename Rate>
+    void differentiate(const Rate &rate, double fraction, std::span<double> diagonal,
+                       double flow_scale) const
+    {
+      visit(fraction,
+            [&](const WallLink &link, const cases::Boundary &wall, double ambient,
+                double depth)
+            {
+              diagonal[link.row]
+                  += link.strength * rate(link.row, wall, ambient, depth) / flow_scale;
+            });
+    }
+
+    /** The same of one substance. */
     void differentiate(double fraction, std::span<const double> enthalpy,
                        std::span<double> diagonal, double flow_scale) const;
 
@@ -55,6 +96,13 @@ namespace meltfront::particles
     cases::EffectCost cost(cases::Effect effect) const;
 
   private:
+    template <typename Visitor>
+    void visit(double fraction, const Visitor &visitor) const
+    {
+      for(std::size_t i = 0; i < links.size(); ++i)
+        visitor(links[i], *boundaries[i], values.at(links[i].point, fraction), depths[i]);
+    }
+
     /** What lies between a wall and a particle's temperature. */
     struct Layer
     {
@@ -63,8 +111,8 @@ namespace meltfront::particles
       double warming;     ///< dT/dH (K kg/J)
       double growth;      ///< dR/dH
     };
-    Layer layer(std::size_t link, double enthalpy, double ambient) const;
-    Layer melting_layer(std::size_t link, double enthalpy, double ambient) const;
+    Layer layer(double depth, double enthalpy, double ambient) const;
+    Layer melting_layer(double depth, double enthalpy, double ambient) const;
 
     const cases::Material &material;
     double sharp_latent_heat; ///< exchanged at one temperature (J/kg)

@@ -171,6 +171,46 @@ namespace meltfront::particles
                                composition(0, row), composition(1, row)));
   }
 
+  cases::HeatThroughLayer
+  MixtureConduction::from_surroundings(std::size_t row, const cases::Boundary &wall,
+                                       double ambient, double depth) const
+  {
+    if(used_form == ConductionForm::transformed || used_form == ConductionForm::integral)
+      return through_equilibrium(row, wall, ambient, depth);
+    return cases::heat_through_layer(wall, ambient,
+                                     substance.material.melting_temperature + excess[row],
+                                     depth / conductivity(row));
+  }
+
+  cases::HeatThroughLayer
+  MixtureConduction::through_equilibrium(std::size_t row, const cases::Boundary &wall,
+                                         double ambient, double depth) const
+  {
+    constexpr int most_iterations = 100;
+    constexpr double settled = 1e-14;
+    const double melting = substance.material.melting_temperature, own = excess[row];
+    const double coldest = std::min(own, ambient - melting);
+    const double warmest = std::max(own, ambient - melting);
+    double lower = coldest, upper = warmest, at_wall = own, slope = 1;
+    cases::HeatThroughWall through;
+    for(int i = 0; i < most_iterations; ++i)
+    {
+      through = cases::heat_through(wall, ambient, melting + at_wall);
+      // Rises with the wall's temperature.
+      const double surplus = from_wall(row, at_wall) - depth * through.flux;
+      slope = wall_conductivity(row, at_wall) - depth * through.slope;
+      (surplus > 0 ? upper : lower) = at_wall;
+      double next = std::clamp(at_wall - surplus / slope, coldest, warmest);
+      if(next < lower || next > upper)
+        next = 0.5 * (lower + upper);
+      const double change = std::abs(next - at_wall);
+      if(change <= settled * (std::abs(melting + at_wall) + std::abs(ambient)))
+        break;
+      at_wall = next;
+    }
+    return {through.flux, through.slope * conductivity(row) / slope, 0};
+  }
+
   std::size_t MixtureConduction::bytes() const
   {
     return sizeof(double)

@@ -2,6 +2,7 @@
 #define meltfront_particles_sph_mixture_mixture_conduction_h
 
 #include <cases/snapshot.h>
+#include <cases/wall_law.h>
 #include <particles/alloy/solid_path.h>
 #include <particles/core/particle_operator.h>
 #include <particles/sph/phase_map.h>
@@ -72,6 +73,25 @@ namespace meltfront::particles
     /** Of a wall's mixture, which has the composition of the particle next to it. */
     double wall_conductivity(std::size_t row, double wall_excess) const;
 
+    /**
+     * What flows in through a wall by its law and, steadily, through the layer between
+     * wall and particle, which has the particle's composition. Where conduction follows
+     * the integral of k over the temperature, so does the layer: d law(T_wall) is the
+     * integral of k from the particle's temperature to the wall's, which is found by
+     * Newton's method, bisecting where that leaves what is known to hold the root. Else
+     * the layer conducts as the particle.
+     * @param depth d of the particle behind the wall (m)
+     */
+    cases::HeatThroughLayer from_surroundings(std::size_t row,
+                                              const cases::Boundary &wall, double ambient,
+                                              double depth) const;
+
+    /** Of a particle (W/(m K)). */
+    double conductivity(std::size_t row) const
+    {
+      return substance.diagram.conductivity(1 - liquid[row]);
+    }
+
     /** T - T_m of the particles, as of the last follow(). */
     std::span<const double> temperature_excess() const
     {
@@ -100,6 +120,9 @@ namespace meltfront::particles
     template <typename Equilibrium>
     Extremes find_equilibrium(const Equilibrium &equilibrium, int threads);
     void prepare_exchange(int threads);
+    cases::HeatThroughLayer through_equilibrium(std::size_t row,
+                                                const cases::Boundary &wall,
+                                                double ambient, double depth) const;
     void set_depression(int threads);
     double composition(std::size_t solute, std::size_t row) const
     {

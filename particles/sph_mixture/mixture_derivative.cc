@@ -54,11 +54,6 @@ namespace meltfront::particles
     }
   }
 
-  double MixtureDerivative::conductivity(std::size_t row) const
-  {
-    return substance.diagram.conductivity(1 - conduction.liquid_fraction()[row]);
-  }
-
   void MixtureDerivative::linearise_integral(std::size_t row)
   {
     const double excess = conduction.temperature_excess()[row];
@@ -91,13 +86,13 @@ namespace meltfront::particles
                         conduction.temperature_excess()[a], liquid, first);
       slope[a] = slopes.temperature;
       if(form == ConductionForm::uniform || form == ConductionForm::transformed)
-        slope[a] *= conductivity(a);
+        slope[a] *= conduction.conductivity(a);
       else if(form == ConductionForm::integral)
         linearise_integral(a);
       else
       {
         const bool full = substance.expansion * (1 - liquid) > 1;
-        k[a] = conductivity(a);
+        k[a] = conduction.conductivity(a);
         k_slope[a]
             = full ? 0. : -difference * substance.expansion * slopes.liquid_fraction;
       }
@@ -178,7 +173,7 @@ namespace meltfront::particles
     case ConductionForm::transformed:
       return -slope[row];
     case ConductionForm::integral:
-      return -slope[row] * conductivity(row);
+      return -slope[row] * conduction.conductivity(row);
     case ConductionForm::arithmetic:
       return ArithmeticMeanDerivative::between(k[row], own_excess,
                                                conduction.wall_conductivity(row, wall),
@@ -187,6 +182,25 @@ namespace meltfront::particles
       return HarmonicMeanDerivative::between(k[row], own_excess,
                                              conduction.wall_conductivity(row, wall),
                                              wall, {slope[row], 0., k_slope[row], 0.});
+    }
+  }
+
+  double MixtureDerivative::from_surroundings(std::size_t row,
+                                              const cases::Boundary &wall, double ambient,
+                                              double depth) const
+  {
+    const cases::HeatThroughLayer through
+        = conduction.from_surroundings(row, wall, ambient, depth);
+    switch(conduction.form())
+    {
+    case ConductionForm::uniform:
+    case ConductionForm::transformed:
+      return through.slope * slope[row] / conduction.conductivity(row);
+    case ConductionForm::integral:
+      return through.slope * slope[row];
+    default:
+      return through.slope * slope[row]
+             - through.by_resistance * depth / (k[row] * k[row]) * k_slope[row];
     }
   }
 

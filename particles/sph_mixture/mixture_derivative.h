@@ -38,6 +38,10 @@ namespace meltfront::particles
     /** How MixtureConduction::from_wall follows the particle's enthalpy. */
     double from_wall(std::size_t row, double wall_excess) const;
 
+    /** How MixtureConduction::from_surroundings does. */
+    double from_surroundings(std::size_t row, const cases::Boundary &wall, double ambient,
+                             double depth) const;
+
     /** Add a correction, each particle to the next kink of its T(H) at most. */
     void correct(std::span<const double> correction, std::span<double> enthalpy) const;
 
@@ -45,7 +49,6 @@ namespace meltfront::particles
     void find_slopes_of(std::span<const double> enthalpy,
                         std::span<const std::span<const double>> concentration);
     void linearise_integral(std::size_t row);
-    double conductivity(std::size_t row) const;
 
     /** visit(derivative) with that of the exchange at hand. */
     template <typename Visit>

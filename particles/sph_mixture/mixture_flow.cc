@@ -52,6 +52,8 @@ namespace meltfront::particles
       wall_temperature.emplace(dis, rows, wall_excess);
     if(effects.contains(Effect::wall_flux))
       wall_flux.emplace(dis, rows);
+    if(effects.contains(Effect::robin_wall) || effects.contains(Effect::radiating_wall))
+      wall_exchange.emplace(dis, rows);
   }
 
   void MixtureFlow::prepare_step(double begin, double end)
@@ -62,6 +64,8 @@ namespace meltfront::particles
       wall_temperature->prepare_step(begin, end);
     if(wall_flux)
       wall_flux->prepare_step(begin, end);
+    if(wall_exchange)
+      wall_exchange->prepare_step(begin, end);
   }
 
   double MixtureFlow::hold_walls(double fraction, MixtureView state)
@@ -128,6 +132,12 @@ namespace meltfront::particles
     double through_walls = 0;
     if(wall_flux)
       through_walls += wall_flux->add(fraction, flow, 1.);
+    if(wall_exchange)
+      through_walls += wall_exchange->add(
+          [this](std::size_t row, const cases::Boundary &wall, double ambient,
+                 double depth)
+          { return conduction.from_surroundings(row, wall, ambient, depth).flux; },
+          fraction, flow, 1.);
     if(wall_temperature)
       through_walls += wall_temperature->add([this](std::size_t row, double wall)
                                              { return conduction.from_wall(row, wall); },
@@ -170,6 +180,8 @@ namespace meltfront::particles
       per_evaluation += wall_temperature->size();
     if(wall_flux)
       per_evaluation += wall_flux->size();
+    if(wall_exchange)
+      per_evaluation += wall_exchange->size();
     return evaluations * static_cast<long>(per_evaluation)
            + (diffusion ? diffusion->work() : 0);
   }
@@ -196,6 +208,9 @@ namespace meltfront::particles
       costs.push_back(wall_temperature->cost());
     if(wall_flux)
       costs.push_back(wall_flux->cost());
+    for(const Effect effect : {Effect::robin_wall, Effect::radiating_wall})
+      if(effects.contains(effect))
+        costs.push_back(wall_exchange->cost(effect));
     return costs;
   }
 } // namespace meltfront::particles

@@ -3,6 +3,7 @@
 
 #include <particles/alloy/solute_diffusion.h>
 #include <particles/sph/heat_sources.h>
+#include <particles/sph/wall_exchange.h>
 #include <particles/sph/wall_flux.h>
 #include <particles/sph/wall_temperature.h>
 #include <particles/sph_mixture/mixture_conduction.h>
@@ -140,6 +141,7 @@ namespace meltfront::particles
     std::optional<HeatSources> heat_sources;
     std::optional<WallTemperature> wall_temperature;
     std::optional<WallFlux> wall_flux;
+    std::optional<WallExchange> wall_exchange;
     std::optional<MixtureDerivative> derivative; ///< from the first linearise() on
     std::vector<double> wall_diagonal, diagonal; ///< of the heat from walls, of all
     long evaluations = 0;

@@ -18,6 +18,12 @@ namespace meltfront::particles
       wall_temperature->differentiate([this](std::size_t row, double wall)
                                       { return derivative->from_wall(row, wall); },
                                       fraction, wall_diagonal);
+    if(wall_exchange)
+      wall_exchange->differentiate(
+          [this](std::size_t row, const cases::Boundary &wall, double ambient,
+                 double depth)
+          { return derivative->from_surroundings(row, wall, ambient, depth); },
+          fraction, wall_diagonal, 1.);
     const std::span<const double> of_rows = derivative->row_diagonal();
     for(std::size_t a = 0; a < rows.rows.rows(); ++a)
       diagonal[a] = of_rows[a] + wall_diagonal[a];
