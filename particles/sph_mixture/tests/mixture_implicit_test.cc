@@ -75,64 +75,72 @@ namespace meltfront::particles::testing
     // solid, mush and liquid particles away from the kinks.
     TEST(MixtureImplicit, TheDerivativeOfTheFlows)
     {
-      for(const Kind &kind : kinds)
-      {
-        const Scene scene = scene_of(kind);
-        const AlloySubstance substance(scene, "test");
-        cases::Resolution resolution;
-        resolution.n = 40;
-        resolution.options = cases::Options(cases::options_of(MixtureParameters()));
-        resolution.options.set("conductivity", kind.conductivity);
-        const MixtureParameters parameters
-            = resolve_mixture_parameters(scene, resolution);
-        const Discretisation dis(scene, parameters.sph);
-        MixtureFlow flows(dis, substance, cases::effects_called_for(scene), parameters,
-                          kind.uniform);
-        flows.prepare_step(10, 20);
-        const std::size_t n = dis.particles.size(), size = flows.padded_size();
-        std::mt19937_64 random(5);
-        std::uniform_real_distribution<double> of_enthalpy(-60000, 420000),
-            of_content(0.02, 0.3), of_change(-1000, 1000);
-        std::vector<double> start(size, 0.), change(size, 0.), content(size, 0.14), state,
-            low(size), high(size), product(size);
-        for(std::size_t a = 0; a < n; ++a)
+      for(const cases::BoundaryKind wall :
+          {cases::BoundaryKind::fixed_temperature, cases::BoundaryKind::heat_transfer,
+           cases::BoundaryKind::radiation})
+        for(const Kind &kind : kinds)
         {
-          start[a] = of_enthalpy(random);
-          change[a] = of_change(random);
-          if(!kind.uniform)
-            content[a] = of_content(random);
-        }
-        const std::vector<std::span<const double>> composition{content};
-        const auto flow = [&](double along, std::vector<double> &result)
-        {
-          state = start;
+          Scene scene = scene_of(kind);
+          cases::Boundary &cold = *scene.boundaries[0];
+          cold.kind = wall;
+          cold.heat_transfer_coefficient = 300;
+          cold.emission_coefficient = 4e-6;
+          cold.absolute_zero = -273.15;
+          const AlloySubstance substance(scene, "test");
+          cases::Resolution resolution;
+          resolution.n = 40;
+          resolution.options = cases::Options(cases::options_of(MixtureParameters()));
+          resolution.options.set("conductivity", kind.conductivity);
+          const MixtureParameters parameters
+              = resolve_mixture_parameters(scene, resolution);
+          const Discretisation dis(scene, parameters.sph);
+          MixtureFlow flows(dis, substance, cases::effects_called_for(scene), parameters,
+                            kind.uniform);
+          flows.prepare_step(10, 20);
+          const std::size_t n = dis.particles.size(), size = flows.padded_size();
+          std::mt19937_64 random(5);
+          std::uniform_real_distribution<double> of_enthalpy(-60000, 420000),
+              of_content(0.02, 0.3), of_change(-1000, 1000);
+          std::vector<double> start(size, 0.), change(size, 0.), content(size, 0.14),
+              state, low(size), high(size), product(size);
           for(std::size_t a = 0; a < n; ++a)
-            state[a] += along * change[a];
-          flows.follow({std::span(state).first(n), composition});
-          flows.heat(1, result);
-        };
-        constexpr double step = 1e-3;
-        flow(step, high);
-        flow(-step, low);
-        flow(0, product);
-        flows.linearise(1, {std::span(state).first(n), composition});
-        flows.apply_derivative(change, product);
-        double largest = 0;
-        for(std::size_t a = 0; a < n; ++a)
-          largest = std::max(largest, std::abs(product[a]));
-        ASSERT_GT(largest, 0);
-        for(std::size_t a = 0; a < n; ++a)
-          EXPECT_NEAR(product[a], (high[a] - low[a]) / (2 * step), 1e-5 * largest)
-              << kind.conductivity << " " << kind.eutectic << " " << a;
-        for(const std::size_t a : {std::size_t(0), n / 3, n - 1})
-        {
-          std::vector<double> unit(size, 0.);
-          unit[a] = 1;
-          flows.apply_derivative(unit, product);
-          EXPECT_NEAR(product[a], flows.derivative_diagonal()[a],
-                      1e-12 * std::abs(product[a]));
+          {
+            start[a] = of_enthalpy(random);
+            change[a] = of_change(random);
+            if(!kind.uniform)
+              content[a] = of_content(random);
+          }
+          const std::vector<std::span<const double>> composition{content};
+          const auto flow = [&](double along, std::vector<double> &result)
+          {
+            state = start;
+            for(std::size_t a = 0; a < n; ++a)
+              state[a] += along * change[a];
+            flows.follow({std::span(state).first(n), composition});
+            flows.heat(1, result);
+          };
+          constexpr double step = 1e-3;
+          flow(step, high);
+          flow(-step, low);
+          flow(0, product);
+          flows.linearise(1, {std::span(state).first(n), composition});
+          flows.apply_derivative(change, product);
+          double largest = 0;
+          for(std::size_t a = 0; a < n; ++a)
+            largest = std::max(largest, std::abs(product[a]));
+          ASSERT_GT(largest, 0);
+          for(std::size_t a = 0; a < n; ++a)
+            EXPECT_NEAR(product[a], (high[a] - low[a]) / (2 * step), 1e-5 * largest)
+                << kind.conductivity << " " << kind.eutectic << " " << a;
+          for(const std::size_t a : {std::size_t(0), n / 3, n - 1})
+          {
+            std::vector<double> unit(size, 0.);
+            unit[a] = 1;
+            flows.apply_derivative(unit, product);
+            EXPECT_NEAR(product[a], flows.derivative_diagonal()[a],
+                        1e-12 * std::abs(product[a]));
+          }
         }
-      }
     }
 
     // Kinks lie where the phase diagram changes its slope.
