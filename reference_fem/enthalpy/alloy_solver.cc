@@ -52,6 +52,7 @@ namespace meltfront::reference_fem
 
   AlloySolver::AlloySolver(const cases::Scene &scene, const cases::EffectSet &effects,
                            const Discretisation &mesh, const std::vector<char> &free,
+                           WallExchange *exchange,
                            const LinearSolverMaker &make_linear_solver)
     : scene(scene)
     , mesh(mesh)
@@ -100,9 +101,8 @@ namespace meltfront::reference_fem
       found.resize(unknowns);
     }
     linear_solver = make_linear_solver(conduction_matrix());
-    newton = std::make_unique<MushNewton>(
-        StepProblem{conduction_matrix(), mesh.volume, free}, graph, composition,
-        *linear_solver);
+    newton = make_mush_solver({conduction_matrix(), mesh.volume, free, exchange}, graph,
+                              composition, *linear_solver);
   }
 
   /** The concentrations at the start of the solutes of which there are some. */

@@ -28,11 +28,12 @@ namespace meltfront::reference_fem
   class AlloySolver : public NonlinearSolver
   {
   public:
-    /** @throws cases::Refusal for what is not simulated, cases::InputError for
+    /** @param exchange null: walls exchange no heat with their surroundings
+     * @throws cases::Refusal for what is not simulated, cases::InputError for
      * concentrations outside of 0 <= C < 1 */
     AlloySolver(const cases::Scene &scene, const cases::EffectSet &effects,
                 const Discretisation &mesh, const std::vector<char> &free,
-                const LinearSolverMaker &make_linear_solver);
+                WallExchange *exchange, const LinearSolverMaker &make_linear_solver);
 
     /** Largest change by a pass (of conductivities over themselves, of solute
      * over the largest) at which a step is coupled. */
@@ -152,7 +153,7 @@ namespace meltfront::reference_fem
     Eigen::VectorXd used,
         found; ///< by a pass: weight times C of the solutes that diffuse
     std::unique_ptr<LinearSolver> linear_solver;
-    std::unique_ptr<MushNewton> newton;
+    std::unique_ptr<MushSolver> newton;
     StepFormula step;
     const std::vector<double> *last_enthalpy = nullptr;
     long all_iterations = 0;

@@ -14,10 +14,12 @@ namespace meltfront::reference_fem
     }
   } // namespace
 
-  MushNewton::MushNewton(const StepProblem &problem, const MushGraph &graph,
-                         const std::vector<Composition> &composition,
-                         LinearSolver &linear_solver)
-    : StepNewton(problem, linear_solver)
+  template <bool with_exchange>
+  MushNewton<with_exchange>::MushNewton(const StepProblem &problem,
+                                        const MushGraph &graph,
+                                        const std::vector<Composition> &composition,
+                                        LinearSolver &linear_solver)
+    : Base(problem, linear_solver)
     , graph(graph)
     , composition(composition)
   {
@@ -25,21 +27,28 @@ namespace meltfront::reference_fem
   }
 
   /** Solve one node's inclusion; true if it moved to another region of its graph. */
-  bool MushNewton::relax(std::size_t i, double c, const std::vector<double> &rhs,
-                         CompensatedVector &u)
+  template <bool with_exchange>
+  bool MushNewton<with_exchange>::relax(std::size_t i, double c,
+                                        const std::vector<double> &rhs,
+                                        CompensatedVector &u)
   {
-    const double stiffness = c * problem.conduction.diagonal[i];
+    double stiffness = c * problem.conduction.diagonal[i];
     const double before = u[i];
-    u.set(i,
-          graph.resolve(rhs[i] + c * problem.conduction.inflow(i, u) + stiffness * before,
-                        problem.volume[i], stiffness, composition[i]));
+    double supply = rhs[i] + c * problem.conduction.inflow(i, u) + stiffness * before;
+    if constexpr(exchanges)
+    {
+      supply += c * problem.exchange->supply[i];
+      stiffness += c * problem.exchange->transfer[i];
+    }
+    u.set(i, graph.resolve(supply, problem.volume[i], stiffness, composition[i]));
     return graph.region(u[i], composition[i]) != graph.region(before, composition[i]);
   }
 
   /** Fill heat_capacity, active and residual; returns the heat that changes a typical
    * active node by one kelvin. */
-  double MushNewton::linearise(double, const CompensatedVector &u,
-                               const std::vector<double> &heat)
+  template <bool with_exchange>
+  double MushNewton<with_exchange>::linearise(double c, const CompensatedVector &u,
+                                              const std::vector<double> &heat)
   {
     double heat_per_kelvin = 0;
     long nodes = 0;
@@ -53,6 +62,8 @@ namespace meltfront::reference_fem
         continue;
       const double volume = problem.volume[i];
       heat_capacity[i] = volume * graph.slope(u[i], composition[i]);
+      if constexpr(exchanges)
+        heat_capacity[i] += c * problem.exchange->transfer[i];
       residual[i] = heat[i] - volume * graph.enthalpy(u[i], composition[i]);
       heat_per_kelvin += square(heat_capacity[i]);
       ++nodes;
@@ -62,7 +73,8 @@ namespace meltfront::reference_fem
   }
 
   /** Cut the direction off where it passes a jump. */
-  void MushNewton::project(const CompensatedVector &u)
+  template <bool with_exchange>
+  void MushNewton<with_exchange>::project(const CompensatedVector &u)
   {
     for(std::size_t i = 0; i < u.size(); ++i)
     {
@@ -74,7 +86,9 @@ namespace meltfront::reference_fem
 
   /** Where a share of the direction leads: onto a jump where it ends there but for
    * round-off. */
-  double MushNewton::moved(std::size_t i, double length, const CompensatedVector &u) const
+  template <bool with_exchange>
+  double MushNewton<with_exchange>::moved(std::size_t i, double length,
+                                          const CompensatedVector &u) const
   {
     constexpr double round_off = 4e-16;
     const double step = graph.jump(composition[i]), there = u[i] + length * direction[i];
@@ -82,8 +96,10 @@ namespace meltfront::reference_fem
   }
 
   /** The functional's derivative along the direction, at a share of its length. */
-  double MushNewton::fall(double length, double conducted, const CompensatedVector &u,
-                          const std::vector<double> &heat) const
+  template <bool with_exchange>
+  double MushNewton<with_exchange>::fall(double length, double conducted,
+                                         const CompensatedVector &u,
+                                         const std::vector<double> &heat) const
   {
     double derivative = length * conducted;
     for(std::size_t i = 0; i < u.size(); ++i)
@@ -103,14 +119,17 @@ namespace meltfront::reference_fem
   }
 
   /** The share of the direction to go: see nearly_lowest(). */
-  double MushNewton::line_search(double c, const CompensatedVector &u,
-                                 const std::vector<double> &heat)
+  template <bool with_exchange>
+  double MushNewton<with_exchange>::line_search(double c, const CompensatedVector &u,
+                                                const std::vector<double> &heat)
   {
     double conducted = 0, start = 0;
     for(std::size_t i = 0; i < u.size(); ++i)
       if(direction[i] != 0)
       {
         conducted += c * direction[i] * problem.conduction.product(i, direction);
+        if constexpr(exchanges)
+          conducted += c * problem.exchange->transfer[i] * square(direction[i]);
         start -= direction[i] * residual[i];
       }
     entries_touched += problem.conduction.entries();
@@ -118,7 +137,8 @@ namespace meltfront::reference_fem
                          [&](double length) { return fall(length, conducted, u, heat); });
   }
 
-  void MushNewton::advance(double length, CompensatedVector &u) const
+  template <bool with_exchange>
+  void MushNewton<with_exchange>::advance(double length, CompensatedVector &u) const
   {
     for(std::size_t i = 0; i < u.size(); ++i)
     {
@@ -132,17 +152,23 @@ namespace meltfront::reference_fem
     }
   }
 
-  void MushNewton::descend(double c, CompensatedVector &u,
-                           const std::vector<double> &heat)
+  template <bool with_exchange>
+  void MushNewton<with_exchange>::descend(double c, CompensatedVector &u,
+                                          const std::vector<double> &heat)
   {
     project(u);
     advance(line_search(c, u, heat), u);
   }
 
-  StepOutcome MushNewton::solve(double c, const std::vector<double> &rhs,
-                                int iteration_limit, CompensatedVector &u,
-                                std::vector<double> &heat)
+  std::unique_ptr<MushSolver>
+  make_mush_solver(const StepProblem &problem, const MushGraph &graph,
+                   const std::vector<Composition> &composition,
+                   LinearSolver &linear_solver)
   {
-    return iterate(c, rhs, iteration_limit, u, heat);
+    if(problem.exchange)
+      return std::make_unique<MushNewton<true>>(problem, graph, composition,
+                                                linear_solver);
+    return std::make_unique<MushNewton<false>>(problem, graph, composition,
+                                               linear_solver);
   }
 } // namespace meltfront::reference_fem

@@ -4,6 +4,7 @@
 #include <reference_fem/enthalpy/mush_graph.h>
 #include <reference_fem/enthalpy/step_newton.h>
 
+#include <memory>
 #include <vector>
 
 namespace meltfront::reference_fem
@@ -12,41 +13,75 @@ namespace meltfront::reference_fem
    * Solves the inclusion of an implicit step for an alloy whose composition and
    * conductivities are given,
    *
-   *   volume_i H_i(t_i) + c (K t)_i = rhs_i,
+   *   volume_i H_i(t_i) + c (K t)_i = rhs_i + c (what the walls exchange),
    *
    * t = T - T_m, K the stiffness with the conductivities in it, and H_i the graph of the
-   * node's composition: the minimum of a convex functional, since every H_i rises.
+   * node's composition: the minimum of a convex functional, since every H_i rises, as
+   * what walls exchange with their surroundings falls.
    *
    * Method: truncated nonsmooth Newton as for the pure substance (Graeser and Kornhuber
    * 2009, without coarse levels). Only the jumps, at the eutectic temperature and at
    * nodes without solute, are truncated; kinks at the liquidus are left to the sweeps and
    * to the line search, which makes the functional fall in every iteration.
    */
-  class MushNewton : private StepNewton<MushNewton>
+  class MushSolver
+  {
+  public:
+    virtual ~MushSolver() = default;
+
+    /** As NonlinearSolver::solve, u being t (K). */
+    virtual StepOutcome solve(double c, const std::vector<double> &rhs,
+                              int iteration_limit, CompensatedVector &u,
+                              std::vector<double> &heat)
+        = 0;
+
+    /** Matrix entries touched, without the linear solver's. */
+    virtual long work() const = 0;
+
+    virtual const NonlinearSolver::GraphCost &graph_cost() const = 0;
+  };
+
+  std::unique_ptr<MushSolver>
+  make_mush_solver(const StepProblem &problem, const MushGraph &graph,
+                   const std::vector<Composition> &composition,
+                   LinearSolver &linear_solver);
+
+  /** @tparam with_exchange walls exchange heat with their surroundings */
+  template <bool with_exchange>
+  class MushNewton : public MushSolver, private StepNewton<MushNewton<with_exchange>>
   {
   public:
     MushNewton(const StepProblem &problem, const MushGraph &graph,
                const std::vector<Composition> &composition, LinearSolver &linear_solver);
 
-    /** As NonlinearSolver::solve, u being t (K). */
     StepOutcome solve(double c, const std::vector<double> &rhs, int iteration_limit,
-                      CompensatedVector &u, std::vector<double> &heat);
+                      CompensatedVector &u, std::vector<double> &heat) override
+    {
+      return this->iterate(c, rhs, iteration_limit, u, heat);
+    }
 
-    /** Matrix entries touched, without the linear solver's. */
-    long work() const
+    long work() const override
     {
       return entries_touched;
     }
 
-    const NonlinearSolver::GraphCost &graph_cost() const
+    const NonlinearSolver::GraphCost &graph_cost() const override
     {
       return cost;
     }
 
   private:
-    friend class StepNewton<MushNewton>;
+    using Base = StepNewton<MushNewton<with_exchange>>;
+    friend Base;
+    using Base::active;
+    using Base::cost;
+    using Base::direction;
+    using Base::entries_touched;
+    using Base::heat_capacity;
+    using Base::problem;
+    using Base::residual;
     static constexpr bool jumps = true;
-    static constexpr bool exchanges = false;
+    static constexpr bool exchanges = with_exchange;
 
     double excess(double u) const
     {

@@ -116,11 +116,8 @@ namespace meltfront::reference_fem
       throw cases::Refusal(
           "fem-enthalpy simulates properties that depend on temperature, "
           "and melting ranges, of pure substances only, not of alloys");
-    if(exchange)
-      throw cases::Refusal("fem-enthalpy exchanges heat with the surroundings of pure "
-                           "substances only, not of alloys");
-    auto for_alloy
-        = std::make_unique<AlloySolver>(scene, effects, mesh, free, make_linear_solver);
+    auto for_alloy = std::make_unique<AlloySolver>(
+        scene, effects, mesh, free, exchange ? &*exchange : nullptr, make_linear_solver);
     alloy = for_alloy.get();
     solver = std::move(for_alloy);
     bounds = alloy->bounds(bounds);
