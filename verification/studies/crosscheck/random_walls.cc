@@ -50,19 +50,36 @@ namespace meltfront::verification
       return;
     }
     default:
-    {
-      const Course course = over_time(wall_temperature(), wall_temperature());
-      const double coefficient
-          = substance.conductivity() / substance.length * random.log_uniform(0.3, 100);
-      const bool radiates = problem != Problem::steady && random.chance(0.3);
-      draft.set(here, "kind", radiates ? "radiation" : "heat transfer");
-      draft.set(here, "ambient temperature", course.expression, course.simpler);
-      held = unbounded = true;
-      if(!radiates)
-        draft.set(here, "heat transfer coefficient", words(coefficient));
-      else
-        radiate(here, coefficient);
+      exchange_heat(here);
     }
+  }
+
+  void SceneMaker::exchange_heat(const std::string &here)
+  {
+    const Course course = over_time(wall_temperature(), wall_temperature());
+    const double coefficient
+        = substance.conductivity() / substance.length * random.log_uniform(0.3, 100);
+    const bool radiates = problem != Problem::steady && random.chance(0.3);
+    draft.set(here, "kind", radiates ? "radiation" : "heat transfer");
+    draft.set(here, "ambient temperature", course.expression, course.simpler);
+    held = unbounded = true;
+    if(!radiates)
+      draft.set(here, "heat transfer coefficient", words(coefficient));
+    else
+      radiate(here, coefficient);
+  }
+
+  void SceneMaker::surround_alloy()
+  {
+    if(shape == "outline" || draft.value("Scene/Domain", "shape") == "axisymmetric")
+      return;
+    for(const std::string &side : sides())
+    {
+      const std::string here = "Scene/Walls/" + side;
+      if(draft.value(here, "kind") == "periodic" || !random.chance(0.35))
+        continue;
+      draft.remove(here);
+      exchange_heat(here);
     }
   }
 

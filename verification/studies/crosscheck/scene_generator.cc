@@ -49,6 +49,8 @@ namespace meltfront::verification
       spread_melting();
     if(!turn_about_axis())
       move_sources();
+    if(problem == Problem::alloy)
+      surround_alloy();
     return draft;
   }
 

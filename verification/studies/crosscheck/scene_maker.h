@@ -82,6 +82,11 @@ namespace meltfront::verification
     // In random_walls.cc:
     void choose_walls();
     void choose_wall(const std::string &here, const std::string &side);
+    void exchange_heat(const std::string &here);
+
+    /** Let walls of an alloy exchange heat with surroundings more often than others do.
+     */
+    void surround_alloy();
     void radiate(const std::string &here, double coefficient);
     void hold(const std::string &here, const std::string &side);
 
