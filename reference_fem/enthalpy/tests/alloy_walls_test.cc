@@ -106,11 +106,11 @@ namespace meltfront::reference_fem::tests
           held.alloy->eutectic_temperature = -17.7;
           Scene strong = held;
           set_boundary(held, Side::x_min, fixed_wall(ambient));
-          set_boundary(strong, Side::x_min, exchanging(kind, 1e5, ambient));
+          set_boundary(strong, Side::x_min, exchanging(kind, 2e4, ambient));
           const RunRecord a = run(held, 60), b = run(strong, 60);
           expect_closed(b);
           for(std::size_t i = 1; i < a.temperature.size(); ++i)
-            EXPECT_NEAR(a.temperature[i], b.temperature[i], 0.05) << i;
+            EXPECT_NEAR(a.temperature[i], b.temperature[i], 0.1) << i;
           EXPECT_NEAR(total_solid(a), total_solid(b), 0.01 * total_solid(a));
         }
     }
