@@ -14,6 +14,10 @@ namespace meltfront::particles
    * behind: signed distance from the square's centre along the normal (1). */
   double line_through_square(double part_behind, double normal_x, double normal_y);
 
+  /** Length within a unit square of the line with a unit normal at a distance from its
+   * centre; 0 for one that misses it. */
+  double length_in_square(double distance, double normal_x, double normal_y);
+
   /**
    * Signed distance of particles in the plane from the front, in spacings, negative in
    * the solid: the line that leaves in the square of three by three cells about the
@@ -22,7 +26,9 @@ namespace meltfront::particles
    *
    * One cell's own fraction would not do: when a front is oblique to the lattice, the
    * cells in a row across it do not melt as far as one line cuts them, only their sum
-   * does.
+   * does. Of a front of curvature kappa the line is the mean of an arc whose middle lies
+   * kappa w^2/24 beyond it, w the line's length in the square: the curvature is fitted to
+   * the distances of the particle and its neighbours, d + kappa t^2/2 along the tangent.
    */
   class FrontPlanes
   {
@@ -47,15 +53,28 @@ namespace meltfront::particles
     struct Link
     {
       std::uint32_t neighbour;
-      double along_x, along_y; ///< kernel weight times the difference of positions
+      double x, y;   ///< difference of positions, in spacings
+      double weight; ///< of the kernel's gradient
     };
 
-    double distance_of(std::size_t particle) const;
+    /** The line through the square about a particle. */
+    struct Line
+    {
+      double normal_x = 0, normal_y = 0; ///< into the liquid
+      double distance = 0;               ///< of the particle
+      double length = 0;                 ///< within the square; 0: there is none
+      long update = -1;                  ///< at which it was found
+    };
+
+    Line line_of(std::size_t particle) const;
+    double beyond_line(std::size_t particle) const;
 
     std::vector<std::size_t> offsets;
     std::vector<Link> links;      ///< to the neighbours in the square
     std::vector<double> fraction; ///< of solid
+    std::vector<Line> lines;
     std::vector<double> distances;
+    long updates = 0;
   };
 } // namespace meltfront::particles
 
