@@ -246,6 +246,13 @@ namespace meltfront::verification
         advice.error = told_error(ladder, chosen.n);
     }
 
+    /** Whether a forecast's run is there, or there is time for it. */
+    bool fits_into_time(const LadderGrowth &growth, const MethodForecast &forecast)
+    {
+      return growth.finest(*forecast.method)->n >= forecast.n
+             || forecast.seconds <= growth.seconds_left();
+    }
+
     /** What the time allows, of the method with the least error in it. */
     MethodForecast best_of_all(const LadderGrowth &growth,
                                const std::vector<MethodForecast> &all)
@@ -377,16 +384,16 @@ namespace meltfront::verification
       advice.explanation = "No method gave two levels that tell an error.";
       return advice;
     }
-    MethodForecast chosen = advice.forecasts.front();
-    const bool made = growth.finest(*chosen.method)->n >= chosen.n;
-    advice.reachable = made || chosen.seconds <= growth.seconds_left();
+    const auto possible = std::ranges::find_if(
+        advice.forecasts, [&](const MethodForecast &one)
+        { return one.doubt.empty() && fits_into_time(growth, one); });
+    advice.reachable = possible != advice.forecasts.end();
+    const MethodForecast chosen
+        = advice.reachable ? *possible : best_of_all(growth, advice.forecasts);
     if(!advice.reachable)
-    {
-      chosen = best_of_all(growth, advice.forecasts);
       advice.explanation = fmt::format(
           "An error of {:.2g} is out of reach within the time: {:.2g} is what it allows.",
           wanted.front, chosen.error);
-    }
     make_chosen(growth, chosen, advice);
     if(advice.reachable)
       refine_if_short(growth, chosen, wanted, advice);
