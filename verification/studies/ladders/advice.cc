@@ -91,8 +91,22 @@ namespace meltfront::verification
       return !front.empty() && std::isfinite(front.back());
     }
 
-    ErrorModel front_model(const Ladder &ladder)
+    /** Levels that are near another tell no order: the difference is that of two errors
+     * which are nearly the same. */
+    Ladder well_apart(const Ladder &ladder)
     {
+      constexpr double least_ratio = 1.4;
+      Ladder apart = ladder;
+      apart.levels.clear();
+      for(auto level = ladder.levels.rbegin(); level != ladder.levels.rend(); ++level)
+        if(apart.levels.empty() || apart.levels.front()->n >= least_ratio * (*level)->n)
+          apart.levels.insert(apart.levels.begin(), *level);
+      return apart;
+    }
+
+    ErrorModel front_model(const Ladder &all)
+    {
+      const Ladder ladder = well_apart(all);
       const auto course
           = has_front(ladder) ? &RunSeries::front : &RunSeries::solid_volume;
       const RunRecord &finest = *ladder.levels.back();
@@ -107,8 +121,9 @@ namespace meltfront::verification
                       prior.lowest_order);
     }
 
-    ErrorModel temperature_model(const Ladder &ladder)
+    ErrorModel temperature_model(const Ladder &all)
     {
+      const Ladder ladder = well_apart(all);
       const auto &probes = ladder.levels.back()->probes;
       double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
       for(const TemperatureProbe &probe : probes)
@@ -302,9 +317,12 @@ namespace meltfront::verification
           *ladder_of(ladders_of(growth.result()), first.method->name()), finer.n);
       if(finer.n > first.n && finer.seconds <= growth.seconds_left())
       {
-        advice.explanation
+        Advice second = advice;
+        second.explanation
             += fmt::format(" n = {} came out short and was refined.", first.n);
-        make_chosen(growth, finer, advice);
+        make_chosen(growth, finer, second);
+        if(second.reachable)
+          advice = second;
       }
       const double error = seen().at(advice.n);
       if(error > wanted.front)
