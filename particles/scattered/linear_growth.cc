@@ -19,8 +19,8 @@ namespace meltfront::particles
     {
       if(growth > allowed)
         throw cases::Refusal(fmt::format(
-            "{}: the rows about the inclusion are not stable with these particles, "
-            "errors grow by {:.3g} per step; another n, or a dilation, may be",
+            "{}: the rows are not stable with these particles, errors grow by {:.3g} per "
+            "step; another n, arrangement or dilation may be",
             method, growth));
     }
   } // namespace

@@ -10,8 +10,9 @@ namespace meltfront::particles
    * By how much what nothing heats or cools grows per step, in the long run: the spectral
    * radius of (rate M - A)^-1 rate M by power iteration from values of either sign, 1 for
    * a state that an insulated body keeps, less where heat flows out. Rows of collocation
-   * about an inclusion may have eigenvalues with a positive real part: what they hold
-   * then grows without bound, however short the step.
+   * about an inclusion, or of nodes some of which nearly coincide, may have eigenvalues
+   * with a positive real part: what they hold then grows without bound, however short the
+   * step.
    *
    * @param solver of rate M - A
    * @param rate over a step (1/s); of backward Euler, one over its length

@@ -193,12 +193,23 @@ namespace meltfront::particles
     }
     if(!finite)
       lowest = std::numeric_limits<double>::quiet_NaN();
-    cases::check_temperature(bounds, lowest, highest, description.method, k, time,
-                             obeys_maximum_principle()
-                                 ? cases::overshoot_of_round_off
-                                 : cases::allowed_overshoot(description.overshoot,
-                                                            description.run.spacing,
-                                                            scene.domain));
+    try
+    {
+      cases::check_temperature(bounds, lowest, highest, description.method, k, time,
+                               obeys_maximum_principle()
+                                   ? cases::overshoot_of_round_off
+                                   : cases::allowed_overshoot(description.overshoot,
+                                                              description.run.spacing,
+                                                              scene.domain));
+    }
+    catch(const cases::NumericalError &)
+    {
+      // Rows of random nodes may hold what grows by itself, as those about an inclusion.
+      if(!steady())
+        require_stable_steps(problem, *solver, rate_of(length), steps,
+                             description.method);
+      throw;
+    }
   }
 
   LinearSites sites_of(const NodeSet &nodes, int dimension,

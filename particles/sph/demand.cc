@@ -22,13 +22,16 @@ namespace meltfront::particles
     /**
      * The largest explicit step that keeps the maximum principle on a lattice, where the
      * conductances of a particle add up to about 2 d k dp^(d-2) far from fronts and to
-     * more at them: by 3, 1.7 and 1.4 in one, two and three dimensions, measured.
+     * more at them: by 3, 1.7 and 1.4 in one, two and three dimensions, measured. The
+     * linear stability limit is that of eigenvalues of twice these sums.
      */
-    double monotone_step_of(const SphParameters &p, const cases::Scene &scene,
+    double explicit_step_of(const SphParameters &p, const cases::Scene &scene,
                             double spacing)
     {
-      return monotone_step(scene, scene.material.solid.density * spacing * spacing,
-                           2. * p.dimension, 2);
+      const double mass = scene.material.solid.density * spacing * spacing;
+      return p.step_limit == StepLimit::stability
+                 ? stable_step(scene, mass, 4. * p.dimension)
+                 : monotone_step(scene, mass, 2. * p.dimension, 2);
     }
 
     double steps_of(const SphParameters &p, const cases::Scene &scene, double spacing)
@@ -39,7 +42,7 @@ namespace meltfront::particles
         return 0;
       const double step
           = p.step_factor > 0
-                ? p.step_factor * monotone_step_of(p, scene, spacing)
+                ? p.step_factor * explicit_step_of(p, scene, spacing)
                 : published_step(scene.material, p.smoothing_length * spacing);
       const double steps = (scene.end_time - scene.start_time) / step;
       return p.time_scheme == TimeScheme::rkl2 ? steps / super_step_reach(p.stages)

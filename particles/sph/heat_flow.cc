@@ -1,6 +1,6 @@
 #include <cases/error.h>
+#include <particles/sph/conduction_spectrum.h>
 #include <particles/sph/heat_flow.h>
-#include <particles/sph/time/time_stepping.h>
 
 #include <fmt/format.h>
 
@@ -221,11 +221,16 @@ namespace meltfront::particles
            + (volumetric_source ? volumetric_source->heat(time) : 0.);
   }
 
-  double HeatFlow::monotone_step(double particle_mass) const
+  StepLimits HeatFlow::step_limits(double particle_mass, StepLimit asked,
+                                   std::span<const std::uint32_t> held) const
   {
-    return particles::monotone_step(
-        scene, particle_mass, conduction.largest_row_sum,
-        front_exchange ? FrontExchange::largest_factor(front_rule) : 1.);
+    StepLimits limits{
+        monotone_step(scene, particle_mass, conduction.largest_row_sum,
+                      front_exchange ? FrontExchange::largest_factor(front_rule) : 1.)};
+    if(asked == StepLimit::stability)
+      limits.stable
+          = stable_step(scene, particle_mass, largest_eigenvalue(conduction, held));
+    return limits;
   }
 
   std::vector<cases::Parameter> HeatFlow::describe() const

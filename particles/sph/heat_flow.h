@@ -7,6 +7,7 @@
 #include <particles/sph/moving_sources.h>
 #include <particles/sph/open_end.h>
 #include <particles/sph/phase_map.h>
+#include <particles/sph/time/time_stepping.h>
 #include <particles/sph/volumetric_source.h>
 #include <particles/sph/wall_exchange.h>
 #include <particles/sph/wall_flux.h>
@@ -87,8 +88,10 @@ namespace meltfront::particles
     /** Heat from sources since the start of the scene (J m^(d-3)). */
     double source_heat(double time) const;
 
-    /** The largest explicit step that keeps the maximum principle (s). */
-    double monotone_step(double particle_mass) const;
+    /** How long explicit steps may be.
+     * @param held particles that hold a wall's temperature */
+    StepLimits step_limits(double particle_mass, StepLimit asked,
+                           std::span<const std::uint32_t> held) const;
 
     /** Threads that share a pass: one where there are too few particles for more. */
     int threads() const

@@ -40,6 +40,16 @@ namespace meltfront::particles
     return {{"cell", LatticeLayout::cell_centred}, {"edge", LatticeLayout::on_edge}};
   }
 
+  void bind_step_limit(SphParameters &parameters, cases::OptionBinder &options)
+  {
+    options.add("step_limit", parameters.step_limit,
+                "What step_factor is a multiple of: the largest explicit step that keeps "
+                "the maximum principle, beyond which runs are refused; or the linear "
+                "stability limit 2/lambda_max of the assembled rows, with no guard: what "
+                "is unstable is left to the checks of the run.",
+                {{"monotone", StepLimit::monotone}, {"stability", StepLimit::stability}});
+  }
+
   const SphPolicy &corrected_policy()
   {
     static const SphPolicy policy{
@@ -124,6 +134,7 @@ namespace meltfront::particles
                 "Time step over the largest that keeps the maximum principle; 0: as the "
                 "paper, 0.15 c rho h^2/k. More than 1 is for implicit steps only.",
                 0, 1e6);
+    bind_step_limit(values, options);
     options.add("step_error", values.step_error,
                 "Wanted relative error of each implicit step, which sets its length; 0: "
                 "steps of equal length by step_factor.",

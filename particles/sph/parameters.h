@@ -41,6 +41,15 @@ namespace meltfront::particles
     crank_nicolson
   };
 
+  /** What step_factor is a multiple of. */
+  enum class StepLimit
+  {
+    monotone, ///< the largest explicit step that is certain to keep the maximum
+              ///< principle; longer ones are refused
+    stability ///< the linear stability limit of explicit Euler (StepLimits::stable), with
+              ///< no guard
+  };
+
   /** The words for the schemes, in the order of the enumeration. */
   const std::vector<std::string> &time_scheme_names();
 
@@ -92,7 +101,8 @@ namespace meltfront::particles
     TimeScheme time_scheme = TimeScheme::euler;
     int stages = 8;         ///< most stages of a super step
     double step_factor = 1; ///< 0: the paper's step
-    double step_error = 0;  ///< wanted of each implicit step; 0: steps of equal length
+    StepLimit step_limit = StepLimit::monotone;
+    double step_error = 0; ///< wanted of each implicit step; 0: steps of equal length
     /** Particles beside walls that bend stand for a whole cell of the lattice, as in the
      * paper: the domain has the volume of the cells. */
     bool whole_cells = false;
@@ -103,6 +113,9 @@ namespace meltfront::particles
     int n = 0;     ///< particles along the domain's side
     int steps = 0; ///< of the run; 0: by step_factor or step_error
   };
+
+  /** The option `step_limit`. */
+  void bind_step_limit(SphParameters &parameters, cases::OptionBinder &options);
 
   /** The options of a method. */
   struct SphOptions

@@ -55,7 +55,10 @@ namespace meltfront::particles
       list.push_back(
           {"wanted error of a step", fmt::format("{:.6g}", parameters.step_error), "1"});
     list.push_back({"largest explicit step that keeps the maximum principle",
-                    fmt::format("{:.6g}", plan.monotone), "s"});
+                    fmt::format("{:.6g}", plan.limits.monotone), "s"});
+    if(plan.limits.stable > 0)
+      list.push_back({"linear stability limit of explicit Euler steps",
+                      fmt::format("{:.6g}", plan.limits.stable), "s"});
     return description;
   }
 

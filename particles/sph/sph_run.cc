@@ -1,5 +1,6 @@
 #include <cases/compensated_sum.h>
 #include <cases/scene.h>
+#include <particles/sph/conductivity_contrast.h>
 #include <particles/sph/heat_flow.h>
 #include <particles/sph/initial_state.h>
 #include <particles/sph/run_report.h>
@@ -29,12 +30,15 @@ namespace meltfront::particles
         , heat_flow(dis, effects, parameters, mass_coordinates.get())
         , plan(plan_steps(
               parameters, scene,
-              heat_flow.monotone_step(dis.particle_volume * scene.material.solid.density),
+              heat_flow.step_limits(dis.particle_volume * scene.material.solid.density,
+                                    parameters.step_limit, dis.dirichlet),
               dis.kernel.smoothing_length()))
         , stepper(make_stepper(parameters, heat_flow, dis, plan, start(), policy.name))
         , temperature(n)
         , solid_fraction(n)
       {
+        require_moderate_contrast(dis, parameters.front, stepper->enthalpies(),
+                                  policy.name);
         weigh();
         initial_heat = heat_content();
       }

@@ -1,4 +1,5 @@
 #include <particles/alloy/wall_variable.h>
+#include <particles/sph/conduction_spectrum.h>
 #include <particles/sph_mixture/mixture_flow.h>
 
 #include <fmt/format.h>
@@ -157,6 +158,19 @@ namespace meltfront::particles
     const double heat_rate = rows.largest_row_sum * substance.largest_conductivity()
                              / substance.least_heat_capacity();
     return particle_mass / (heat_rate + (diffusion ? diffusion->row_sum() : 0.));
+  }
+
+  StepLimits MixtureFlow::step_limits(const cases::Scene &scene, double particle_mass,
+                                      StepLimit asked,
+                                      std::span<const std::uint32_t> held) const
+  {
+    StepLimits limits{monotone_step(particle_mass)};
+    if(asked == StepLimit::monotone)
+      return limits;
+    limits.stable = stable_step(scene, particle_mass, largest_eigenvalue(rows, held));
+    if(diffusion)
+      limits.stable = std::min(limits.stable, largest_solute_step(particle_mass));
+    return limits;
   }
 
   double MixtureFlow::source_heat(double time) const

@@ -3,6 +3,7 @@
 
 #include <particles/alloy/solute_diffusion.h>
 #include <particles/sph/heat_sources.h>
+#include <particles/sph/time/time_stepping.h>
 #include <particles/sph/wall_exchange.h>
 #include <particles/sph/wall_flux.h>
 #include <particles/sph/wall_temperature.h>
@@ -90,6 +91,11 @@ namespace meltfront::particles
      * m / (sum_b g_ab (k/c + 2 rho D)), with the largest k, the least c and the largest
      * D. */
     double monotone_step(double particle_mass) const;
+
+    /** How long explicit steps may be.
+     * @param held particles that hold a wall's temperature */
+    StepLimits step_limits(const cases::Scene &scene, double particle_mass,
+                           StepLimit asked, std::span<const std::uint32_t> held) const;
 
     double source_heat(double time) const;
 

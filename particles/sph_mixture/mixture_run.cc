@@ -41,7 +41,9 @@ namespace meltfront::particles
         , size(flows.padded_size())
         , bounds(initial.bounds(scene, substance))
         , particle_mass(dis.particle_volume * substance.density)
-        , plan(plan_steps(parameters.sph, scene, flows.monotone_step(particle_mass),
+        , plan(plan_steps(parameters.sph, scene,
+                          flows.step_limits(scene, particle_mass,
+                                            parameters.sph.step_limit, dis.dirichlet),
                           dis.kernel.smoothing_length()))
         , temperature(n)
         , solid_fraction(n)

@@ -30,6 +30,7 @@ namespace meltfront::particles
         "Time step over the largest that keeps the maximum principle. More than 1 "
         "is for implicit steps only.",
         1e-6, 1e6);
+    bind_step_limit(sph, options);
     options.add("step_error", sph.step_error,
                 "Wanted relative error of each implicit step, which sets its length; 0: "
                 "steps of equal length by step_factor.",

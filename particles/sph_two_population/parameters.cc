@@ -83,6 +83,7 @@ namespace meltfront::particles
                 1e-6, 1e6);
     if(as_published)
       return;
+    bind_step_limit(sph, options);
     options.add("time_scheme", sph.time_scheme,
                 "Explicit Euler steps; Runge-Kutta-Legendre super steps of second order; "
                 "implicit steps of any length by backward Euler or by Crank and "

@@ -1,4 +1,5 @@
 #include <particles/alloy/wall_variable.h>
+#include <particles/sph/conduction_spectrum.h>
 #include <particles/sph_two_population/two_population_exchange.h>
 #include <particles/sph_two_population/two_population_flow.h>
 
@@ -227,6 +228,19 @@ namespace meltfront::particles
     if(diffusion)
       step = std::min(step, solute_step());
     return step;
+  }
+
+  StepLimits TwoPopulationFlow::step_limits(const cases::Scene &scene, StepLimit asked,
+                                            std::span<const std::uint32_t> held) const
+  {
+    StepLimits limits{monotone_step()};
+    if(asked == StepLimit::monotone)
+      return limits;
+    limits.stable
+        = stable_step(scene, volume * substance.density, largest_eigenvalue(rows, held));
+    if(diffusion)
+      limits.stable = std::min(limits.stable, solute_step());
+    return limits;
   }
 
   long TwoPopulationFlow::work() const

@@ -3,6 +3,7 @@
 
 #include <particles/alloy/solid_path.h>
 #include <particles/alloy/solute_diffusion.h>
+#include <particles/sph/time/time_stepping.h>
 #include <particles/sph/wall_temperature.h>
 #include <particles/sph_two_population/sites.h>
 #include <particles/sph_two_population/two_population_exchange.h>
@@ -73,6 +74,11 @@ namespace meltfront::particles
      *   dt <= min(rho c_l, rho_s c_s) V / (k sum_b g_ab),  dt <= m/(2 rho D sum_b g_ab).
      */
     double monotone_step() const;
+
+    /** How long explicit steps may be.
+     * @param held sites that hold a wall's temperature */
+    StepLimits step_limits(const cases::Scene &scene, StepLimit asked,
+                           std::span<const std::uint32_t> held) const;
 
     /** The largest explicit step of the diffusion of solutes, which there must be. */
     double solute_step() const

@@ -137,7 +137,7 @@ namespace meltfront::particles
              ""},
             {"time scheme", describe_scheme(parameters.sph.time_scheme, plan.stages), ""},
             {"largest explicit step that keeps the maximum principle",
-             fmt::format("{:.6g}", plan.monotone), "s"}};
+             fmt::format("{:.6g}", plan.limits.monotone), "s"}};
         description.parameters.insert(description.parameters.end(), own.begin(),
                                       own.end());
         return description;
@@ -176,8 +176,10 @@ namespace meltfront::particles
       StepPlan make_plan() const
       {
         if(!parameters.as_published)
-          return plan_steps(parameters.sph, scene, flows.monotone_step(),
-                            dis.kernel.smoothing_length());
+          return plan_steps(
+              parameters.sph, scene,
+              flows.step_limits(scene, parameters.sph.step_limit, dis.dirichlet),
+              dis.kernel.smoothing_length());
         const cases::Material &m = scene.material;
         const double h = dis.kernel.smoothing_length();
         const double longest
@@ -189,7 +191,7 @@ namespace meltfront::particles
         const double duration = scene.end_time - scene.start_time;
         const long steps = std::max(
             fewest_steps, static_cast<long>(std::ceil(duration / longest * (1 - 1e-12))));
-        return {steps, duration / steps, 1, flows.monotone_step(), 1, 0};
+        return {steps, duration / steps, 1, {flows.monotone_step()}, 1, 0};
       }
 
       /** Time after a step; the end exactly. */

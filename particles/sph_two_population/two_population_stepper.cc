@@ -32,7 +32,7 @@ namespace meltfront::particles
     {
       implicit.emplace(flows, sites);
       this->plan.euler_substeps = std::max(
-          1, static_cast<int>(std::ceil(plan.step / plan.monotone * (1 - 1e-12))));
+          1, static_cast<int>(std::ceil(plan.step / plan.limits.monotone * (1 - 1e-12))));
     }
     else if(plan.stages > 1)
       super_scheme.emplace(plan, sites.n_fields() * size, sites.n_fields() * size, 1);

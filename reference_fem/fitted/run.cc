@@ -95,6 +95,12 @@ namespace meltfront::reference_fem::fitted
       result.largest_exact_size = std::numeric_limits<unsigned int>::max();
     result.scheme = options.scheme;
     result.tolerance = options.tolerance;
+    // Fluxes of the better conductor are rounded by so much of those of the other, and
+    // Newton's method takes up to a thousand times its tolerance for rounding.
+    const auto [poorer, better] = std::minmax(scene.material.solid.conductivity,
+                                              scene.material.liquid.conductivity);
+    result.solver_tolerance
+        = std::max(result.solver_tolerance, 1e-3 * 0x1p-53 * better / poorer);
     result.method = method_name;
     result.time
         = [clock = problem->physics().clock](double value) { return clock.time(value); };
@@ -137,10 +143,62 @@ namespace meltfront::reference_fem::fitted
     // What Newton's method leaves of a state at rest, be it at 0.
     constexpr double solved_to = 1e-10;
     const double left = solved_to * physics.temperature_scale;
-    cases::check_temperature(
-        bounds, lowest + left, highest - left, method_name, step, time,
-        cases::allowed_overshoot(overshoot, scene.domain.side() / options.cells,
-                                 scene.domain));
+    try
+    {
+      cases::check_temperature(
+          bounds, lowest + left, highest - left, method_name, step, time,
+          cases::allowed_overshoot(overshoot, scene.domain.side() / options.cells,
+                                   scene.domain));
+    }
+    catch(const cases::NumericalError &)
+    {
+      refuse_unresolved_layer(time, u);
+      throw;
+    }
+    front_before = time;
+    fronts = front_coordinates(u);
+  }
+
+  std::vector<double> FittedRun::front_coordinates(const dealii::Vector<double> &u) const
+  {
+    const RayMesh &mesh = problem->mesh();
+    std::vector<double> result;
+    for(unsigned int ray = 0; mesh.has_front() && ray < mesh.surface.n_rays(); ++ray)
+      result.push_back(problem->coordinate(ray, mesh.front_level(), u));
+    return result;
+  }
+
+  /** Temperatures pass their bounds where elements are longer than the layer of heat
+   * beside the front, the diffusivity over its speed: their Peclet number exceeds one. */
+  void FittedRun::refuse_unresolved_layer(double time,
+                                          const dealii::Vector<double> &u) const
+  {
+    const std::vector<double> now = front_coordinates(u);
+    if(now.empty() || !(time > front_before))
+      return;
+    double way = 0; // from where the fronts were, or from the wall that they have left
+    for(unsigned int ray = 0; ray < now.size(); ++ray)
+    {
+      const auto from = [&](double r) { return std::abs(now[ray] - r); };
+      const unsigned int last = problem->mesh().n_levels() - 1;
+      way = std::max(way, fronts.size() == now.size()
+                              ? from(fronts[ray])
+                              : std::min(from(problem->coordinate(ray, 0, u)),
+                                         from(problem->coordinate(ray, last, u))));
+    }
+    const double speed = way / (time - front_before);
+    const auto &phases = problem->physics().phases;
+    const double diffusivity = std::min(phases[0].conductivity / phases[0].capacity,
+                                        phases[1].conductivity / phases[1].capacity);
+    const double layer = diffusivity / speed;
+    const double cell = scene.domain.side() / options.cells;
+    if(layer < cell)
+      throw cases::Refusal(fmt::format(
+          "{}: at t = {:.6g} the layer of heat beside the front, its diffusivity over "
+          "the front's speed, is {:.3g} m thick, and temperatures pass their bounds "
+          "where "
+          "cells of {:.3g} m are longer than that: take n >= {:.3g}",
+          method_name, time, layer, cell, std::ceil(scene.domain.side() / layer)));
   }
 
   void FittedRun::enter(const RunSegment &segment)

@@ -33,6 +33,8 @@ namespace meltfront::reference_fem::fitted
     void enter(const RunSegment &segment);
     double clock_step() const;
     void check_temperatures(long step, double time, const dealii::Vector<double> &u);
+    std::vector<double> front_coordinates(const dealii::Vector<double> &u) const;
+    void refuse_unresolved_layer(double time, const dealii::Vector<double> &u) const;
     /** Add what the present problem counted of each effect. */
     void add_effect_costs();
     std::map<std::string, double> evidence() const;
@@ -51,6 +53,8 @@ namespace meltfront::reference_fem::fitted
     long events = 0;
     long most_unknowns = 0;
     IntegrationCost integration;
+    double front_before = 0;                       ///< time of the state checked last (s)
+    std::vector<double> fronts;                    ///< its coordinates by ray (m)
     const dealii::Vector<double> *shown = nullptr; ///< the state to take a snapshot of
   };
 } // namespace meltfront::reference_fem::fitted

@@ -169,8 +169,9 @@ namespace meltfront::verification
               += fmt::format("  {:8} {} {} n = {}: {}\n", verdict.verdict,
                              verdict.case_name, verdict.label, verdict.n, verdict.reason);
       }
-      return fmt::format("Hard cases: {} held, {} refused, {} failed\n", count["held"],
-                         count["refused"], count["failed"])
+      return fmt::format("Hard cases: {} held, {} caught, {} refused, {} failed\n",
+                         count["held"], count["caught"], count["refused"],
+                         count["failed"])
              + text;
     }
     /** What a method counted of its own doings; empty if nothing. */

@@ -31,14 +31,27 @@ namespace meltfront::verification
     cases::Criterion criterion;
   };
 
-  /** How a run of a hard case is judged (verification/studies/stability). */
+  /** A figure that a run of a hard case is judged by; NaN passes nothing. */
+  struct StabilityMeasure
+  {
+    std::string name;
+    double value = 0;
+    double bound = 0; ///< largest value that passes
+
+    /** How near the value is to its bound, above 1 beyond it. */
+    double share() const;
+  };
+
+  /** How a run of a hard case is judged (judge_stability()). */
   struct StabilityVerdict
   {
     std::string case_name;
     std::string label;
     int n = 0;
-    std::string verdict; ///< `held`, `refused` or `failed`
-    std::string reason;  ///< of a refusal or failure, one sentence
+    std::string verdict; ///< `held`, `caught`, `refused` or `failed`
+    std::string reason;  ///< of all but `held`, one sentence
+    /** Of a run that finished, what decided first: by share(), descending. */
+    std::vector<StabilityMeasure> measures{};
   };
 
   /** How far a value of a case's reference run can be trusted. */

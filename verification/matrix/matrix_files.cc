@@ -112,12 +112,28 @@ namespace meltfront::verification
     json findings = json::array();
     for(const FindingResult &finding : result.findings)
       findings.push_back({{"claim", claim_text(finding)}, {"holds", finding.holds()}});
+    json stability = json::array();
+    for(const StabilityVerdict &verdict : result.stability)
+    {
+      json measures = json::array();
+      for(const StabilityMeasure &measure : verdict.measures)
+        measures.push_back({{"name", measure.name},
+                            {"value", json_of(measure.value)},
+                            {"bound", measure.bound}});
+      stability.push_back({{"case", verdict.case_name},
+                           {"method", verdict.label},
+                           {"n", verdict.n},
+                           {"verdict", verdict.verdict},
+                           {"reason", verdict.reason},
+                           {"measures", measures}});
+    }
     write_json(directory + "/summary.json", {{"matrix", result.name},
                                              {"date", result.date},
                                              {"program_version", result.program_version},
                                              {"passed", result.passed},
                                              {"criteria", criteria},
                                              {"findings", findings},
+                                             {"stability", stability},
                                              {"omissions", result.omissions}});
   }
 

@@ -29,7 +29,7 @@ namespace meltfront::particles
     , last(scene.end_time)
     , breakpoints(cases::breakpoints_of(scene))
     , method(std::move(method))
-    , next_step(plan.monotone)
+    , next_step(plan.limits.monotone)
     , moved(fields, 0.)
     , change(fields, 0.)
   {

@@ -53,6 +53,20 @@ namespace meltfront::particles
            * curves->least_slope(bounds.lower, bounds.upper);
   }
 
+  double stable_step(const cases::Scene &scene, double particle_mass,
+                     double largest_eigenvalue)
+  {
+    const cases::Material &m = scene.material;
+    double slope = std::min(m.solid.specific_heat_capacity / m.solid.conductivity,
+                            m.liquid.specific_heat_capacity / m.liquid.conductivity);
+    if(m.curves)
+    {
+      const cases::TemperatureBounds bounds = cases::temperature_bounds(scene);
+      slope = m.curves->least_slope(bounds.lower, bounds.upper);
+    }
+    return 2 * particle_mass * slope / largest_eigenvalue;
+  }
+
   double published_step(const cases::Material &material, double smoothing_length)
   {
     return 0.15 * smoothing_length * smoothing_length
@@ -67,6 +81,17 @@ namespace meltfront::particles
 
   namespace
   {
+    bool guarded(const SphParameters &p)
+    {
+      return p.step_limit == StepLimit::monotone;
+    }
+
+    /** Steps that are to be too long are not made shorter for the sake of samples. */
+    long steps_for(const SphParameters &p, double duration, double step)
+    {
+      return guarded(p) ? steps_for(duration, step) : steps_within(duration, step);
+    }
+
     /** Fewest stages, at least three, with which a super step reaches so many times the
      * step of explicit Euler. */
     int stages_for(double reach)
@@ -87,11 +112,11 @@ namespace meltfront::particles
 
     /** So many equal steps; super steps with the fewest stages that reach so far. */
     StepPlan plan_given_steps(const SphParameters &p, double duration, double euler,
-                              double monotone)
+                              const StepLimits &limits)
     {
-      StepPlan plan{p.steps, duration / p.steps, 1, monotone, 1, 0};
-      if(p.time_scheme == TimeScheme::euler)
-        refuse_unstable_step(plan.step, monotone);
+      StepPlan plan{p.steps, duration / p.steps, 1, limits, 1, 0};
+      if(p.time_scheme == TimeScheme::euler && guarded(p))
+        refuse_unstable_step(plan.step, limits.monotone);
       if(p.time_scheme == TimeScheme::rkl2)
       {
         plan.stages = stages_for(plan.step / euler);
@@ -106,12 +131,12 @@ namespace meltfront::particles
     }
 
     StepPlan plan_long_steps(const SphParameters &p, double duration, double euler,
-                             double monotone)
+                             const StepLimits &limits)
     {
-      StepPlan plan{steps_for(duration, euler), 0, 1, monotone, 1, 8};
+      StepPlan plan{steps_for(p, duration, euler), 0, 1, limits, 1, 8};
       if(p.time_scheme != TimeScheme::rkl2)
         return plan;
-      const long steps = steps_for(duration, euler * super_step_reach(p.stages));
+      const long steps = steps_for(p, duration, euler * super_step_reach(p.stages));
       const int stages = stages_for(duration / (euler * steps));
       // Few stages gain nothing over as many explicit steps.
       if(stages * steps < plan.steps)
@@ -123,22 +148,23 @@ namespace meltfront::particles
     }
   } // namespace
 
-  StepPlan plan_steps(const SphParameters &p, const cases::Scene &scene, double monotone,
-                      double smoothing_length)
+  StepPlan plan_steps(const SphParameters &p, const cases::Scene &scene,
+                      const StepLimits &limits, double smoothing_length)
   {
     const double duration = scene.end_time - scene.start_time;
-    const double euler = p.step_factor > 0
-                             ? p.step_factor * monotone
-                             : published_step(scene.material, smoothing_length);
+    const double euler
+        = p.step_factor > 0
+              ? p.step_factor * (guarded(p) ? limits.monotone : limits.stable)
+              : published_step(scene.material, smoothing_length);
     if(is_implicit(p.time_scheme) && p.steps == 0)
     {
       const long steps = steps_within(duration, euler);
-      return {steps, duration / steps, 1, monotone, 1, 0};
+      return {steps, duration / steps, 1, limits, 1, 0};
     }
-    if(!is_implicit(p.time_scheme))
-      refuse_unstable_step(euler, monotone);
-    StepPlan plan = p.steps > 0 ? plan_given_steps(p, duration, euler, monotone)
-                                : plan_long_steps(p, duration, euler, monotone);
+    if(!is_implicit(p.time_scheme) && guarded(p))
+      refuse_unstable_step(euler, limits.monotone);
+    StepPlan plan = p.steps > 0 ? plan_given_steps(p, duration, euler, limits)
+                                : plan_long_steps(p, duration, euler, limits);
     plan.step = duration / plan.steps;
     plan.euler_substeps = static_cast<int>(steps_within(plan.step, euler));
     return plan;

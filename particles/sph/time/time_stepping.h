@@ -27,6 +27,18 @@ namespace meltfront::particles
   double monotone_step(const cases::Scene &scene, double particle_mass,
                        double largest_row_sum, double largest_front_factor);
 
+  /** The linear stability limit of explicit Euler, 2 m c/(k lambda), in a body that is
+   * all of the phase with the smaller c/k; with curves, of the smallest dH/du. */
+  double stable_step(const cases::Scene &scene, double particle_mass,
+                     double largest_eigenvalue);
+
+  /** How long explicit steps may be. */
+  struct StepLimits
+  {
+    double monotone;   ///< monotone_step (s)
+    double stable = 0; ///< stable_step(), 0 where it is not asked for (s)
+  };
+
   /** 0.15 c rho h^2/k, the smaller of both phases' (Monaghan et al. 2005, equation 2.20).
    */
   double published_step(const cases::Material &material, double smoothing_length);
@@ -35,9 +47,9 @@ namespace meltfront::particles
   struct StepPlan
   {
     long steps;
-    double step;         ///< s
-    int stages;          ///< of each step; 1: explicit Euler or implicit
-    double monotone;     ///< monotone_step (s)
+    double step; ///< s
+    int stages;  ///< of each step; 1: explicit Euler or implicit
+    StepLimits limits;
     int euler_substeps;  ///< Euler steps in place of a super step, where it is resolved
                          ///< or broke a bound
     long resolved_steps; ///< so many first steps are resolved by Euler steps: a
@@ -47,11 +59,12 @@ namespace meltfront::particles
   /**
    * Divide a duration into equal steps. Super steps are kept short enough for at least
    * 200 of them, with fewer stages where these suffice; implicit steps may be of any
-   * length.
-   * @throws cases::Refusal if an explicit step asked for exceeds monotone_step.
+   * length, and so may those in multiples of the stability limit.
+   * @throws cases::Refusal if an explicit step asked for exceeds monotone_step, but for
+   * multiples of the stability limit.
    */
   StepPlan plan_steps(const SphParameters &parameters, const cases::Scene &scene,
-                      double monotone, double smoothing_length);
+                      const StepLimits &limits, double smoothing_length);
 
   /** One stage of a super step; F is the rate of change. */
   struct SuperStage

@@ -90,7 +90,7 @@ namespace meltfront::verification
                                         { return v.verdict == "failed"; });
       const std::string words
           = failed == 0
-                ? fmt::format("All {} hard runs held or were refused with a reason",
+                ? fmt::format("All {} hard runs held, were caught or refused with a reason",
                               verdicts.size())
                 : fmt::format("{} of {} hard runs failed", failed, verdicts.size());
       return element("p", {{"class", failed == 0 ? "verdict good" : "verdict bad"}},
