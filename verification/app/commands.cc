@@ -5,6 +5,7 @@
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
 #include <verification/app/methods.h>
+#include <verification/judge/baseline.h>
 #include <verification/judge/coverage.h>
 #include <verification/judge/criteria.h>
 #include <verification/judge/stability.h>
@@ -47,33 +48,11 @@ namespace meltfront::verification
             fmt::format("cannot make the directory {}: {}", directory, error.message()));
     }
 
-    /** Judge a finished matrix, write its summary and report, print what came of it. */
-    int conclude(MatrixResult &result, const std::string &directory)
-    {
-      write_results(result, directory);
-      std::fputs(console_summary(result).c_str(), stdout);
-      print_place_of_report(directory);
-      return result.passed ? all_well : criterion_failed;
-    }
-
     /** Bytes that a run may take. @param gigabytes that were asked for; 0: all there is
      */
     double memory_limit(double gigabytes)
     {
       return gigabytes > 0 ? 1e9 * gigabytes : available_memory();
-    }
-
-    int run_and_conclude(const Matrix &matrix, const std::string &directory, int jobs,
-                         double memory)
-    {
-      RunnerOptions options = runner_options(directory, jobs, memory);
-      if(matrix.hard_cases) // judged by what comes out, not by its time
-        options.repeats.most = 1;
-      int status = all_well;
-      options.conclude
-          = [&](MatrixResult &result) { status = conclude(result, directory); };
-      run_matrix(matrix, options, load_checked_case, method_named);
-      return status;
     }
 
     /** The text of a file, without white space at its end. */
@@ -223,18 +202,21 @@ namespace meltfront::verification
     return c;
   }
 
+  void judge_hard_cases(MatrixResult &result)
+  {
+    if(!result.hard_cases)
+      return;
+    result.stability = judge_stability(result);
+    result.passed
+        = std::ranges::all_of(result.criteria, &CriterionResult::passed)
+          && std::ranges::all_of(result.findings, &FindingResult::holds)
+          && std::ranges::none_of(result.stability, [](const StabilityVerdict &v)
+                                  { return v.verdict == "failed"; });
+  }
+
   void write_results(MatrixResult &result, const std::string &directory)
   {
-    if(result.hard_cases)
-    {
-      result.stability = judge_stability(result);
-      result.passed = std::all_of(result.criteria.begin(), result.criteria.end(),
-                                  [](const CriterionResult &c) { return c.passed; })
-                      && std::ranges::all_of(result.findings, &FindingResult::holds)
-                      && std::none_of(result.stability.begin(), result.stability.end(),
-                                      [](const StabilityVerdict &v)
-                                      { return v.verdict == "failed"; });
-    }
+    judge_hard_cases(result);
     write_summary(directory, result);
     write_report(result, directory);
     write_atomically(directory + "/coverage.csv", coverage_csv(coverage_of(result)));
@@ -246,15 +228,6 @@ namespace meltfront::verification
     fmt::print("Report: {}\n", std::filesystem::absolute(directory + "/report.html")
                                    .lexically_normal()
                                    .string());
-  }
-
-  int verify(const VerifyArguments &arguments)
-  {
-    const Matrix matrix = load_matrix(arguments.matrix);
-    return run_and_conclude(matrix,
-                            arguments.output.empty() ? default_directory(arguments.matrix)
-                                                     : arguments.output,
-                            arguments.jobs, arguments.memory);
   }
 
   int run(const RunArguments &arguments)
@@ -291,9 +264,20 @@ namespace meltfront::verification
     }
   }
 
-  int report(const std::string &directory)
+  int conclude(MatrixResult &result, const std::string &directory)
+  {
+    write_results(result, directory);
+    std::fputs(console_summary(result).c_str(), stdout);
+    print_place_of_report(directory);
+    return result.passed ? all_well : criterion_failed;
+  }
+
+  int report(const std::string &directory, const std::string &keep)
   {
     MatrixResult result = load_matrix_result(directory);
-    return conclude(result, directory);
+    const int status = conclude(result, directory);
+    if(!keep.empty())
+      write_baseline(fmt::format("{}/{}.json", keep, result.name), baseline_of(result));
+    return status;
   }
 } // namespace meltfront::verification

@@ -21,10 +21,18 @@ namespace meltfront::verification
 
   struct VerifyArguments
   {
-    std::string matrix = "default"; ///< name in the library or path of a matrix file
-    std::string output;             ///< directory; empty: results/MATRIX
-    int jobs = 0;                   ///< runs at once; 0: one per core
-    double memory = 0;              ///< GB that a run may take; 0: what the machine has
+    /** Name in the library, path of a matrix file, or `full`: all of the library. */
+    std::string matrix = "default";
+    std::string output;     ///< directory; empty: results/MATRIX
+    int jobs = 0;           ///< runs at once; 0: one per core
+    double memory = 0;      ///< GB that a run may take; 0: what the machine has
+    bool list_runs = false; ///< print the identities of the runs, make none
+    std::string launcher;   ///< words before the command that makes one run
+    std::string only;       ///< identity or number of the one run to be made
+    std::string shared;     ///< directory of records that matrices share
+    std::string timing;     ///< `quick` or `careful`; empty: as the matrix says
+    std::string against;    ///< directory of results that the figures are held against
+    std::string keep;       ///< directory in which the figures are kept for that
   };
 
   struct RunArguments
@@ -61,15 +69,24 @@ namespace meltfront::verification
   /** Print where the report of a directory is. */
   void print_place_of_report(const std::string &directory);
 
-  /** Run a matrix, write the report, print every criterion with its figure. */
+  /** Of a matrix of hard cases, say of each run whether it held. */
+  void judge_hard_cases(MatrixResult &result);
+
+  /** write_results(), and print what came of it. @return an ExitStatus */
+  int conclude(MatrixResult &result, const std::string &directory);
+
+  /** Run a matrix, write the report, print every criterion with its figure; or list its
+   * runs, or make one of them. */
   int verify(const VerifyArguments &arguments);
 
   /** One run, in a process of its own: run.json, front.csv, picture.svg and fields for
    * ParaView. One that crashes or takes longer than it may is recorded as failed. */
   int run(const RunArguments &arguments);
 
-  /** Tables and plots again from finished runs; nothing is run. */
-  int report(const std::string &directory);
+  /** Tables and plots again from finished runs; nothing is run.
+   * @param keep directory in which the figures are kept (VerifyArguments::keep), or empty
+   */
+  int report(const std::string &directory, const std::string &keep);
 } // namespace meltfront::verification
 
 #endif

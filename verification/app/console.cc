@@ -126,13 +126,13 @@ namespace meltfront::verification
 
     std::string criterion_line(const CriterionResult &criterion)
     {
-      return fmt::format("  {}  {}: {}: {} = {:.3g}, {}{}\n",
-                         criterion.passed ? "PASS" : "FAIL", criterion.case_name,
-                         criterion.method, criterion.quantity, criterion.value,
-                         bound_text(criterion),
-                         criterion.expected_failure.empty()
-                             ? ""
-                             : "; expected failure: " + criterion.expected_failure);
+      return fmt::format(
+          "  {}  {}: {}: {} = {:.3g}, {}{}{}\n", criterion.passed ? "PASS" : "FAIL",
+          criterion.case_name, criterion.method, criterion.quantity, criterion.value,
+          bound_text(criterion), criterion.remark.empty() ? "" : "; " + criterion.remark,
+          criterion.expected_failure.empty()
+              ? ""
+              : "; expected failure: " + criterion.expected_failure);
     }
 
     std::string findings_text(const MatrixResult &result)
@@ -227,6 +227,9 @@ namespace meltfront::verification
       for(const std::string &label : labels_of(result, c.name()))
         text += convergence_line(result, c, label);
     }
+    if(text.find(" +- ") != std::string::npos)
+      text += "Orders: +- is the half width of the 95 % confidence interval (Student's "
+              "t).\n";
     text += variations_text(result);
     if(result.hard_cases)
       text += stability_text(result);

@@ -31,7 +31,7 @@ namespace
     AdviseArguments advise_arguments;
     CrosscheckArguments crosscheck_arguments;
     CalibrateArguments calibrate_arguments;
-    std::string report_directory;
+    std::string report_directory, kept_directory;
     std::string list_what;
     bool list_as_json = false;
     std::function<int()> action;
@@ -73,6 +73,16 @@ namespace
         ->check(CLI::PositiveNumber);
   }
 
+  void add_keep_option(CLI::App *command, std::string &keep)
+  {
+    command
+        ->add_option("--keep-reference", keep,
+                     "keep the figures that --against reads, in DIR/MATRIX.json "
+                     "(results/reference)")
+        ->expected(0, 1)
+        ->default_str("results/reference");
+  }
+
   void CommandLine::declare_verify()
   {
     const auto add_options = [this](CLI::App *command)
@@ -86,9 +96,36 @@ namespace
     };
     auto *verify_command
         = app.add_subcommand("verify", "run a verification matrix and write its report");
-    verify_command->add_option("matrix", verify_arguments.matrix,
-                               "matrix of the library, or a matrix file (default)");
+    verify_command->add_option(
+        "matrix", verify_arguments.matrix,
+        "matrix of the library, a matrix file, or 'full': all of the "
+        "library (default)");
     add_options(verify_command);
+    verify_command->add_option(
+        "--against", verify_arguments.against,
+        "hold the figures against those in this directory (results/reference): what grew "
+        "by a tenth, holds no longer or is missing is printed, and the exit status is 1");
+    add_keep_option(verify_command, verify_arguments.keep);
+    verify_command
+        ->add_option("--timing", verify_arguments.timing,
+                     "quick: short runs repeated a few times; careful: all below 10 s in "
+                     "turn until their times agree (as the matrix says)")
+        ->check(CLI::IsMember({"quick", "careful"}));
+    verify_command->add_option("--shared", verify_arguments.shared,
+                               "directory of records that several matrices share");
+    auto *list_runs = verify_command->add_flag(
+        "--list-runs", verify_arguments.list_runs,
+        "print one line for each run, as --only takes it, and make none");
+    auto *launcher = verify_command->add_option(
+        "--launcher", verify_arguments.launcher,
+        "command that starts each run as a process of its own, e.g. 'srun -n1'");
+    verify_command
+        ->add_option(
+            "--only", verify_arguments.only,
+            "make this one run, by its line of --list-runs or the line's number, "
+            "and judge nothing")
+        ->excludes(launcher)
+        ->excludes(list_runs);
     verify_command->callback([this]
                              { action = [this] { return verify(verify_arguments); }; });
 
@@ -260,8 +297,9 @@ namespace
     report_command
         ->add_option("directory", report_directory, "directory of a finished matrix")
         ->required();
-    report_command->callback([this]
-                             { action = [this] { return report(report_directory); }; });
+    add_keep_option(report_command, kept_directory);
+    report_command->callback(
+        [this] { action = [this] { return report(report_directory, kept_directory); }; });
     app.add_subcommand("test", "build and run all tests (./meltfront test)")
         ->callback(
             [this]

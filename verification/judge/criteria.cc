@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace meltfront::verification
 {
@@ -69,7 +70,7 @@ namespace meltfront::verification
       return false;
     }
 
-    double order_over(const StoredCase &record, const Runs &runs,
+    OrderFit fit_over(const StoredCase &record, const Runs &runs,
                       const std::string &quantity)
     {
       const Refinement refinement(runs);
@@ -81,9 +82,20 @@ namespace meltfront::verification
               run->status == RunStatus::finished ? refinement.of(*run) : nan);
           levels.error.push_back(table_value(*run, quantity));
         }
-      const OrderFit fit
-          = fit_levels(levels, record, quantity, *runs.front(), refinement);
-      return fit.levels >= fewest_levels ? fit.order : nan;
+      return fit_levels(levels, record, quantity, *runs.front(), refinement);
+    }
+
+    /** The order, unless the fit says that there is none where convergence is asked for.
+     */
+    Judgement order_over(const StoredCase &record, const Runs &runs,
+                         const cases::Criterion &criterion)
+    {
+      const OrderFit fit = fit_over(record, runs, criterion.quantity);
+      if(fit.levels < fewest_levels)
+        return {nan, "", false};
+      const bool convergence_asked = criterion.lower > 0;
+      const bool clean = fit.verdict == OrderVerdict::clean || !convergence_asked;
+      return {fit.order, clean ? "" : to_string(fit.verdict), false};
     }
 
     double worst_over(const Runs &runs, const std::string &quantity)
@@ -109,6 +121,25 @@ namespace meltfront::verification
       return sum / static_cast<double>(runs.size());
     }
 
+    /** How far a value is beyond a criterion's bounds, negative within them. */
+    double beyond(double value, const cases::Criterion &criterion)
+    {
+      return std::isnan(value)
+                 ? infinity
+                 : std::max(criterion.lower - value, value - criterion.upper);
+    }
+
+    /** The value of the seed that is furthest beyond the bounds, or least within them. */
+    double worst_of_seeds(const Runs &runs, const cases::Criterion &criterion)
+    {
+      double worst = table_value(*runs.front(), criterion.quantity);
+      for(const RunRecord *run : runs)
+        if(const double value = table_value(*run, criterion.quantity);
+           beyond(value, criterion) > beyond(worst, criterion))
+          worst = value;
+      return worst;
+    }
+
     double median_over(const Runs &runs, const std::string &quantity)
     {
       std::vector<double> values;
@@ -122,24 +153,53 @@ namespace meltfront::verification
                                     : 0.5 * (values[half - 1] + values[half]);
     }
 
-    double value_of(const StoredCase &record, const Runs &runs,
-                    const cases::Criterion &criterion)
+    /** Why a bound on a difference from a reference says nothing; empty if it does. */
+    std::string reference_remark(const MatrixResult &result, const StoredCase &record,
+                                 const cases::Criterion &criterion)
+    {
+      constexpr std::string_view ending = "_error";
+      if(!is_derived_quantity(criterion.quantity) || !criterion.quantity.ends_with(ending)
+         || std::isinf(criterion.upper) || criterion.statistic == cases::Statistic::order)
+        return {};
+      std::string of
+          = criterion.quantity.substr(0, criterion.quantity.size() - ending.size());
+      if(of == "solid_volume_rms")
+        of = "solid_volume_end"; // of the same series
+      for(const ReferenceTrust &trust : result.references)
+        if(trust.case_name == record.name() && trust.quantity == of)
+        {
+          const double bar = trust.convergence.uncertainty;
+          return bar <= criterion.upper ? ""
+                 : std::isnan(bar)
+                     ? "the reference's error bar is not known"
+                     : fmt::format("the reference's error bar, {:.2g}, exceeds the bound",
+                                   bar);
+        }
+      return "there is no reference";
+    }
+
+    Judgement value_of(const StoredCase &record, const Runs &runs,
+                       const cases::Criterion &criterion)
     {
       switch(criterion.statistic)
       {
       case cases::Statistic::order:
-        return order_over(record, runs, criterion.quantity);
+        return order_over(record, runs, criterion);
       case cases::Statistic::worst:
-        return worst_over(runs, criterion.quantity);
+        return {worst_over(runs, criterion.quantity), "", false};
       case cases::Statistic::median:
-        return median_over(runs, criterion.quantity);
+        return {median_over(runs, criterion.quantity), "", false};
       case cases::Statistic::failure:
-        return std::ranges::all_of(runs, [](const RunRecord *run)
-                                   { return failed_numerically(*run); })
-                   ? 1
-                   : 0;
+        return {std::ranges::all_of(runs, [](const RunRecord *run)
+                                    { return failed_numerically(*run); })
+                    ? 1.
+                    : 0.,
+                "", false};
       default:
-        return mean_over(runs, criterion.quantity);
+        return {record.scene.problem == cases::ProblemKind::particle_solid
+                    ? mean_over(runs, criterion.quantity)
+                    : worst_of_seeds(runs, criterion),
+                "", false};
       }
     }
 
@@ -214,10 +274,15 @@ namespace meltfront::verification
     return {};
   }
 
-  double criterion_value(const MatrixResult &result, const StoredCase &record,
-                         const cases::Criterion &criterion)
+  Judgement judge(const MatrixResult &result, const StoredCase &record,
+                  const cases::Criterion &criterion)
   {
-    return value_of(record, runs_of(result, record, criterion), criterion);
+    Judgement judgement = value_of(record, runs_of(result, record, criterion), criterion);
+    if(judgement.remark.empty())
+      judgement.remark = reference_remark(result, record, criterion);
+    judgement.passed
+        = judgement.remark.empty() && beyond(judgement.value, criterion) <= 0;
+    return judgement;
   }
 
   std::map<std::string, double> run_columns(const RunRecord &run)
@@ -260,12 +325,12 @@ namespace meltfront::verification
                                                quantity_text(criterion), reason));
         return;
       }
-      const double value = criterion_value(result, record, criterion);
-      const bool passed = value >= criterion.lower && value <= criterion.upper;
+      const Judgement judgement = judge(result, record, criterion);
       result.criteria.push_back({record.name(), criterion.method,
-                                 quantity_text(criterion), value, criterion.lower,
-                                 criterion.upper, passed, criterion.expected_failure});
-      result.passed = result.passed && passed;
+                                 quantity_text(criterion), judgement.value,
+                                 criterion.lower, criterion.upper, judgement.passed,
+                                 criterion.expected_failure, judgement.remark});
+      result.passed = result.passed && judgement.passed;
     }
 
     /** The case of a family that is furthest beyond a criterion's bounds, or nearest to
@@ -280,15 +345,14 @@ namespace meltfront::verification
         if(!in_family(family.family, record.name())
            || !why_not_judged(result, record, family.criterion).empty())
           continue;
-        const double value = criterion_value(result, record, family.criterion);
-        const double beyond = std::isnan(value)
-                                  ? infinity
-                                  : std::max(family.criterion.lower - value,
-                                             value - family.criterion.upper);
-        if(!worst || beyond > furthest)
+        const Judgement judgement = judge(result, record, family.criterion);
+        const double distance = judgement.remark.empty()
+                                    ? beyond(judgement.value, family.criterion)
+                                    : infinity;
+        if(!worst || distance > furthest)
         {
           worst = &record;
-          furthest = beyond;
+          furthest = distance;
         }
       }
       return worst;

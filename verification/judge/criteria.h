@@ -23,10 +23,17 @@ namespace meltfront::verification
   std::string why_not_judged(const MatrixResult &result, const StoredCase &record,
                              const cases::Criterion &criterion);
 
-  /** The value that a criterion bounds in a case, as evaluate() explains; NaN where a
-   * run that it needs is missing or failed. */
-  double criterion_value(const MatrixResult &result, const StoredCase &record,
-                         const cases::Criterion &criterion);
+  /** A criterion held against the runs of a case. */
+  struct Judgement
+  {
+    double value = 0;   ///< NaN where a run that it needs is missing or failed
+    std::string remark; ///< as CriterionResult::remark
+    bool passed = false;
+  };
+
+  /** Hold a criterion against the runs of a case, as evaluate() explains. */
+  Judgement judge(const MatrixResult &result, const StoredCase &record,
+                  const cases::Criterion &criterion);
 
   /**
    * Hold the criteria of every case of a matrix and its findings against its runs; fills
@@ -37,8 +44,14 @@ namespace meltfront::verification
    * cases::any_method is judged for each label of the case by itself, but for those that
    * are refused or do not measure its quantity. Orders are over h,
    * or over dt where the runs refine that (Refinement), without levels at round-off
-   * (round_off_floor()). Runs of several seeds count with their mean (`median`:
-   * that, `worst`: the largest). Refused runs are no part of an order or a worst value,
+   * (round_off_floor()). One that asks for convergence, with a lower bound above zero,
+   * fails where the fit is oscillating, stagnating, diverging or suspiciously fast. Runs
+   * of several seeds count with the one that is furthest from the bounds, or least within
+   * them
+   * (`median`: that, `worst`: the largest); those of particle solids, whose seeds are one
+   * ensemble, with their mean. A difference from a reference run is bounded in vain, and
+   * fails, where the error bar of the reference exceeds the bound or is not known.
+   * Refused runs are no part of an order or a worst value,
    * nor is a case's reference run of those of its own difference from itself. A criterion
    * is not judged, and listed as an omission, if the matrix has no such run: no run of
    * the method at its n, none at all for `worst`, fewer than four resolutions for an

@@ -15,19 +15,18 @@ namespace meltfront::verification
   {
     using cases::nan;
 
-    EvidenceResult judge(const MatrixResult &result, const Evidence &evidence)
+    EvidenceResult judged(const MatrixResult &result, const Evidence &evidence)
     {
-      EvidenceResult judged{evidence, quantity_text(evidence.criterion), {}};
+      EvidenceResult values{evidence, quantity_text(evidence.criterion), {}};
       for(const StoredCase &record : result.cases)
         if(label_matches(evidence.cases, record.name())
            && why_not_judged(result, record, evidence.criterion).empty())
         {
-          const double value = criterion_value(result, record, evidence.criterion);
-          judged.values.push_back(
-              {record.name(), value,
-               value >= evidence.criterion.lower && value <= evidence.criterion.upper});
+          const Judgement judgement = judge(result, record, evidence.criterion);
+          values.values.push_back(
+              {record.name(), judgement.value, judgement.passed, judgement.remark});
         }
-      return judged;
+      return values;
     }
 
     std::string measured_text(const EvidenceResult &evidence)
@@ -108,14 +107,14 @@ namespace meltfront::verification
   std::vector<FindingResult> judge_findings(const MatrixResult &result,
                                             const std::vector<Finding> &findings)
   {
-    std::vector<FindingResult> judged;
+    std::vector<FindingResult> results;
     for(const Finding &finding : findings)
     {
-      FindingResult &one = judged.emplace_back();
+      FindingResult &one = results.emplace_back();
       one.claim = finding.claim;
       for(const Evidence &evidence : finding.evidence)
-        one.evidence.push_back(judge(result, evidence));
+        one.evidence.push_back(judged(result, evidence));
     }
-    return judged;
+    return results;
   }
 } // namespace meltfront::verification

@@ -44,6 +44,7 @@ namespace meltfront::verification
     std::string case_name;
     double value = std::numeric_limits<double>::quiet_NaN();
     bool passed = false;
+    std::string remark{}; ///< as CriterionResult::remark
   };
 
   struct EvidenceResult

@@ -22,6 +22,9 @@ namespace meltfront::verification
     double lower = 0, upper = 0;
     bool passed = false;
     std::string expected_failure;
+    /** Why it fails although its value is within the bounds: an order whose fit is
+     * oscillating, a reference that is not known well enough; else empty. */
+    std::string remark{};
   };
 
   /** A criterion on the worst of the cases of a family (in_family()). */

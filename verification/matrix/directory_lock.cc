@@ -12,7 +12,7 @@
 
 namespace meltfront::verification
 {
-  DirectoryLock::DirectoryLock(const std::string &directory)
+  DirectoryLock::DirectoryLock(const std::string &directory, IfHeld if_held)
   {
     std::error_code failure;
     std::filesystem::create_directories(directory, failure);
@@ -28,11 +28,24 @@ namespace meltfront::verification
     };
     lock.l_type = F_WRLCK;
     lock.l_whence = SEEK_SET;
-    if(fcntl(file, F_SETLK, &lock) == 0)
+    if(if_held == IfHeld::fail)
+    {
+      if(fcntl(file, F_SETLK, &lock) == 0)
+        return;
+      close(file);
+      throw cases::OutputError(
+          fmt::format("another process is at work in {}", directory));
+    }
+    int result = 0;
+    do
+      result = fcntl(file, F_SETLKW, &lock);
+    while(result != 0 && errno == EINTR);
+    if(result == 0)
       return;
+    const int problem = errno;
     close(file);
     throw cases::OutputError(
-        fmt::format("another process is running a matrix in {}", directory));
+        fmt::format("cannot lock {}: {}", directory, std::strerror(problem)));
   }
 
   DirectoryLock::~DirectoryLock()

@@ -10,9 +10,16 @@ namespace meltfront::verification
   class DirectoryLock
   {
   public:
-    /** @throws cases::OutputError if another process holds it or it cannot be written to.
-     */
-    explicit DirectoryLock(const std::string &directory);
+    /** What is to be done if another process holds it. */
+    enum class IfHeld
+    {
+      fail,
+      wait
+    };
+
+    /** @throws cases::OutputError if it cannot be written to, or if another process holds
+     * it and that is to `fail`. */
+    explicit DirectoryLock(const std::string &directory, IfHeld if_held = IfHeld::fail);
     ~DirectoryLock();
 
     DirectoryLock(const DirectoryLock &) = delete;

@@ -1,10 +1,12 @@
 #include <cases/error.h>
+#include <cases/options.h>
 #include <verification/matrix/matrix.h>
 #include <verification/run/run_one.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <set>
 
@@ -143,13 +145,18 @@ namespace meltfront::verification
     }
   } // namespace
 
-  std::string PlannedRun::file() const
+  std::string PlannedRun::identity() const
   {
     std::string folder = label;
     std::ranges::replace(folder, '/', '_');
-    return fmt::format("runs/{}/{}/n={}{}/run.json", case_name, folder, resolution.n,
+    return fmt::format("{}/{}/n={}{}", case_name, folder, resolution.n,
                        resolution.seed == 1 ? ""
                                             : fmt::format(",seed={}", resolution.seed));
+  }
+
+  std::string PlannedRun::file() const
+  {
+    return fmt::format("runs/{}/run.json", identity());
   }
 
   std::string short_case_name(const std::string &name_or_path)
@@ -216,5 +223,25 @@ namespace meltfront::verification
     std::erase_if(runs, [&](const PlannedRun &run)
                   { return !known.insert(run.file()).second; });
     return runs;
+  }
+
+  const PlannedRun &find_run(const std::vector<PlannedRun> &plan,
+                             const std::string &identity_or_number)
+  {
+    std::size_t number = 0;
+    const char *const end = identity_or_number.data() + identity_or_number.size();
+    const auto [stop, failure] = std::from_chars(identity_or_number.data(), end, number);
+    if(failure == std::errc() && stop == end && number >= 1 && number <= plan.size())
+      return plan[number - 1];
+    std::vector<std::string> identities;
+    for(const PlannedRun &run : plan)
+      if(run.identity() == identity_or_number)
+        return run;
+      else
+        identities.push_back(run.identity());
+    throw cases::InputError(
+        fmt::format("the matrix has no run '{}'; the nearest of its {} is '{}'",
+                    cases::quotable(identity_or_number), plan.size(),
+                    cases::nearest_name(identity_or_number, identities)));
   }
 } // namespace meltfront::verification

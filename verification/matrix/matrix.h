@@ -67,6 +67,7 @@ namespace meltfront::verification
     std::vector<Picture> pictures{}; ///< what its report draws
     /** What a reader must know of how it was planned, a sentence each. */
     std::vector<std::string> remarks{};
+    bool careful_timing = false; ///< times are taken by time_carefully()
   };
 
   /** A case of a matrix: as written, or with values that the matrix gives to its keys. */
@@ -87,7 +88,10 @@ namespace meltfront::verification
     std::string label;
     cases::Resolution resolution;
 
-    /** `runs/CASE/LABEL/n=N/run.json`, with `,seed=S` after N for a seed other than 1. */
+    /** `CASE/LABEL/n=N`, with `,seed=S` after N for a seed other than 1. */
+    std::string identity() const;
+
+    /** `runs/IDENTITY/run.json` */
     std::string file() const;
   };
 
@@ -119,6 +123,11 @@ namespace meltfront::verification
    * name, a resolution or number of threads below 1, and a block without any run.
    */
   std::vector<PlannedRun> plan_runs(const Matrix &matrix, const MethodLookup &methods);
+
+  /** A run of a plan by its identity, or by its place in it, from 1 on.
+   * @throws InputError, which names the nearest, if there is none. */
+  const PlannedRun &find_run(const std::vector<PlannedRun> &plan,
+                             const std::string &identity_or_number);
 
   /**
    * Hold the names in a matrix's findings and pictures against what there is.

@@ -35,6 +35,10 @@ namespace meltfront::verification
                        "The report judges each run: held, refused or failed."});
       prm.declare("", {"time limit", PrmKind::number, "600", "s",
                        "A run that takes longer has failed.", cases::above_zero});
+      prm.declare("", {"timing", PrmKind::text, "quick", "",
+                       "quick: short runs are repeated a few times at once; careful: all "
+                       "below 10 s in turn, five to fifteen times, until the three least "
+                       "times agree within 3 percent."});
       for(int i = 1; i <= most_blocks; ++i)
       {
         const auto declare
@@ -196,6 +200,12 @@ namespace meltfront::verification
       matrix.description = prm.get_text("", "description");
       matrix.hard_cases = prm.get_boolean("", "hard cases");
       matrix.time_limit = prm.get_number("", "time limit");
+      const std::string timing = prm.get_text("", "timing");
+      if(timing != "quick" && timing != "careful")
+        throw prm.error("", "timing",
+                        fmt::format("is '{}', which is neither quick nor careful",
+                                    cases::quotable(timing)));
+      matrix.careful_timing = timing == "careful";
       for(int i = 1; i <= most_blocks; ++i)
         if(prm.opened(block_name(i)))
           matrix.blocks.push_back(read_block(prm, block_name(i)));

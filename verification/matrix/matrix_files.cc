@@ -108,6 +108,7 @@ namespace meltfront::verification
                           {"bound", bound_of(criterion)},
                           {"relation", relation_of(criterion)},
                           {"passed", criterion.passed},
+                          {"remark", criterion.remark},
                           {"expected_failure", criterion.expected_failure}});
     json findings = json::array();
     for(const FindingResult &finding : result.findings)

@@ -21,9 +21,9 @@ namespace meltfront::verification
 
   /**
    * Write DIR/summary.json: `passed`, `criteria` (each with `case`, `method`, `quantity`,
-   * `value`, `bound`, `passed`, `expected_failure`; `bound` is a number where one side is
-   * bounded, which one says `relation`, `<=` or `>=`; and [lower, upper] with `in`),
-   * `findings` (each with `claim` and `holds`), `omissions`.
+   * `value`, `bound`, `passed`, `remark`, `expected_failure`; `bound` is a number where
+   * one side is bounded, which one says `relation`, `<=` or `>=`; and [lower, upper] with
+   * `in`), `findings` (each with `claim` and `holds`), `omissions`.
    */
   void write_summary(const std::string &directory, const MatrixResult &result);
 

@@ -1,19 +1,20 @@
 #include <cases/error.h>
 #include <verification/matrix/criteria_reader.h>
 #include <verification/matrix/directory_lock.h>
+#include <verification/matrix/job.h>
 #include <verification/matrix/matrix_files.h>
 #include <verification/matrix/progress.h>
+#include <verification/matrix/run_claim.h>
 #include <verification/matrix/runner.h>
+#include <verification/matrix/timing_rounds.h>
+#include <verification/matrix/workers.h>
 #include <verification/record/hash.h>
 #include <verification/record/json_values.h>
 #include <verification/record/label.h>
-#include <verification/run/child_process.h>
-#include <verification/run/memory_limit.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <deque>
 #include <filesystem>
@@ -23,200 +24,23 @@ namespace meltfront::verification
 {
   namespace
   {
-    using Clock = std::chrono::steady_clock;
-
-    constexpr std::chrono::milliseconds polling_pause{5};
-
-    /** A planned run with what is needed to make it. */
-    struct Job
-    {
-      PlannedRun run;
-      const cases::Case *the_case;
-      const cases::Method *method;
-      std::string path; ///< of its record
-      double work;      ///< estimate, in any unit: the largest runs start first
-    };
-
-    struct RunningJob
-    {
-      Job job;
-      ChildProcess process;
-      Clock::time_point start;
-    };
-
     /** Particles or cells times explicit steps: n^d n^2. */
     double estimated_work(const PlannedRun &run, const cases::Case &c)
     {
       return std::pow(run.resolution.n, c.scene.domain.dimension + 2);
     }
 
-    std::map<std::string, std::string> provenance_of(const RunnerOptions &options)
+    /** The time now by the clock of the file system that holds the directory. */
+    std::filesystem::file_time_type file_time(const std::string &directory)
     {
-      return {{"program_version", options.program_version},
-              {"program_hash", options.program_hash},
-              {"command_line", options.command_line}};
+      const ClaimHolder self = ClaimHolder::self();
+      const std::string path
+          = fmt::format("{}/.time.{}.{}", directory, self.host, self.process);
+      write_atomically(path, "");
+      const auto now = std::filesystem::last_write_time(path);
+      std::filesystem::remove(path);
+      return now;
     }
-
-    RunRecord record_without_result(const Job &job, const RunnerOptions &options)
-    {
-      return empty_record(*job.the_case, *job.method, job.run.resolution, job.run.label,
-                          provenance_of(options));
-    }
-
-    /** Whether the run's record is there and would come out the same again. */
-    bool already_made(const Job &job, const RunnerOptions &options)
-    {
-      if(!std::filesystem::exists(job.path))
-        return false;
-      try
-      {
-        const RunRecord old = read_json(job.path).get<RunRecord>();
-        RunRecord expected = record_without_result(job, options);
-        auto was = old.provenance;
-        const bool same_provenance
-            = was["case_hash"] == expected.provenance["case_hash"]
-              && was["program_version"] == expected.provenance["program_version"]
-              && was["program_hash"] == expected.provenance["program_hash"];
-        return same_provenance && was["ended"] != "killed"
-               && old.method == expected.method && old.case_name == expected.case_name
-               && old.label == expected.label && old.options == expected.options
-               && old.n == expected.n && old.seed == expected.seed
-               && old.threads == expected.threads;
-      }
-      catch(const std::exception &)
-      {
-        // Not a record as this program writes it: it is made anew.
-        return false;
-      }
-    }
-
-    std::string name_of(const Job &job)
-    {
-      return fmt::format("{} {} n={}", job.run.case_name, job.run.label,
-                         job.run.resolution.n);
-    }
-
-    RunKind kind_of(const Job &job)
-    {
-      return {job.run.case_name, job.run.label, job.run.method, job.run.resolution.n};
-    }
-
-    /** Starts runs, watches them and writes down how they end. */
-    class Workers
-    {
-    public:
-      Workers(const RunnerOptions &options, double time_limit, Progress &progress)
-        : options(options)
-        , time_limit(time_limit)
-        , progress(progress)
-      {
-      }
-
-      void run(std::deque<Job> waiting)
-      {
-        while(!waiting.empty() || !running.empty())
-        {
-          start_what_fits(waiting);
-          std::this_thread::sleep_for(polling_pause);
-          std::erase_if(running, [this](RunningJob &job) { return ended(job); });
-          show();
-        }
-      }
-
-    private:
-      int slots_of(const Job &job) const
-      {
-        return std::min(job.run.resolution.threads, options.jobs);
-      }
-
-      void start_what_fits(std::deque<Job> &waiting)
-      {
-        int used = 0;
-        for(const RunningJob &job : running)
-          used += slots_of(job.job);
-        while(!waiting.empty() && used + slots_of(waiting.front()) <= options.jobs)
-        {
-          used += slots_of(waiting.front());
-          start(std::move(waiting.front()));
-          waiting.pop_front();
-        }
-      }
-
-      void start(Job job)
-      {
-        const auto folder = std::filesystem::path(job.path).parent_path();
-        std::filesystem::create_directories(folder);
-        job.run.resolution.memory_limit = options.memory_limit;
-        const auto make = [&]
-        {
-          limit_memory(options.memory_limit, job.run.resolution.threads);
-          write_json(job.path, run_one(*job.the_case, *job.method, job.run.resolution,
-                                       job.run.label, provenance_of(options), nullptr,
-                                       options.repeats));
-        };
-        ChildProcess process(make, folder / "run.log");
-        running.push_back({std::move(job), std::move(process), Clock::now()});
-      }
-
-      bool ended(RunningJob &running_job)
-      {
-        const std::chrono::duration<double> spent = Clock::now() - running_job.start;
-        std::string problem;
-        if(running_job.process.ended())
-          problem = running_job.process.end().problem();
-        else if(spent.count() > time_limit)
-        {
-          running_job.process.kill();
-          problem = fmt::format("took longer than its time limit of {} s", time_limit);
-        }
-        else
-          return false;
-        const Job &job = running_job.job;
-        // A record that is there is whole, whatever befell the process after it.
-        if(!std::filesystem::exists(job.path))
-          record_failure(job, problem.empty() ? "ended without a record" : problem,
-                         running_job.process.end().peak_memory_mb);
-        report(job, spent.count());
-        return true;
-      }
-
-      void record_failure(const Job &job, const std::string &problem,
-                          double peak_memory_mb)
-      {
-        RunRecord record = record_without_result(job, options);
-        record.status = RunStatus::failed;
-        record.message = fmt::format("{} {}", job.run.method, problem);
-        record.peak_memory_mb = peak_memory_mb;
-        record.provenance["ended"] = "killed";
-        write_json(job.path, record);
-      }
-
-      void report(const Job &job, double seconds)
-      {
-        const auto record = read_json(job.path);
-        const std::string status = record.at("status"), message = record.at("message");
-        // Repeats are made of short runs only, and say nothing of longer ones.
-        const int repeats = std::max(1, record.at("repeats").get<int>());
-        progress.run_ended(kind_of(job), seconds / repeats, name_of(job),
-                           message.empty()
-                               ? fmt::format("{} in {:.2f} s", status, seconds)
-                               : fmt::format("{}: {}", status, message),
-                           status == to_string(RunStatus::finished));
-      }
-
-      void show()
-      {
-        std::string names;
-        for(const RunningJob &job : running)
-          names += (names.empty() ? "" : ", ") + name_of(job.job);
-        progress.show_running(names);
-      }
-
-      const RunnerOptions &options;
-      double time_limit;
-      Progress &progress;
-      std::vector<RunningJob> running;
-    };
 
     RunnerOptions completed(RunnerOptions options)
     {
@@ -264,52 +88,110 @@ namespace meltfront::verification
                     "of them",
                     one.place, written.text));
     }
+
+    /** A matrix whose names have been held against what there is. */
+    struct Prepared
+    {
+      const Matrix &matrix;
+      const MethodLookup &methods;
+      std::vector<PlannedRun> plan;
+      std::map<std::string, cases::Case> cases_by_name;
+    };
+
+    Prepared prepared(const Matrix &matrix, const CaseLoader &load_case,
+                      const MethodLookup &methods)
+    {
+      Prepared result{matrix, methods, plan_runs(matrix, methods), {}};
+      check_findings(matrix, methods);
+      result.cases_by_name = load_cases(matrix, load_case);
+      check_criteria(matrix, result.cases_by_name);
+      return result;
+    }
+
+    void write_plan(const Prepared &prepared, const RunnerOptions &options)
+    {
+      std::vector<StoredCase> records;
+      for(const PlannedCase &planned : planned_cases(prepared.matrix))
+        records.push_back(
+            stored_case(prepared.cases_by_name.at(planned.name),
+                        planned.settings.empty() ? "" : short_case_name(planned.base),
+                        planned.settings));
+      write_plan(options.directory, prepared.matrix, records, prepared.plan,
+                 options.program_version);
+    }
+
+    /** All runs, or the only one that is wanted. */
+    std::vector<Job> jobs_of(const Prepared &prepared, const RunnerOptions &options)
+    {
+      std::vector<PlannedRun> runs = prepared.plan;
+      if(!options.only.empty())
+        runs = {find_run(prepared.plan, options.only)};
+      std::vector<Job> jobs;
+      for(const PlannedRun &run : runs)
+      {
+        const cases::Case &c = prepared.cases_by_name.at(run.case_name);
+        jobs.push_back({run, &c, &prepared.methods(run.method),
+                        options.directory + "/" + run.file(), estimated_work(run, c)});
+      }
+      return jobs;
+    }
+
+    /** Make what has not been made, the largest first. */
+    void make_runs(const Prepared &prepared, const RunnerOptions &options)
+    {
+      const auto since = file_time(options.directory);
+      const std::vector<Job> all = jobs_of(prepared, options);
+      std::deque<Job> missing;
+      std::vector<RunKind> kinds;
+      for(const Job &job : all)
+        if(!already_made(job, options))
+        {
+          kinds.push_back(kind_of(job));
+          missing.push_back(job);
+        }
+      std::ranges::stable_sort(missing, std::ranges::greater(), &Job::work);
+      Progress progress(options.progress, kinds, all.size() - kinds.size(), options.jobs);
+      Workers(options, prepared.matrix.time_limit, since, progress)
+          .run(std::move(missing));
+    }
+
+    void take_times(const Prepared &prepared, const RunnerOptions &options)
+    {
+      if(prepared.matrix.careful_timing)
+        time_carefully(jobs_of(prepared, options), options, prepared.matrix.time_limit);
+    }
   } // namespace
 
   MatrixResult run_matrix(const Matrix &matrix, const RunnerOptions &given,
                           const CaseLoader &load_case, const MethodLookup &methods)
   {
-    const std::vector<PlannedRun> plan = plan_runs(matrix, methods);
-    check_findings(matrix, methods);
-    const std::map<std::string, cases::Case> cases_by_name
-        = load_cases(matrix, load_case);
-    check_criteria(matrix, cases_by_name);
+    const Prepared of_matrix = prepared(matrix, load_case, methods);
     const RunnerOptions options = completed(given);
-    const DirectoryLock lock(options.directory);
-
-    std::vector<StoredCase> case_records;
-    for(const PlannedCase &planned : planned_cases(matrix))
-      case_records.push_back(
-          stored_case(cases_by_name.at(planned.name),
-                      planned.settings.empty() ? "" : short_case_name(planned.base),
-                      planned.settings));
-    write_plan(options.directory, matrix, case_records, plan, options.program_version);
-
-    std::deque<Job> jobs;
-    std::vector<RunKind> kinds;
-    for(const PlannedRun &run : plan)
     {
-      const cases::Case &c = cases_by_name.at(run.case_name);
-      Job job{run, &c, &methods(run.method), options.directory + "/" + run.file(),
-              estimated_work(run, c)};
-      if(already_made(job, options))
-        continue;
-      // What stands in its place is of another program or case.
-      std::filesystem::remove(job.path);
-      kinds.push_back(kind_of(job));
-      jobs.push_back(std::move(job));
+      const DirectoryLock lock(options.directory, DirectoryLock::IfHeld::wait);
+      write_plan(of_matrix, options);
     }
-    std::ranges::stable_sort(jobs, std::ranges::greater(), &Job::work);
-
-    {
-      Progress progress(options.progress, kinds, plan.size() - kinds.size(),
-                        options.jobs);
-      Workers(options, matrix.time_limit, progress).run(std::move(jobs));
-    }
+    make_runs(of_matrix, options);
+    take_times(of_matrix, options);
+    const DirectoryLock lock(options.directory, DirectoryLock::IfHeld::wait);
+    write_plan(of_matrix, options); // another matrix may have been run here meanwhile
     MatrixResult result = load_matrix_result(options.directory);
     write_summary(options.directory, result);
     if(options.conclude)
       options.conclude(result);
     return result;
+  }
+
+  void make_one_run(const Matrix &matrix, const RunnerOptions &given,
+                    const CaseLoader &load_case, const MethodLookup &methods)
+  {
+    const Prepared of_matrix = prepared(matrix, load_case, methods);
+    const RunnerOptions options = completed(given);
+    if(!std::filesystem::exists(options.directory + "/matrix.json"))
+    {
+      const DirectoryLock lock(options.directory, DirectoryLock::IfHeld::wait);
+      write_plan(of_matrix, options);
+    }
+    make_runs(of_matrix, options);
   }
 } // namespace meltfront::verification

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace meltfront::verification
 {
@@ -24,7 +25,16 @@ namespace meltfront::verification
     std::string command_line;
     std::FILE *progress = nullptr; ///< null: say nothing
     RepeatPolicy repeats{};
-    /** What is to be done with the result while the directory is still held against other
+    /** Command that makes one run, whose identity is appended to it, in a process of its
+     * own (with `only`), on whatever machine; empty: runs are made by forked processes
+     * here. */
+    std::vector<std::string> launcher{};
+    /** The run that make_one_run() makes, as find_run() finds it. */
+    std::string only{};
+    /** Directory of records that several matrices share: one that another of them has
+     * made is taken over and not made again; empty: none. */
+    std::string shared{};
+    /** What is to be done with the result while the directory is held against other
      * processes: the report, for one. */
     std::function<void(MatrixResult &)> conclude{};
   };
@@ -45,15 +55,25 @@ namespace meltfront::verification
    * case has changed. Killed at any moment and called again, it loses and repeats nothing
    * that was finished.
    *
+   * Several processes, on machines that share the folder, may run the same matrix in one
+   * directory at once: each run is made by the process that claims it (RunClaim), all
+   * wait for all runs, and each concludes from the same records.
+   *
    * Written: matrix.json, cases/CASE.json, runs/CASE/LABEL/n=N/run.json (and run.log, if
-   * the run printed something), summary.json.
+   * the run printed something), runs.log with a line for each run made, summary.json.
    *
    * @param load_case is called once for each case as it is named, before any run
    * @throws InputError if a case or the matrix is wrong, before any run; OutputError if
-   * the directory cannot be written to or another process is at work in it.
+   * the directory cannot be written to.
    */
   MatrixResult run_matrix(const Matrix &matrix, const RunnerOptions &options,
                           const CaseLoader &load_case, const MethodLookup &methods);
+
+  /** Make one run of a matrix, `only`, and nothing else: no more than its record comes of
+   * it, unless it has been made or another process makes it. What a launcher starts, or a
+   * task of an array of batch jobs. @throws as run_matrix() */
+  void make_one_run(const Matrix &matrix, const RunnerOptions &options,
+                    const CaseLoader &load_case, const MethodLookup &methods);
 } // namespace meltfront::verification
 
 #endif

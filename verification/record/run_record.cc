@@ -152,6 +152,13 @@ namespace meltfront::verification
     visit("picture_temperature", profile.picture_temperature, since_later);
   }
 
+  void fields(const auto &visit, Like<RunTimes> auto &times)
+  {
+    visit("careful", times.careful);
+    visit("cpu", times.cpu);
+    visit("wall", times.wall);
+  }
+
   void fields(const auto &visit, Like<RunRecord> auto &record)
   {
     visit("case", record.case_name);
@@ -168,6 +175,7 @@ namespace meltfront::verification
     visit("cost", record.cost);
     visit("peak_memory_mb", record.peak_memory_mb);
     visit("repeats", record.repeats);
+    visit("times", record.times, since_later);
     visit("quantities", record.quantities);
     visit("series", record.series);
     visit("profile", record.profile);

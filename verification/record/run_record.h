@@ -4,6 +4,7 @@
 #include <cases/method.h>
 #include <cases/numbers.h>
 #include <verification/measure/checks/check.h>
+#include <verification/record/run_times.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -105,6 +106,7 @@ namespace meltfront::verification
     cases::Cost cost;
     double peak_memory_mb = 0;
     int repeats = 1; ///< times are the minimum of so many runs
+    RunTimes times;
 
     /**
      * Scalar results by name: front_rms, front_end, front_isotherm_rms, temperature_l2,

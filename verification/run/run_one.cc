@@ -5,12 +5,12 @@
 #include <verification/run/heat_observer.h>
 #include <verification/run/motion_observer.h>
 #include <verification/run/run_one.h>
+#include <verification/run/timed_repeat.h>
 
 #include <fmt/format.h>
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <chrono>
 #include <new>
 
@@ -18,20 +18,6 @@ namespace meltfront::verification
 {
   namespace
   {
-    /** Wants nothing: for runs that are repeated for their time. */
-    class IdleObserver : public cases::Observer
-    {
-    public:
-      bool wants(long, double) override
-      {
-        return false;
-      }
-
-      void observe(const cases::Snapshot &) override
-      {
-      }
-    };
-
     double peak_memory_mb()
     {
       rusage usage;
@@ -45,31 +31,16 @@ namespace meltfront::verification
           .count();
     }
 
-    void keep_least_times(cases::Cost &cost, const cases::Cost &other)
-    {
-      cost.setup_wall = std::min(cost.setup_wall, other.setup_wall);
-      cost.setup_cpu = std::min(cost.setup_cpu, other.setup_cpu);
-      cost.stepping_wall = std::min(cost.stepping_wall, other.stepping_wall);
-      cost.stepping_cpu = std::min(cost.stepping_cpu, other.stepping_cpu);
-      for(std::size_t i = 0; i < std::min(cost.effects.size(), other.effects.size()); ++i)
-        cost.effects[i].seconds
-            = std::min(cost.effects[i].seconds, other.effects[i].seconds);
-    }
-
     /** Solve again and again, and keep the least times of all runs in the record. */
-    void repeat(const cases::Method &method, const cases::Scene &scene,
-                const cases::EffectSet &effects, const cases::Resolution &resolution,
-                const RepeatPolicy &policy, RunRecord &record)
+    void repeat(const cases::Case &c, const cases::Method &method,
+                const cases::Resolution &resolution, const RepeatPolicy &policy,
+                RunRecord &record)
     {
       if(record.cost.setup_wall + record.cost.stepping_wall >= policy.short_run)
         return;
       const auto start = std::chrono::steady_clock::now();
       while(record.repeats < policy.most && seconds_since(start) < policy.total_seconds)
-      {
-        IdleObserver observer;
-        keep_least_times(record.cost, method.solve(scene, effects, resolution, observer));
-        ++record.repeats;
-      }
+        add_repeat(record, timed_solution(c, method, resolution));
     }
 
     /** What the machine lacks memory for is to be tried again, on another or with another
@@ -127,10 +98,11 @@ namespace meltfront::verification
       keep_course();
       observer->keep_results(record);
       record.status = RunStatus::finished;
+      add_repeat(record, cases::Cost(record.cost));
       // The first seed stands for the time of all; the others are there for their
       // results.
       if(resolution.seed == 1)
-        repeat(method, scene, effects, resolution, policy, record);
+        repeat(c, method, resolution, policy, record);
     }
   } // namespace
 

@@ -5,10 +5,12 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 
 namespace
@@ -79,6 +81,37 @@ TEST(App, BadArgumentsExitWithTwoAndNameTheNearest)
   EXPECT_EQ(unknown_option.status, 2);
   expect_text(unknown_option, "step_factor");
   EXPECT_EQ(run_program("verify nothing-of-this-name").status, 2);
+}
+
+TEST(App, ListsTheRunsOfAMatrixAndMakesThemByALauncher)
+{
+  const TemporaryDirectory directory;
+  const fs::path file = directory.path() / "two.prm";
+  std::ofstream(file) << "set title = Two methods\nsubsection Block 1\n"
+                         "  set cases = plane-freezing\n"
+                         "  set methods = sph, fem-enthalpy\n"
+                         "  set resolutions = 8, 12, 16, 24\nend\n";
+  const Outcome list = run_program("verify " + file.string() + " --list-runs");
+  EXPECT_EQ(list.status, 0);
+  EXPECT_EQ(std::count(list.output.begin(), list.output.end(), '\n'), 8);
+  expect_text(list, "plane-freezing/sph/n=24\n");
+
+  const std::string out = " --out " + (directory.path() / "out").string();
+  const std::string verify = "verify " + file.string() + out;
+  EXPECT_EQ(run_program(verify + " --only plane-freezing/sph/n=12").status, 0);
+  EXPECT_EQ(run_program(verify + " --only 8").status, 0);
+  EXPECT_EQ(run_program(verify + " --only plane-freezing/sph/n=13").status, 2);
+  const Outcome launched = run_program(verify + " --launcher 'env nice'");
+  EXPECT_EQ(launched.status, 0) << launched.output;
+  expect_text(launched, "two: PASSED");
+  std::set<std::string> makers;
+  int runs = 0;
+  std::ifstream log(directory.path() / "out/runs.log");
+  for(std::string date, time, zone, host, process, rest;
+      log >> date >> time >> zone >> host >> process && std::getline(log, rest); ++runs)
+    makers.insert(process);
+  EXPECT_EQ(runs, 8) << "each once";
+  EXPECT_EQ(makers.size(), 8u) << "each by a process of its own";
 }
 
 TEST(App, RunWritesRecordFrontPictureAndFields)

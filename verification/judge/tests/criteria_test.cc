@@ -214,7 +214,7 @@ namespace meltfront::verification
           evaluated(runs, {criterion(cases::Statistic::worst, -infinity, 1)}).passed);
     }
 
-    TEST(Criteria, TakeTheMeanOverSeedsAndTheWorstOfThem)
+    TEST(Criteria, TakeTheWorstOfSeedsNeverASignedMean)
     {
       using enum cases::Statistic;
       auto runs = first_order();
@@ -226,11 +226,46 @@ namespace meltfront::verification
         runs.push_back(second);
       }
       const MatrixResult result
-          = evaluated(runs, {criterion(value, 0, 1, 20), criterion(worst, 0, 1),
+          = evaluated(runs, {criterion(value, -infinity, 1, 20), criterion(worst, 0, 1),
                              criterion(order, 0, 2)});
-      EXPECT_NEAR(result.criteria.at(0).value, 0.01, 1e-12);
+      EXPECT_NEAR(result.criteria.at(0).value, 0.015, 1e-12);
       EXPECT_NEAR(result.criteria.at(1).value, 0.015, 1e-12);
       EXPECT_NEAR(result.criteria.at(2).value, 1, 1e-12);
+
+      // Their mean is nothing.
+      RunRecord above = run_at(20, 0.04), below = run_at(20, -0.04);
+      below.seed = 2;
+      const MatrixResult opposite
+          = evaluated({above, below}, {criterion(value, -0.05, 0.03, 20),
+                                       criterion(value, -0.03, 0.05, 20)});
+      EXPECT_EQ(opposite.criteria.at(0).value, 0.04);
+      EXPECT_EQ(opposite.criteria.at(1).value, -0.04);
+      EXPECT_FALSE(opposite.passed);
+    }
+
+    TEST(Criteria, AnOrderFailsWhereItsFitSaysNothing)
+    {
+      using enum cases::Statistic;
+      // Falls with order 1 overall, and grows on the way.
+      const std::vector<RunRecord> oscillating{run_at(20, 0.02), run_at(40, 0.004),
+                                               run_at(80, 0.008), run_at(160, 0.001)};
+      const MatrixResult result = evaluated(
+          oscillating, {criterion(order, 0.5, infinity), criterion(order, -infinity, 3)});
+      EXPECT_GT(result.criteria.at(0).value, 0.5);
+      EXPECT_FALSE(result.criteria.at(0).passed);
+      EXPECT_EQ(result.criteria.at(0).remark, "oscillating");
+      EXPECT_TRUE(result.criteria.at(1).passed) << "convergence is not asked for";
+
+      std::vector<RunRecord> stagnating = first_order(), fast = first_order();
+      for(RunRecord &run : stagnating)
+        run.quantities["front_rms"] += 0.003;
+      for(RunRecord &run : fast)
+        run.quantities["front_rms"] = std::pow(run.quantities["front_rms"], 4);
+      EXPECT_EQ(
+          evaluated(stagnating, {criterion(order, 0.1, infinity)}).criteria.at(0).remark,
+          "stagnating");
+      EXPECT_EQ(evaluated(fast, {criterion(order, 1, infinity)}).criteria.at(0).remark,
+                "suspiciously fast");
     }
 
     TEST(Criteria, TakeTheMedianOverSeeds)

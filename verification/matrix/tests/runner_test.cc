@@ -1,5 +1,6 @@
 #include <verification/matrix/directory_lock.h>
 #include <verification/matrix/matrix_files.h>
+#include <verification/matrix/run_claim.h>
 #include <verification/matrix/runner.h>
 #include <verification/record/json_values.h>
 #include <verification/run/child_process.h>
@@ -11,7 +12,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <ctime>
+#include <functional>
 #include <random>
+#include <set>
 #include <thread>
 
 namespace meltfront::verification
@@ -46,6 +50,14 @@ namespace meltfront::verification
         add("crashing", [](const auto &, const auto &) { std::raise(SIGSEGV); });
         add("leaving", [](const auto &, const auto &) { std::_Exit(7); });
         add("hanging", [](const auto &, const auto &) { pause_for(1000000); });
+        add("busy",
+            [](const auto &, const auto &)
+            {
+              const std::clock_t start = std::clock();
+              while(std::clock() - start < CLOCKS_PER_SEC / 500)
+              {
+              }
+            });
         add("slow", [](const auto &, const auto &) { pause_for(15); });
         add("large",
             [](const auto &, const cases::Resolution &resolution)
@@ -211,22 +223,208 @@ namespace meltfront::verification
       EXPECT_EQ(starts(), 0u);
     }
 
-    TEST_F(RunnerTest, KeepsOtherProcessesOutOfItsDirectory)
+    /** Run a matrix in so many processes at once, and wait for all. */
+    void run_in_processes(int count, const std::function<void()> &run)
+    {
+      std::vector<pid_t> processes;
+      for(int i = 0; i < count; ++i)
+      {
+        processes.push_back(fork());
+        if(processes.back() == 0)
+        {
+          run();
+          _exit(0);
+        }
+      }
+      for(const pid_t process : processes)
+      {
+        int status = 0;
+        waitpid(process, &status, 0);
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+      }
+    }
+
+    /** A summary without what differs between calls. */
+    std::string summary_in(const std::string &directory)
+    {
+      nlohmann::json summary = read_json(directory + "/summary.json");
+      summary.erase("date");
+      return summary.dump();
+    }
+
+    TEST_F(RunnerTest, SharesTheWorkWithOtherProcesses)
+    {
+      const Matrix matrix
+          = matrix_of({"slow", "good", "diverging"}, {10, 20, 30, 40, 50}, {"x", "y"});
+      options.jobs = 1;
+      options.directory = scratch.path("alone");
+      run(matrix);
+      EXPECT_EQ(starts(), 30u);
+      for(const int processes : {2, 4})
+      {
+        std::filesystem::remove(scratch.path("started"));
+        options.directory = scratch.path(fmt::format("by {}", processes));
+        run_in_processes(processes, [&] { run(matrix); });
+        EXPECT_EQ(starts(), 30u) << "each run once";
+        const auto log = tests::lines_of(options.directory + "/runs.log");
+        EXPECT_EQ(log.size(), 30u);
+        std::set<std::string> makers;
+        for(const std::string &line : log)
+          makers.insert(line.substr(0, line.find("  x")).substr(0, line.find("  y")));
+        EXPECT_GT(makers.size(), 1u) << "more than one process took part";
+        EXPECT_EQ(summary_in(options.directory), summary_in(scratch.path("alone")));
+      }
+    }
+
+    /** A process that holds the claim of a run until it is killed. */
+    pid_t claim_elsewhere(const std::string &path)
     {
       const pid_t other = fork();
       if(other == 0)
       {
-        const DirectoryLock lock(options.directory);
-        tests::append_line(scratch.path("held"), "yes");
-        pause_for(10000);
+        std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+        const auto claim = RunClaim::take(path, 1);
+        pause_for(100000);
         _exit(0);
       }
-      while(tests::lines_of(scratch.path("held")).empty())
+      while(!std::filesystem::exists(path))
         pause_for(1);
-      EXPECT_THROW(run(matrix_of({"good"}, {20})), cases::OutputError);
+      return other;
+    }
+
+    TEST_F(RunnerTest, WaitsForARunOfAnotherProcessAndTakesItOverWhenThatDies)
+    {
+      const pid_t other = claim_elsewhere(scratch.path("out/runs/x/good/n=20/claim"));
+      const pid_t runner = fork();
+      if(runner == 0)
+      {
+        run(matrix_of({"good"}, {20, 40}));
+        _exit(0);
+      }
+      while(starts() < 1)
+        pause_for(1);
+      pause_for(500);
+      EXPECT_EQ(starts(), 1u) << "the other process's run waits";
+      EXPECT_EQ(waitpid(runner, nullptr, WNOHANG), 0);
       kill(other, SIGKILL);
+      // Dead but not waited for, it is no holder any more.
+      int status = 0;
+      waitpid(runner, &status, 0);
+      EXPECT_EQ(status, 0);
+      EXPECT_EQ(starts(), 2u);
       waitpid(other, nullptr, 0);
-      EXPECT_TRUE(run(matrix_of({"good"}, {20})).passed);
+      EXPECT_TRUE(load_matrix_result(options.directory).passed);
+    }
+
+    TEST_F(RunnerTest, TakesOverAClaimOfAnotherMachineOnlyAfterALongTime)
+    {
+      const std::string claim = scratch.path("out/runs/x/good/n=20/claim");
+      write_atomically(claim, "another-machine 7 boot:1\n");
+      Matrix matrix = matrix_of({"good"}, {20});
+      matrix.time_limit = 0.5;
+      const auto start = std::chrono::steady_clock::now();
+      EXPECT_TRUE(run(matrix).passed);
+      const std::chrono::duration<double> waited
+          = std::chrono::steady_clock::now() - start;
+      EXPECT_GE(waited.count(), 0.9) << "twice the time limit";
+      EXPECT_EQ(starts(), 1u);
+      EXPECT_FALSE(std::filesystem::exists(claim));
+      write_atomically(claim, "another-machine 7 boot:1\n");
+      EXPECT_TRUE(RunClaim::held(claim, 1000));
+      EXPECT_FALSE(RunClaim::take(claim, 1000));
+      write_atomically(claim,
+                       fmt::format("{} 999999999 boot:1\n", ClaimHolder::self().host));
+      EXPECT_FALSE(RunClaim::held(claim, 1000)) << "of this machine, where it is not";
+    }
+
+    // Many take over one stale claim at once: one of them gets it.
+    TEST_F(RunnerTest, AStaleClaimIsTakenOverByOne)
+    {
+      for(int round = 0; round < 20; ++round)
+      {
+        const std::string claim = scratch.path(fmt::format("{}/claim", round));
+        write_atomically(claim,
+                         fmt::format("{} 999999999 boot:1\n", ClaimHolder::self().host));
+        run_in_processes(4,
+                         [&]
+                         {
+                           const auto taken = RunClaim::take(claim, 1000);
+                           if(taken)
+                             tests::append_line(scratch.path("taken"), claim);
+                           // Held until all have tried.
+                           const std::string tried = claim + ".tried";
+                           tests::append_line(tried, "once");
+                           while(tests::lines_of(tried).size() < 4)
+                             pause_for(1);
+                         });
+      }
+      EXPECT_EQ(tests::lines_of(scratch.path("taken")).size(), 20u);
+    }
+
+    TEST_F(RunnerTest, MatricesShareTheRecordsOfTheSameRuns)
+    {
+      options.shared = scratch.path("shared");
+      run(matrix_of({"good", "crashing"}, {20, 40}));
+      EXPECT_EQ(starts(), 4u);
+      options.directory = scratch.path("other");
+      const MatrixResult result
+          = run(matrix_of({"good", "crashing"}, {20, 40, 80}, {"x", "y"}));
+      EXPECT_EQ(starts(), 4u + 12 - 2) << "two good ones are taken over";
+      EXPECT_EQ(result.runs.size(), 12u);
+      options.directory = scratch.path("third");
+      case_text = " # changed";
+      run(matrix_of({"good"}, {20}));
+      EXPECT_EQ(starts(), 15u);
+    }
+
+    TEST_F(RunnerTest, TimesCarefullyInTurnAndGoesOnWhereItStopped)
+    {
+      Matrix matrix = matrix_of({"busy", "diverging"}, {20, 40});
+      matrix.careful_timing = true;
+      const MatrixResult result = run(matrix);
+      for(const RunRecord &record : result.runs)
+      {
+        EXPECT_EQ(record.times.careful, record.method == "busy");
+        EXPECT_EQ(settled(record.times), record.method == "busy");
+      }
+      const auto lines = tests::lines_of(scratch.path("started"));
+      const auto of = [&](const char *line) { return std::ranges::count(lines, line); };
+      EXPECT_GE(of("x n=20 seed=1"), 1 + 5);
+      // A round is one repeat of each, so that neighbours differ.
+      const std::size_t rounds_from = 4;
+      for(std::size_t i = rounds_from; i + 1 < rounds_from + 10; ++i)
+        EXPECT_NE(lines[i], lines[i + 1]);
+      const auto before = starts();
+      EXPECT_TRUE(settled(run(matrix).runs[0].times));
+      EXPECT_EQ(starts(), before) << "settled ones are not timed again";
+    }
+
+    TEST_F(RunnerTest, MakesOneRunOfAPlan)
+    {
+      const Matrix matrix = matrix_of({"good"}, {20, 40, 80});
+      const auto make = [&](const std::string &which)
+      {
+        options.only = which;
+        make_one_run(
+            matrix, options,
+            [](const std::string &name) { return tests::slab_case(name); },
+            [this](const std::string &name) -> const cases::Method &
+            { return *methods.at(name); });
+      };
+      make("x/good/n=40");
+      EXPECT_EQ(starts(), 1u);
+      make("2");
+      EXPECT_EQ(starts(), 1u) << "it is made";
+      make("3");
+      EXPECT_EQ(starts(), 2u);
+      EXPECT_THROW(make("4"), cases::InputError);
+      EXPECT_THROW(make("x/good/n=41"), cases::InputError);
+      const MatrixResult result = load_matrix_result(options.directory);
+      EXPECT_EQ(result.runs[0].message, "it has not been run yet");
+      EXPECT_EQ(result.runs[2].status, RunStatus::finished);
+      options.only.clear();
+      EXPECT_TRUE(run(matrix).passed);
+      EXPECT_EQ(starts(), 3u);
     }
 
     TEST_F(RunnerTest, HoldsItsDirectoryUntilAllIsConcluded)
@@ -318,7 +516,7 @@ namespace meltfront::verification
         waitpid(runner, &status, 0);
         through = WIFEXITED(status);
         kills += !through;
-        pause_for(10); // its children die a moment after it
+        pause_for(100); // its children die a moment after it
         const auto now = records_in(options.directory);
         for(const auto &[path, text] : before)
         {
@@ -335,6 +533,10 @@ namespace meltfront::verification
       const MatrixResult result = load_matrix_result(options.directory);
       EXPECT_EQ(result.runs.size(), 40u);
       EXPECT_TRUE(result.passed);
+      const std::string killed = summary_in(options.directory);
+      options.directory = scratch.path("straight");
+      run(matrix);
+      EXPECT_EQ(killed, summary_in(options.directory));
     }
 
     TEST(MatrixResult, SaysWhatIsWrongWithItsFiles)

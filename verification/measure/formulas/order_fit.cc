@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <verification/measure/formulas/order_fit.h>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,6 +48,12 @@ namespace meltfront::verification
       return {slope, mean_y - slope * mean_x, squares, xx};
     }
 
+    /** That Student's t exceeds in absolute value with a probability of 5 %. */
+    double student_quantile(int degrees_of_freedom)
+    {
+      return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+    }
+
     /** Errors by resolution, coarse to fine, as logarithms. */
     struct Levels
     {
@@ -58,14 +65,14 @@ namespace meltfront::verification
       std::map<double, std::pair<double, int>, std::greater<>> sums;
       for(std::size_t i = 0; i < h.size(); ++i)
       {
-        sums[h[i]].first += errors[i];
+        sums[h[i]].first += std::log(errors[i]);
         ++sums[h[i]].second;
       }
       Levels levels;
       for(const auto &[resolution, sum] : sums)
       {
         levels.log_h.push_back(std::log(resolution));
-        levels.log_error.push_back(std::log(sum.first / sum.second));
+        levels.log_error.push_back(sum.first / sum.second);
       }
       return levels;
     }
@@ -81,7 +88,7 @@ namespace meltfront::verification
       return finest;
     }
 
-    /** Take the levels out whose averaged error is at or below the floor. */
+    /** Take the levels out whose mean error is at or below the floor. */
     int leave_out(Levels &levels, double floor)
     {
       Levels kept;
@@ -112,7 +119,7 @@ namespace meltfront::verification
       const double fine = least_squares(x.last(3), y.last(3)).slope;
       if(fit.order < least_order || fine < slowing_ratio * coarse)
         return OrderVerdict::stagnating;
-      if(fit.order - 2 * fit.standard_error > plausible_order)
+      if(fit.order - fit.confidence > plausible_order)
         return OrderVerdict::suspiciously_fast;
       return OrderVerdict::clean;
     }
@@ -155,8 +162,8 @@ namespace meltfront::verification
     if(std::isnan(order))
       return fmt::format("none ({})", remarks());
     std::string result = fmt::format("{}^{:.2f}", base, order);
-    if(!std::isnan(standard_error))
-      result += fmt::format(" +- {:.2f}", standard_error);
+    if(!std::isnan(confidence))
+      result += fmt::format(" +- {:.2f}", confidence);
     const std::string words = remarks();
     return words.empty() ? result : fmt::format("{} ({})", result, words);
   }
@@ -193,7 +200,11 @@ namespace meltfront::verification
     fit.order = line.slope;
     fit.factor = std::exp(line.intercept);
     if(fit.levels > 2)
-      fit.standard_error = std::sqrt(line.squares / ((fit.levels - 2) * line.spread));
+    {
+      const int freedom = fit.levels - 2;
+      fit.standard_error = std::sqrt(line.squares / (freedom * line.spread));
+      fit.confidence = student_quantile(freedom) * fit.standard_error;
+    }
     fit.verdict = judge(fit, levels, line, plausible_order);
     return fit;
   }

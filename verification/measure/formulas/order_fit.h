@@ -30,6 +30,9 @@ namespace meltfront::verification
     double order = std::numeric_limits<double>::quiet_NaN(); ///< p
     /** Of the order; NaN for fewer than three levels. */
     double standard_error = std::numeric_limits<double>::quiet_NaN();
+    /** Half the width of its 95 % confidence interval: Student's t quantile of m - 2
+     * degrees of freedom times the standard error (4.3 of it for four levels). */
+    double confidence = std::numeric_limits<double>::quiet_NaN();
     double factor = std::numeric_limits<double>::quiet_NaN(); ///< C
     int levels = 0;   ///< different resolutions that were fitted
     int left_out = 0; ///< levels at or below the round-off floor, which were not
@@ -39,8 +42,9 @@ namespace meltfront::verification
     OrderVerdict verdict = OrderVerdict::too_few_levels;
 
     /**
-     * `h^1.47 +- 0.04`, followed in brackets by remarks(), if there are any, e.g.
-     * `h^0.31 +- 0.12 (stagnating)`; `none (contains NaN)` where there is no order.
+     * `h^1.47 +- 0.04`, the confidence, followed in brackets by remarks(), if there are
+     * any, e.g. `h^0.31 +- 0.12 (stagnating)`; `none (contains NaN)` where there is no
+     * order.
      */
     std::string text(const std::string &base = "h") const;
 
@@ -53,7 +57,8 @@ namespace meltfront::verification
    * Fit the exponent of errors against resolution by least squares in the logarithms.
    *
    * The standard error is sqrt(sum r^2 / ((m - 2) sum (x - mean x)^2)) with the residuals
-   * r of ln E and x = ln h over m levels. Errors given for the same h are averaged first.
+   * r of ln E and x = ln h over m levels. Of errors given for the same h, as those of
+   * several seeds, the geometric mean is taken first.
    *
    * The verdicts, in this order: not_finite and zero_error leave the order NaN;
    * too_few_levels for fewer than four levels (the order is still given for two or
@@ -61,7 +66,7 @@ namespace meltfront::verification
    * below -0.25 somewhere, or scatters about the line by more than 0.25 (root mean square
    * of ln E); stagnating for an order below 0.2, or if the rate over the three finest
    * levels is less than 0.7 of that over the three coarsest; suspiciously_fast if the
-   * order exceeds `plausible_order` by more than two standard errors; else clean.
+   * order exceeds `plausible_order` by more than its confidence; else clean.
    *
    * @param h resolutions, any order
    * @param errors one for each h

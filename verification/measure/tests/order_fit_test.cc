@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <verification/measure/formulas/order_fit.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,6 +70,27 @@ namespace meltfront::verification
       const double a = std::log(1.05), b = std::log(0.95), mean = (3 * a + 2 * b) / 5;
       const double squares = 3 * (a - mean) * (a - mean) + 2 * (b - mean) * (b - mean);
       EXPECT_NEAR(fit.standard_error, std::sqrt(squares / 3 / 10) / std::log(2.), 1e-12);
+      // Table of Student's t: 3.182 for three degrees of freedom, 4.303 for two.
+      EXPECT_NEAR(fit.confidence / fit.standard_error, 3.182, 5e-4);
+      const std::vector<double> errors = errors_of_order(1.5, 0.3, noise);
+      const OrderFit four
+          = fit_order(std::span(halving).first(4), std::span(errors).first(4));
+      EXPECT_NEAR(four.confidence / four.standard_error, 4.303, 5e-4);
+      EXPECT_EQ(four.text(),
+                fmt::format("h^{:.2f} +- {:.2f}", four.order, four.confidence));
+    }
+
+    TEST(OrderFit, TakesTheGeometricMeanOfSeeds)
+    {
+      const std::vector<double> h{0.1, 0.1, 0.05, 0.05, 0.025, 0.025, 0.0125, 0.0125};
+      std::vector<double> errors;
+      for(const double one : {1., 0.25, 0.0625, 0.015625})
+      {
+        errors.push_back(100 * one);
+        errors.push_back(one / 100);
+      }
+      EXPECT_NEAR(fit_order(h, errors).order, 2, 1e-12);
+      EXPECT_NEAR(fit_order(h, errors).factor, 100, 1e-9);
     }
 
     TEST(OrderFit, SaysThatASequenceStagnates)

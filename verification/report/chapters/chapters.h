@@ -87,6 +87,9 @@ namespace meltfront::verification
    * name is empty. */
   Markup criteria_table(const std::vector<CriterionResult> &criteria, bool with_case);
 
+  /** Why a criterion fails within its bounds, and what is known of its failure. */
+  std::string remarks_on(const CriterionResult &criterion);
+
   /** The bounds of a criterion: `19.7 to 20.7`, `≥ 0.09`. */
   Markup bound_of(const CriterionResult &criterion, int digits = 3);
 

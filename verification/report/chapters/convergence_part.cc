@@ -17,8 +17,10 @@ namespace meltfront::verification
     const bool several = orders.groups.size() > 1;
     return element(
                "p", {{"class", "nothing"}},
-               text("Orders are fitted by least squares over at least four levels, with "
-                    "their standard error: in h, or in dt where only the time step was "
+               text("Orders are fitted by least squares over at least four levels; ± is "
+                    "the half width of their 95 % confidence interval (Student's t times "
+                    "the "
+                    "standard error): in h, or in dt where only the time step was "
                     "refined. Levels whose error is at round-off (10⁻¹³ of the domain's "
                     "side, 10⁻¹³ where relative) are left out of the fit. "
                     + std::string(record.scene.changes_phase()

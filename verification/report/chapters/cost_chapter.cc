@@ -66,6 +66,32 @@ namespace meltfront::verification
                                           + element("tbody", rows)));
     }
 
+    /** How the times of runs came about and how far they can be trusted. */
+    std::string timing_sentence(const MatrixResult &result)
+    {
+      long careful = 0, repeated = 0, agreeing = 0, loaded = 0, timed = 0;
+      for(const RunRecord &run : result.runs)
+      {
+        if(run.status != RunStatus::finished || run.times.cpu.empty())
+          continue;
+        ++timed;
+        careful += run.times.careful;
+        repeated += run.times.cpu.size() > 2;
+        agreeing += agree_within(run.times, 0.05);
+        loaded += disturbed(run.times);
+      }
+      if(timed == 0)
+        return {};
+      return fmt::format(
+          " Of {} runs {} were timed carefully (least of five to fifteen repeats in turn "
+          "with the others), the rest quickly (least of up to five at once if shorter "
+          "than "
+          "0.5 s, else a single run). The three least times of a run agree within 5 % in "
+          "{} of the {} runs that were repeated; {} runs were disturbed, their fastest "
+          "repeat on a shared core.",
+          timed, careful, agreeing, repeated, loaded);
+    }
+
     std::string cost_csv(const ReportContext &context)
     {
       std::string csv = "case,relative_error,method,cpu_seconds,found\n";
@@ -196,7 +222,8 @@ namespace meltfront::verification
              + element(
                  "p", {{"class", "nothing"}},
                  text("All diagrams share their axes. A cross at the upper edge is a "
-                      "run that failed or was refused."))
+                      "run that failed or was refused."
+                      + timing_sentence(context.result)))
              + solids;
     }
     return content;

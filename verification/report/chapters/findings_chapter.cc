@@ -63,6 +63,9 @@ namespace meltfront::verification
               if(!value.passed)
                 remark += fmt::format("{}{}: {}", remark.empty() ? "" : "; ",
                                       value.case_name, plain_number(value.value));
+          for(const EvidenceValue &value : evidence.values)
+            if(!value.remark.empty())
+              remark += fmt::format("{}{}", remark.empty() ? "" : "; ", value.remark);
           rows += element("tr",
                           element("td", evidence.passed() ? badge("good", "PASS")
                                                           : badge("bad", "FAIL"))

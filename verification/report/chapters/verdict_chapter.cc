@@ -153,6 +153,15 @@ namespace meltfront::verification
     }
   } // namespace
 
+  std::string remarks_on(const CriterionResult &criterion)
+  {
+    std::string words = criterion.remark;
+    if(!criterion.expected_failure.empty())
+      words += (words.empty() ? "" : "; ")
+               + ("expected failure: " + criterion.expected_failure);
+    return words;
+  }
+
   Markup criteria_table(const std::vector<CriterionResult> &criteria, bool with_case)
   {
     if(criteria.empty())
@@ -174,9 +183,7 @@ namespace meltfront::verification
       row += element("td", criterion.method) + element("td", criterion.quantity)
              + element("td", {{"class", "number"}}, number_markup(criterion.value))
              + element("td", {{"class", "number"}}, bound_of(criterion))
-             + element("td", criterion.expected_failure.empty()
-                                 ? ""
-                                 : "expected failure: " + criterion.expected_failure);
+             + element("td", remarks_on(criterion));
       rows += element("tr", row) + Markup("\n");
     }
     return element(

@@ -45,8 +45,8 @@ namespace meltfront::verification
       return {NumberText()};
     }
     Power power{base, fmt::format("{:.2f}", fit.order), "", ""};
-    if(std::isfinite(fit.standard_error))
-      power.error = fmt::format("{:.2f}", fit.standard_error);
+    if(std::isfinite(fit.confidence))
+      power.error = fmt::format("{:.2f}", fit.confidence);
     power.remark = fit.remarks();
     return {power};
   }
