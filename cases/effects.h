@@ -80,7 +80,9 @@ namespace meltfront::cases
 
   /**
    * Derive from the scene itself which effects it calls for; a choice of `on` or `off` in
-   * Scene::effect_choices overrides the rule and says so in the reason.
+   * Scene::effect_choices overrides the rule and says so in the reason; where the scene
+   * has an Scene::effect_tolerance, effects are left out that change less than it, and
+   * the reason says by how much at most (leave_out_negligible()).
    */
   EffectSet effects_called_for(const Scene &scene);
 
