@@ -78,13 +78,16 @@ namespace meltfront::cases
   EffectBound bound_of_effect(Effect effect, const Scene &with, const Scene &without);
 
   /**
-   * Switch off effects that change less than Scene::effect_tolerance: again and again the
-   * one with the least bound in the scene without those that are off already, as long as
-   * the sum of all stays within the tolerance, so that the sum bounds what all of them
-   * change together (triangle inequality). Reasons get the bounds, also of what stays on.
-   * What the case file says is on or off is left alone.
+   * The effects that a scene calls for (effects_called_for()) without those that are
+   * negligible: again and again the one with the least bound in the scene without those
+   * that are off already is switched off, as long as the sum of all stays within the
+   * tolerance, so that the sum bounds what all of them change together (triangle
+   * inequality). Reasons get the bounds, also of what stays on. What the case file says
+   * is on or off is left alone.
+   *
+   * @param tolerance Case::effect_tolerance; 0: nothing is left out, no bound is computed
    */
-  void leave_out_negligible(const Scene &scene, std::vector<EffectDecision> &decisions);
+  EffectSet effects_within(const Scene &scene, double tolerance);
 } // namespace meltfront::cases
 
 #endif

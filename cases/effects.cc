@@ -1,4 +1,3 @@
-#include <cases/effect_bounds.h>
 #include <cases/effects.h>
 #include <cases/scene.h>
 
@@ -491,8 +490,6 @@ namespace meltfront::cases
       }
       decisions.push_back(decision);
     }
-    if(scene.effect_tolerance > 0)
-      leave_out_negligible(scene, decisions);
     return EffectSet(std::move(decisions));
   }
 

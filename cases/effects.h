@@ -80,9 +80,7 @@ namespace meltfront::cases
 
   /**
    * Derive from the scene itself which effects it calls for; a choice of `on` or `off` in
-   * Scene::effect_choices overrides the rule and says so in the reason; where the scene
-   * has an Scene::effect_tolerance, effects are left out that change less than it, and
-   * the reason says by how much at most (leave_out_negligible()).
+   * Scene::effect_choices overrides the rule and says so in the reason.
    */
   EffectSet effects_called_for(const Scene &scene);
 

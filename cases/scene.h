@@ -228,9 +228,6 @@ namespace meltfront::cases
     double start_time = 0; ///< s; 0 in a steady scene, which ends at 1
     double end_time = 1;   ///< s
     std::map<Effect, EffectChoice> effect_choices; ///< absent means automatic
-    /** Effects that are automatic are left out where all that are left out together change
-     * front and temperature by less than this (effect_bounds.h); 0: none is. */
-    double effect_tolerance = 0;
 
     const Boundary &boundary(Side side) const;
 

@@ -62,13 +62,6 @@ namespace meltfront::cases
     PhaseHeat solid{}, liquid{};
   };
 
-  /** Volume of a domain in its own measure: length, area, volume (m, m^2, m^3). */
-  double volume_of(const Domain &domain);
-
-  /** Area of a wall in the same measure: 1 of a slab's end, length in the plane, area in
-   * space. */
-  double area_of(const Domain &domain, Side side);
-
   /** Extremes of initial and wall temperatures, whatever fluxes and sources do. */
   TemperatureBounds given_temperatures(const Scene &scene);
 

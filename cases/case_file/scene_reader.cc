@@ -17,8 +17,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstring>
 
 namespace meltfront::cases
 {
@@ -266,31 +264,6 @@ namespace meltfront::cases
                { return exact->temperature(p, time) + flux(p, time) / coefficient; }};
     }
 
-    /** `auto within 1e-3`: the number; `auto`: 0. */
-    double read_effect_tolerance(const PrmFile &prm)
-    {
-      constexpr const char *key = "effects", *automatic = "auto",
-                           *within = "auto within ";
-      const std::string text = prm.get_text("", key);
-      if(text == automatic)
-        return 0;
-      double tolerance = 0;
-      if(text.starts_with(within))
-      {
-        const char *from = text.data() + std::strlen(within),
-                   *end = text.data() + text.size();
-        const auto [rest, error] = std::from_chars(from, end, tolerance);
-        if(error != std::errc() || rest != end)
-          tolerance = 0;
-      }
-      if(!(tolerance > 0 && tolerance < 1))
-        throw prm.error("", key,
-                        fmt::format("must be 'auto' or 'auto within TOLERANCE', a number "
-                                    "between 0 and 1, not '{}'",
-                                    text));
-      return tolerance;
-    }
-
     /** Of a scene that conducts heat. */
     void read_heat(const PrmFile &prm, Scene &scene)
     {
@@ -344,7 +317,6 @@ namespace meltfront::cases
         scene.effect_choices[effect]
             = choice == "on" ? EffectChoice::on : EffectChoice::off;
     }
-    scene.effect_tolerance = read_effect_tolerance(prm);
     return scene;
   }
 

@@ -1,0 +1,123 @@
+#include <cases/error.h>
+#include <verification/record/json_values.h>
+#include <verification/studies/ablate/ablate.h>
+#include <verification/studies/ablate/tests/study_case.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace meltfront::verification::tests
+{
+  namespace
+  {
+    using nlohmann::json;
+
+    const json &row_of(const json &ablation, const std::string &effect)
+    {
+      for(const json &row : ablation.at("effects"))
+        if(row.at("effect") == effect)
+          return row;
+      throw std::out_of_range(effect);
+    }
+
+    double exact_front(const cases::Material &material)
+    {
+      return cases::PlanarNeumann(material, -1, 0.5).front(0.01);
+    }
+  } // namespace
+
+  TEST(Ablate, ChangesAreThoseOfNeumannsSolution)
+  {
+    ScratchStudy study(neumann_slab, 200);
+    const json ablation = ablate(study.settings);
+    EXPECT_EQ(ablation.at("method"), "fem-enthalpy");
+    EXPECT_EQ(ablation.at("n"), (std::vector<int>{100, 141, 200}));
+    const double full = exact_front(neumann_material());
+    const json &front = ablation.at("full").at("front");
+    EXPECT_NEAR(front.at("value").get<double>(), full, front.at("bar").get<double>());
+    cases::Material less = neumann_material();
+    less.liquid.conductivity = 2;
+    const double by_conductivity = exact_front(less) - full;
+    less = neumann_material();
+    less.liquid.specific_heat_capacity = 1;
+    const double by_capacity = exact_front(less) - full;
+    for(const auto &[effect, expected] :
+        {std::pair("phase_conductivity", by_conductivity),
+         std::pair("phase_heat_capacity", by_capacity)})
+    {
+      const json &row = row_of(ablation, effect);
+      const json &change = row.at("changes").at("front");
+      EXPECT_NEAR(change.at("change").get<double>(), expected,
+                  change.at("bar").get<double>())
+          << effect;
+      EXPECT_LT(change.at("bar").get<double>(), 0.3 * std::abs(expected)) << effect;
+      EXPECT_GT(change.at("bound").get<double>(), std::abs(expected)) << effect;
+      EXPECT_NEAR(change.at("in_bars").get<double>(),
+                  std::abs(change.at("change").get<double>())
+                      / front.at("bar").get<double>(),
+                  1e-9);
+      EXPECT_GT(row.at("changes").at("temperature").at("change").get<double>(), 0);
+    }
+    // Nothing freezes where no wall is cold.
+    const json &insulated = row_of(ablation, "wall_temperature").at("changes");
+    EXPECT_NEAR(insulated.at("front").at("change").get<double>(),
+                -front.at("value").get<double>(), 1e-12);
+    EXPECT_EQ(read_json(study.directory.path("results/ablate.json")), ablation);
+    EXPECT_NE(ablation_text(ablation).find("phase_conductivity"), std::string::npos);
+  }
+
+  TEST(Ablate, WhatLeavesNoSceneIsRefusedAndTheOthersGoOn)
+  {
+    ScratchStudy study(R"(
+set title = A steady square
+set units = normalised
+subsection Scene
+  set problem = poisson
+  subsection Domain
+    set shape = box
+    set dimension = 2
+    set lower corner = 0, 0
+    set upper corner = 1, 1
+  end
+  subsection Material
+    include materials/normalised.prm
+    set latent heat = 0
+  end
+  subsection Walls
+    subsection x_min
+      set kind = fixed temperature
+      set temperature = 1
+    end
+    subsection x_max
+      set kind = flux
+      set flux = 1
+    end
+  end
+end
+)",
+                       16);
+    const json ablation = ablate(study.settings);
+    EXPECT_EQ(row_of(ablation, "wall_temperature").at("refused"),
+              "the steady temperature would be known up to a constant only");
+    // The flux 1 through a square of conductivity 1 raises the temperature by x.
+    EXPECT_NEAR(row_of(ablation, "wall_flux")
+                    .at("changes")
+                    .at("temperature")
+                    .at("change")
+                    .get<double>(),
+                std::sqrt((0.01 + 0.09 + 0.25 + 0.49 + 0.81) / 5), 1e-6);
+  }
+
+  TEST(Ablate, NoMethodForTheCaseIsARefusalWithItsReason)
+  {
+    ScratchStudy study(neumann_slab + R"(
+subsection Effects
+  set phase_change = off
+end
+)",
+                       16);
+    study.settings.method = "fem-enthalpyy";
+    EXPECT_THROW(ablate(study.settings), cases::InputError);
+  }
+} // namespace meltfront::verification::tests
