@@ -1,10 +1,7 @@
-#include <cases/case_file/case_file.h>
-#include <verification/app/capability_list.h>
 #include <verification/app/commands.h>
 #include <verification/app/methods.h>
 #include <verification/app/study_commands.h>
 #include <verification/report/page/report.h>
-#include <verification/run/memory_limit.h>
 #include <verification/studies/ablate/ablate.h>
 #include <verification/studies/sensitivity/sensitivity.h>
 
@@ -24,19 +21,15 @@ namespace meltfront::verification
       settings.method = arguments.method;
       settings.n = arguments.n;
       settings.within = arguments.within;
-      settings.runner.directory = !arguments.output.empty()
-                                      ? arguments.output
-                                      : fmt::format("results/{}-{}", command,
-                                                    short_case_name(arguments.case_name));
-      settings.runner.jobs = arguments.jobs;
-      settings.runner.memory_limit
-          = arguments.memory > 0 ? 1e9 * arguments.memory : available_memory();
-      settings.runner.program_version = MELTFRONT_VERSION;
-      settings.runner.command_line = typed_command_line();
-      settings.runner.progress = stderr;
+      settings.runner = runner_options(
+          !arguments.output.empty()
+              ? arguments.output
+              : default_directory(
+                  fmt::format("{}-{}", command, short_case_name(arguments.case_name))),
+          arguments.jobs, arguments.memory);
       for(const auto &method : methods())
         settings.methods.push_back(method.get());
-      settings.load_case = cases::load_case;
+      settings.load_case = load_checked_case;
       return settings;
     }
 
