@@ -15,7 +15,7 @@
 #include <map>
 
 using namespace meltfront;
-using namespace meltfront::verification;
+using namespace meltfront::verification::tests;
 
 namespace
 {
@@ -126,8 +126,8 @@ TEST(EffectBounds, NoRandomSceneChangesByMoreThanTheBound)
     const cases::Scene scene = random_weak_scene(19, index);
     const cases::Scene full = simulated(scene);
     const States with = states_of(full);
-    for(const cases::EffectDecision &decision :
-        cases::effects_called_for(scene).decisions())
+    const cases::EffectSet effects = cases::effects_called_for(scene);
+    for(const cases::EffectDecision &decision : effects.decisions())
     {
       if(!decision.on || decision.effect == cases::Effect::phase_change)
         continue;
