@@ -24,19 +24,25 @@ namespace meltfront::verification
       const char *name;
       /** Of QuantityBar; empty: the root mean square of the bars of all probes. */
       const char *bar;
-      double (*value)(const RunRecord &); ///< null where only changes are known
-      double (*change)(const RunRecord &full, const RunRecord &without);
+      /** Null where only changes are known. @param volume of the domain */
+      double (*value)(const RunRecord &, double volume);
+      double (*change)(const RunRecord &full, const RunRecord &without, double volume);
     };
 
     constexpr Quantity quantities[]
         = {{"front", "front", end_front,
-            [](const RunRecord &full, const RunRecord &without)
-            { return end_front(without) - end_front(full); }},
-           {"front_over_time", front_course, nullptr, front_difference},
-           {"solid_volume", "solid_volume", end_volume,
-            [](const RunRecord &full, const RunRecord &without)
+            [](const RunRecord &full, const RunRecord &without, double volume)
+            { return end_front(without, volume) - end_front(full, volume); }},
+           {"front_over_time", front_course, nullptr,
+            [](const RunRecord &full, const RunRecord &without, double volume)
+            { return front_difference(full, without, volume); }},
+           {"solid_volume", "solid_volume",
+            [](const RunRecord &run, double) { return end_volume(run); },
+            [](const RunRecord &full, const RunRecord &without, double)
             { return end_volume(without) - end_volume(full); }},
-           {"temperature", "", nullptr, temperature_difference}};
+           {"temperature", "", nullptr,
+            [](const RunRecord &full, const RunRecord &without, double)
+            { return temperature_difference(full, without); }}};
 
     /** Why an effect cannot be taken out of a scene, one sentence; else empty. */
     std::string why_not_removable(const cases::Scene &scene, cases::Effect effect)
@@ -123,14 +129,14 @@ namespace meltfront::verification
     /** The bar of a change: what is common to the errors of both scenes cancels. */
     double bar_of_change(const std::vector<const RunRecord *> &full,
                          const std::vector<const RunRecord *> &without,
-                         const Quantity &quantity)
+                         const Quantity &quantity, double volume)
     {
       std::vector<BarLevel> levels;
       std::vector<double> differences;
       for(std::size_t i = 0; i < full.size(); ++i)
       {
         levels.push_back({full[i]->description.spacing, full[i]->cost.steps,
-                          quantity.change(*full[i], *without[i])});
+                          quantity.change(*full[i], *without[i], volume)});
         if(i > 0)
           differences.push_back(cases::nan);
       }
@@ -235,16 +241,17 @@ namespace meltfront::verification
         return row;
       }
       const cases::TemperatureBounds given = cases::given_temperatures(with);
+      const double volume = cases::volume_of(scene.domain);
       for(const Quantity &quantity : quantities)
       {
-        const double change = quantity.change(*full.back(), *without.back());
+        const double change = quantity.change(*full.back(), *without.back(), volume);
         const double bar = bar_of(bars, quantity).bar;
-        row["changes"][quantity.name] = {
-            {"change", number(change)},
-            {"bar", number(bar_of_change(full, without, quantity))},
-            {"in_bars", number(std::abs(change) / bar)},
-            {"bound", number(absolute(bound, quantity, scene, given.upper - given.lower,
-                                      cases::volume_of(scene.domain)))}};
+        row["changes"][quantity.name]
+            = {{"change", number(change)},
+               {"bar", number(bar_of_change(full, without, quantity, volume))},
+               {"in_bars", number(std::abs(change) / bar)},
+               {"bound", number(absolute(bound, quantity, scene,
+                                         given.upper - given.lower, volume))}};
       }
       row["seconds_saved"]
           = processor_seconds(*full.back()) - processor_seconds(*without.back());
@@ -287,10 +294,13 @@ namespace meltfront::verification
       for(const Quantity &quantity : quantities)
       {
         const ErrorBar bar = bar_of(bars, quantity);
-        all["full"][quantity.name] = {
-            {"value", number(quantity.value ? quantity.value(*full.back()) : cases::nan)},
-            {"bar", number(bar.bar)},
-            {"converging", bar.converging}};
+        all["full"][quantity.name]
+            = {{"value",
+                number(quantity.value ? quantity.value(
+                           *full.back(), cases::volume_of(study.the_case.scene.domain))
+                                      : cases::nan)},
+               {"bar", number(bar.bar)},
+               {"converging", bar.converging}};
       }
       all["effects"] = json::array();
       for(const cases::EffectDecision &decision : decisions)

@@ -25,6 +25,18 @@ namespace meltfront::verification
       return by_dimension[c.scene.domain.dimension - 1];
     }
 
+    /** The course of a run's front, NaN while there is one phase only. */
+    std::vector<double> fronts(const RunRecord &run, double volume)
+    {
+      constexpr double trace = 1e-9;
+      std::vector<double> course = run.series.front;
+      for(std::size_t i = 0; i < course.size(); ++i)
+        if(const double solid = run.series.solid_volume[i] / volume;
+           solid < trace || solid > 1 - trace)
+          course[i] = cases::nan;
+      return course;
+    }
+
     double at(const std::vector<double> &times, const std::vector<double> &values,
               double time)
     {
@@ -135,22 +147,27 @@ namespace meltfront::verification
     return found == result.runs.end() ? nullptr : &*found;
   }
 
-  double front_difference(const RunRecord &one, const RunRecord &other)
+  double front_difference(const RunRecord &one, const RunRecord &other, double volume)
   {
     constexpr int times = 96;
     if(one.series.time.empty() || other.series.time.empty())
       return cases::nan;
+    const std::vector<double> first = fronts(one, volume), second = fronts(other, volume);
     const double from = std::max(one.series.time.front(), other.series.time.front());
     const double to = std::min(one.series.time.back(), other.series.time.back());
     double sum = 0;
+    int count = 0;
     for(int k = 0; k < times; ++k)
     {
       const double time = from + (to - from) * k / (times - 1);
-      const double difference = at(one.series.time, one.series.front, time)
-                                - at(other.series.time, other.series.front, time);
+      const double difference
+          = at(one.series.time, first, time) - at(other.series.time, second, time);
+      if(!std::isfinite(difference))
+        continue;
       sum += difference * difference;
+      ++count;
     }
-    return std::sqrt(sum / times);
+    return count > 0 ? std::sqrt(sum / count) : cases::nan;
   }
 
   double temperature_difference(const RunRecord &one, const RunRecord &other)
@@ -166,9 +183,9 @@ namespace meltfront::verification
     return std::sqrt(sum / static_cast<double>(one.probes.size()));
   }
 
-  double end_front(const RunRecord &run)
+  double end_front(const RunRecord &run, double volume)
   {
-    return run.series.front.empty() ? cases::nan : run.series.front.back();
+    return run.series.front.empty() ? cases::nan : fronts(run, volume).back();
   }
 
   double end_volume(const RunRecord &run)

@@ -58,16 +58,18 @@ namespace meltfront::verification
   const RunRecord *find_run(const MatrixResult &result, const std::string &case_name,
                             int n);
 
-  /** Root mean square over 96 times of the difference of fronts (m); NaN where a front is
-   * not known. */
-  double front_difference(const RunRecord &one, const RunRecord &other);
+  /** Root mean square over 96 times of the difference of fronts (m), of those times at
+   * which both have one; NaN if there is none. @param volume of the domain */
+  double front_difference(const RunRecord &one, const RunRecord &other, double volume);
 
   /** Root mean square over the probes of the difference of temperatures at the end (K).
    */
   double temperature_difference(const RunRecord &one, const RunRecord &other);
 
-  /** Of a finished run: front and solid volume at the end; NaN where there is none. */
-  double end_front(const RunRecord &run);
+  /** Of a finished run: front and solid volume at the end; NaN where there is none. Where
+   * all is solid or all is liquid there is no front, whatever place a record gives it.
+   * @param volume of the domain */
+  double end_front(const RunRecord &run, double volume);
   double end_volume(const RunRecord &run);
 } // namespace meltfront::verification
 

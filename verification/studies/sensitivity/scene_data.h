@@ -18,7 +18,7 @@ namespace meltfront::verification
      * initial and wall temperatures (their zero is arbitrary); of places the domain's
      * side; 1 of an expression, which is multiplied by 1 + s as a whole. */
     double scale = 1;
-    std::string of_scale; ///< `of itself`, `of the range 12 K`, `of the side 0.1 m`
+    std::string of_scale{}; ///< `of itself`, `of the range 12 K`, `of the side 0.1 m`
 
     /** The value with a relative change of s, as a case file takes it. */
     std::string changed(double s) const;

@@ -1,4 +1,5 @@
 #include <cases/case_file/vary_case.h>
+#include <cases/domain_measure.h>
 #include <cases/error.h>
 #include <cases/numbers.h>
 #include <verification/judge/ladder.h>
@@ -39,8 +40,8 @@ namespace meltfront::verification
     /** Runs of one datum at a resolution: at -s_k and +s_k for each step. */
     using Pairs = std::vector<std::array<const RunRecord *, 2>>;
 
-    std::vector<std::array<double, 2>> values(const Pairs &pairs,
-                                              double (*read)(const RunRecord &))
+    template <typename Read>
+    std::vector<std::array<double, 2>> values(const Pairs &pairs, Read read)
     {
       std::vector<std::array<double, 2>> result;
       for(const auto &[below, above] : pairs)
@@ -124,31 +125,28 @@ namespace meltfront::verification
         return fmt::format("{}@{}{:+}", name, words, s);
       }
 
-      /** The changed cases; a datum one of whose changes makes no scene is refused. */
+      /** The changed cases; steps from the first on that makes no scene are left out. */
       void prepare()
       {
         for(const Datum &datum : data)
-        {
-          std::vector<std::pair<std::string, cases::Case>> changed;
           try
           {
             for(const double step : relative_steps)
+            {
+              std::map<std::string, cases::Case> pair;
               for(const double s : {-step, step})
               {
                 const std::string wanted = name_of(datum, s);
-                changed.emplace_back(
-                    wanted,
-                    cases::vary_case(the_case, wanted, {{datum.key, datum.changed(s)}}));
+                pair[wanted]
+                    = cases::vary_case(the_case, wanted, {{datum.key, datum.changed(s)}});
               }
+              changed_cases.merge(pair);
+            }
           }
           catch(const cases::InputError &error)
           {
             refused[datum.name] = error.what();
-            continue;
           }
-          for(auto &one : changed)
-            changed_cases.insert(std::move(one));
-        }
       }
 
       cases::Case load(const std::string &wanted) const
@@ -173,18 +171,25 @@ namespace meltfront::verification
         return matrix;
       }
 
+      /** Of the smallest steps, as many as finished. @param reason told what ended them
+       */
       Pairs pairs_of(const MatrixResult &result, const Datum &datum, int n,
                      std::string &reason) const
       {
         Pairs pairs;
         for(const double step : relative_steps)
         {
-          std::array<const RunRecord *, 2> pair{
+          const std::array<const RunRecord *, 2> pair{
               find_run(result, name_of(datum, -step), n),
               find_run(result, name_of(datum, step), n)};
           for(const RunRecord *run : pair)
-            if(!run || run->status != RunStatus::finished)
-              reason = run ? run->message : "it did not run";
+            if(!run)
+              return pairs;
+            else if(run->status != RunStatus::finished)
+            {
+              reason = run->message;
+              return pairs;
+            }
           pairs.push_back(pair);
         }
         return pairs;
@@ -200,19 +205,21 @@ namespace meltfront::verification
         std::string reason;
         if(const auto found = refused.find(datum.name); found != refused.end())
           reason = found->second;
-        Pairs fine, rough;
-        if(reason.empty())
-        {
-          fine = pairs_of(result, datum, finest, reason);
-          rough = pairs_of(result, datum, coarse, reason);
-        }
-        if(!reason.empty())
+        Pairs fine = pairs_of(result, datum, finest, reason),
+              rough = pairs_of(result, datum, coarse, reason);
+        const std::size_t steps = std::min(fine.size(), rough.size());
+        if(steps < 2)
         {
           row["refused"] = reason;
           return row;
         }
+        fine.resize(steps);
+        rough.resize(steps);
+        const auto front_of
+            = [volume = cases::volume_of(the_case.scene.domain)](const RunRecord &run)
+        { return end_front(run, volume); };
         const Derivative front
-            = derivative(values(fine, end_front), values(rough, end_front));
+            = derivative(values(fine, front_of), values(rough, front_of));
         row["front"] = as_json(front);
         row["solid_volume"]
             = as_json(derivative(values(fine, end_volume), values(rough, end_volume)));
@@ -284,7 +291,7 @@ namespace meltfront::verification
     { return (4 * central(pairs, k) - central(pairs, k + 1)) / 3; };
     Derivative best;
     best.value = best.error = cases::nan;
-    for(std::size_t k = 0; k + 1 < relative_steps.size(); ++k)
+    for(std::size_t k = 0; k + 1 < fine.size(); ++k)
     {
       const double value = extrapolated(fine, k);
       const double error = std::abs(central(fine, k) - central(fine, k + 1))

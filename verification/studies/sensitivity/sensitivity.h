@@ -12,8 +12,9 @@
 namespace meltfront::verification
 {
   /** Relative changes of a datum: each twice the one before. A front that stands in a
-   * cell and then jumps would drown smaller ones in noise. */
-  inline constexpr std::array<double, 3> relative_steps{0.01, 0.02, 0.04};
+   * cell and then jumps, by a tenth of a spacing, would drown smaller ones in noise: the
+   * largest move it over cells. */
+  inline constexpr std::array<double, 4> relative_steps{0.02, 0.04, 0.08, 0.16};
 
   /** A derivative with the error that it is stated with. */
   struct Derivative
@@ -36,7 +37,8 @@ namespace meltfront::verification
    * order 1 and the safety factor 2 for two levels. The pair of steps with the least
    * error is taken.
    *
-   * @param fine, coarse values at -s_k and +s_k at n and n/2, one pair for each step
+   * @param fine, coarse values at -s_k and +s_k at n and n/2, one pair for each of the
+   * smallest steps, at least two
    */
   Derivative derivative(std::span<const std::array<double, 2>> fine,
                         std::span<const std::array<double, 2>> coarse);
@@ -58,8 +60,9 @@ namespace meltfront::verification
    * scale. That of the temperature is the root mean square over the probes (K).
    * worth_of_bar is the relative change of the datum that moves the front by its bar.
    *
-   * A datum whose changed value makes no scene, or none that the method takes, is refused
-   * with the reason; the others go on.
+   * A step that makes no scene, or none that the method takes, is left out with all
+   * larger ones; a datum with fewer than two steps left is refused with the reason; the
+   * others go on.
    *
    * @throws cases::Refusal for a scene that conducts no heat, or that no method takes
    */
