@@ -94,6 +94,9 @@ namespace meltfront::cases
           = heat / (volume * least_capacity(scene, given) * (given.upper - given.lower));
       if(!std::isfinite(bound.temperature))
         return none("the scene's data give no range of temperature to relate it to");
+      const TemperatureBounds all = temperature_bounds(scene);
+      if(std::isfinite(all.upper - all.lower)) // both temperatures lie in the range
+        bound.temperature = std::min(bound.temperature, 1.);
       return bound;
     }
 

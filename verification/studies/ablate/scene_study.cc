@@ -126,7 +126,7 @@ namespace meltfront::verification
     if(run.status == RunStatus::failed)
       throw cases::NumericalError(method.name(), 0, c.scene.start_time, "the pilot run",
                                   "failed: " + run.message);
-    const int dimension = c.scene.domain.dimension;
+    const int dimension = run.description.dimension;
     const double factor
         = std::pow(settings.within / (runs * std::max(processor_seconds(run), 1e-3)),
                    1 / method_prior(method.name(), run.description.dimension).growth);

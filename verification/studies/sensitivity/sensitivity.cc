@@ -296,7 +296,7 @@ namespace meltfront::verification
       const double value = extrapolated(fine, k);
       const double error = std::abs(central(fine, k) - central(fine, k + 1))
                            + 2 * std::abs(value - extrapolated(coarse, k));
-      if(!(error >= best.error))
+      if(std::isfinite(error) && !(error >= best.error))
         best = {value, error, relative_steps[k]};
     }
     return best;

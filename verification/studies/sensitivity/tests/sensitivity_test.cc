@@ -117,6 +117,9 @@ namespace meltfront::verification::tests
     // A jump within the smallest step: larger ones are taken.
     fine[0][1] += 0.02;
     EXPECT_EQ(derivative(fine, fine).step, 0.04);
+    // A front that the largest step makes vanish leaves the others.
+    fine[3][0] = std::nan("");
+    EXPECT_EQ(derivative(fine, fine).step, 0.04);
   }
 
   TEST(SceneData, AreTheNumbersOfASceneAndItsExpressions)
