@@ -332,6 +332,11 @@ TEST(App, AblateAndSensitivityWriteWhatTheyFoundAndTakeUpWhereTheyStopped)
   EXPECT_EQ(fs::last_write_time(record), written);
   EXPECT_EQ(read_json(out + "/ablate.json"), ablation);
 
+  const Outcome steady = run_program("ablate rkpm-wave-1d-flux --n 16 --out "
+                                     + directory.path("steady").string());
+  EXPECT_EQ(steady.status, 0);
+  expect_text(steady, "refused: the steady temperature would be known up to a constant");
+
   const std::string data = directory.path("data").string();
   const Outcome found = run_program(
       "sensitivity plane-contrast --method rkpm-tracked --n 16 --out " + data);
