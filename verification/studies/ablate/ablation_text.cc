@@ -34,6 +34,8 @@ namespace meltfront::verification
     for(const char *name : names)
     {
       const json &full = ablation.at("full").at(name);
+      if(full.at("bar").is_null())
+        continue;
       text += fmt::format("  {:<16} {:>10}  bar {}{}\n", name,
                           figure(full.at("value"), "{:.6g}"),
                           figure(full.at("bar"), "{:.2g}"),
