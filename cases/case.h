@@ -128,6 +128,9 @@ namespace meltfront::cases
     std::string description;
     std::vector<std::string> tags;
     std::vector<std::string> limits; ///< sentences for `limits and omissions`
+    /** Effects are left out that change front and temperature by less than this, all of
+     * them together (effects_within()); 0: none is. */
+    double effect_tolerance = 0;
     std::shared_ptr<const ExactSolution> exact;
     std::optional<Reference> reference; ///< where there is no exact solution
     Measurement measurement;

@@ -17,6 +17,7 @@ namespace meltfront::cases
 
     constexpr int most_times = 4097, fewest_times = 65, times_of_exact = 17;
     constexpr std::size_t evaluations_of_wall = 100'000;
+    constexpr std::size_t samples_of_release = 1000;
 
     /** Of a step between samples: where an extreme is searched for to this share, its
      * error is of the order of the square. */
@@ -241,5 +242,26 @@ namespace meltfront::cases
     else
       visit_wall(scene.domain, side, collect);
     visit_values_in_time(scene, field, positions, visit);
+  }
+
+  void visit_release(const Scene &scene, const ValueVisitor &visit)
+  {
+    const Field &release = *scene.volumetric_source;
+    std::vector<Position> positions;
+    const auto collect = [&](const Position &p) { positions.push_back(p); };
+    const bool steady = release.constant || !may_depend_on(release.expression, "t");
+    if(steady || !may_depend_on(release.expression, "xyz"))
+      visit_densely(scene, {&release}, collect);
+    else
+      visit_points(scene.domain, collect);
+    if(!steady && positions.size() > samples_of_release)
+    {
+      std::vector<Position> some;
+      const std::size_t stride = positions.size() / samples_of_release + 1;
+      for(std::size_t i = 0; i < positions.size(); i += stride)
+        some.push_back(positions[i]);
+      positions.swap(some);
+    }
+    visit_values_in_time(scene, release, positions, visit);
   }
 } // namespace meltfront::cases

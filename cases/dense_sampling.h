@@ -36,6 +36,10 @@ namespace meltfront::cases
   void visit_values_in_time(const Scene &scene, const Field &field,
                             const std::vector<Position> &positions,
                             const ValueVisitor &visit);
+
+  /** The same of what is released throughout a scene's domain; at some points only where
+   * that varies in space and time. */
+  void visit_release(const Scene &scene, const ValueVisitor &visit);
 } // namespace meltfront::cases
 
 #endif

@@ -103,29 +103,6 @@ namespace meltfront::cases
   namespace
   {
     constexpr int samples_of_power = 257;
-    constexpr std::size_t samples_of_release = 1000;
-
-    /** Release that varies in space and time is sampled at some points only. */
-    void visit_release(const Scene &scene, const ValueVisitor &visit)
-    {
-      const Field &release = *scene.volumetric_source;
-      std::vector<Position> positions;
-      const auto collect = [&](const Position &p) { positions.push_back(p); };
-      const bool steady = release.constant || !may_depend_on(release.expression, "t");
-      if(steady || !may_depend_on(release.expression, "xyz"))
-        visit_densely(scene, {&release}, collect);
-      else
-        visit_points(scene.domain, collect);
-      if(!steady && positions.size() > samples_of_release)
-      {
-        std::vector<Position> some;
-        const std::size_t stride = positions.size() / samples_of_release + 1;
-        for(std::size_t i = 0; i < positions.size(); i += stride)
-          some.push_back(positions[i]);
-        positions.swap(some);
-      }
-      visit_values_in_time(scene, release, positions, visit);
-    }
 
     void visit_power(const Scene &scene, const PointSource &source,
                      const ValueVisitor &visit)

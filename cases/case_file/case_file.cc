@@ -197,6 +197,7 @@ namespace meltfront::cases
       prm.require("", "title", "every case has one");
       c.title = prm.get_text("", "title");
       c.description = prm.get_text("", "description");
+      c.effect_tolerance = read_effect_tolerance(prm);
       c.tags = read_tags(prm);
       c.file = file;
       c.text = prm.text();

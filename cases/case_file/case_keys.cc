@@ -163,6 +163,15 @@ namespace meltfront::cases
 
     void declare_effects(PrmFile &prm)
     {
+      PrmEntry all = text_key(
+          "effects",
+          "auto: subsection Effects decides. auto within 1e-3: of those that are 'auto' "
+          "there, effects are left out before the run as long as all that are left out "
+          "together are certain to change the front by less than 1e-3 of the domain's "
+          "side, and the temperature by less than 1e-3 of its range (mean over the "
+          "domain); the list of effects says by how much each could.");
+      all.default_value = "auto";
+      prm.declare("", all);
       for(const Effect effect : all_effects())
         prm.declare("Effects",
                     word_key(to_string(effect), "auto", {"auto", "on", "off"},

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstring>
 
 namespace meltfront::cases
 {
@@ -87,5 +89,28 @@ namespace meltfront::cases
         throw prm.error("Effects", to_string(need.effect),
                         fmt::format("is on but {}", need.missing));
     }
+  }
+
+  double read_effect_tolerance(const PrmFile &prm)
+  {
+    constexpr const char *key = "effects", *automatic = "auto", *within = "auto within ";
+    const std::string text = prm.get_text("", key);
+    if(text == automatic)
+      return 0;
+    double tolerance = 0;
+    if(text.starts_with(within))
+    {
+      const char *from = text.data() + std::strlen(within),
+                 *end = text.data() + text.size();
+      const auto [rest, error] = std::from_chars(from, end, tolerance);
+      if(error != std::errc() || rest != end)
+        tolerance = 0;
+    }
+    if(!(tolerance > 0 && tolerance < 1))
+      throw prm.error("", key,
+                      fmt::format("must be 'auto' or 'auto within TOLERANCE', a number "
+                                  "between 0 and 1, not '{}'",
+                                  text));
+    return tolerance;
   }
 } // namespace meltfront::cases

@@ -11,6 +11,10 @@ namespace meltfront::cases
    * of its own. @throws InputError
    */
   void check_effects(const PrmFile &prm, const Scene &scene);
+
+  /** What the key `effects` says: the tolerance of `auto within 1e-3`, 0 for `auto`.
+   * @throws InputError for anything else */
+  double read_effect_tolerance(const PrmFile &prm);
 } // namespace meltfront::cases
 
 #endif

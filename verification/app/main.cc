@@ -6,6 +6,7 @@
 #include <verification/app/commands.h>
 #include <verification/app/crosscheck_command.h>
 #include <verification/app/list.h>
+#include <verification/app/study_commands.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,6 +32,7 @@ namespace
     AdviseArguments advise_arguments;
     CrosscheckArguments crosscheck_arguments;
     CalibrateArguments calibrate_arguments;
+    StudyArguments study_arguments;
     std::string report_directory, kept_directory;
     std::string list_what;
     bool list_as_json = false;
@@ -45,6 +47,8 @@ namespace
     void declare_advise();
     void declare_crosscheck();
     void declare_calibrate();
+    void declare_study(const char *name, const char *description,
+                       int (*study)(const StudyArguments &));
     void declare_others();
   };
 
@@ -59,6 +63,16 @@ namespace
     declare_compare();
     declare_advise();
     declare_crosscheck();
+    declare_study(
+        "ablate",
+        "take each effect out of a case in turn: what changes, beside the bound "
+        "known before, and what it saves",
+        ablate);
+    declare_study(
+        "sensitivity",
+        "how front and temperature of a case depend on each of its data, beside "
+        "the numerical error",
+        sensitivity);
     declare_calibrate();
     declare_others();
   }
@@ -236,6 +250,28 @@ namespace
         ->delimiter(',');
     command->callback([this]
                       { action = [this] { return crosscheck(crosscheck_arguments); }; });
+  }
+
+  void CommandLine::declare_study(const char *name, const char *description,
+                                  int (*study)(const StudyArguments &))
+  {
+    auto *command = app.add_subcommand(name, description);
+    StudyArguments &a = study_arguments;
+    command->add_option("case", a.case_name, "case of the library, or a case file")
+        ->required();
+    command->add_option("--method", a.method, "method (the first that takes the case)");
+    command->add_option("--n", a.n, "finest resolution (as the time allows)")
+        ->check(CLI::Range(8, 1000000));
+    command
+        ->add_option("--within", a.within, "CPU time of all runs in seconds, about (60)")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--out", a.output,
+                        fmt::format("directory (results/{}-CASE)", name));
+    command->add_option("--jobs", a.jobs, "number of concurrent runs (one per core)")
+        ->check(CLI::Range(0, 1024));
+    add_memory_option(command, a.memory);
+    command->callback([this, study]
+                      { action = [this, study] { return study(study_arguments); }; });
   }
 
   void CommandLine::declare_calibrate()

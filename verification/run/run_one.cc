@@ -1,3 +1,4 @@
+#include <cases/effect_bounds.h>
 #include <cases/error.h>
 #include <cases/out_of_memory.h>
 #include <verification/record/hash.h>
@@ -72,7 +73,7 @@ namespace meltfront::verification
                const cases::Resolution &resolution, cases::Observer *second,
                const RepeatPolicy &policy, RunRecord &record)
     {
-      const cases::EffectSet effects = cases::effects_called_for(c.scene);
+      const cases::EffectSet effects = cases::effects_within(c.scene, c.effect_tolerance);
       record.effects = effects.decisions();
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
       const cases::Capabilities capabilities

@@ -228,3 +228,14 @@ TEST(CaseFile, UnknownNamesAndFilesAreRefused)
   EXPECT_THROW(load_case(""), InputError);
   EXPECT_THROW(load_case(std::string(100000, 'x')), InputError);
 }
+
+TEST(CaseFile, SaysByHowMuchLeftOutEffectsMayChangeTheScene)
+{
+  EXPECT_EQ(read(slab).effect_tolerance, 0);
+  EXPECT_EQ(read(with(slab, "set effects = auto\n")).effect_tolerance, 0);
+  EXPECT_EQ(read(with(slab, "set effects = auto within 1e-3\n")).effect_tolerance, 1e-3);
+  for(const char *wrong : {"on", "auto within", "auto within 0", "auto within 1e-3 m",
+                           "auto within 2", "auto within -1"})
+    EXPECT_THROW(read(with(slab, fmt::format("set effects = {}\n", wrong))), InputError)
+        << wrong;
+}

@@ -344,3 +344,40 @@ TEST(App, CrosscheckNamesWhatItDoesNotKnow)
   expect_text(unknown, "fem-enthalpy");
   EXPECT_EQ(run_program("crosscheck --methods sph").status, 2);
 }
+
+TEST(App, AblateAndSensitivityWriteWhatTheyFoundAndTakeUpWhereTheyStopped)
+{
+  const TemporaryDirectory directory;
+  const std::string out = directory.path("study").string();
+  const Outcome ablated = run_program("ablate plane-contrast --n 24 --out " + out);
+  ASSERT_EQ(ablated.status, 0) << ablated.output;
+  expect_text(ablated, "phase_conductivity");
+  const auto ablation = read_json(out + "/ablate.json");
+  EXPECT_EQ(ablation.at("method"), "fem-enthalpy");
+  EXPECT_GE(ablation.at("effects").size(), 3u);
+  std::ifstream report(out + "/report.html");
+  const std::string page{std::istreambuf_iterator<char>(report), {}};
+  EXPECT_NE(page.find("Without each effect"), std::string::npos);
+  // A second call finds every record and comes to the same.
+  const auto record = fs::path(out) / "runs/plane-contrast/fem-enthalpy/n=24/run.json";
+  const auto written = fs::last_write_time(record);
+  EXPECT_EQ(run_program("ablate plane-contrast --n 24 --out " + out).status, 0);
+  EXPECT_EQ(fs::last_write_time(record), written);
+  EXPECT_EQ(read_json(out + "/ablate.json"), ablation);
+
+  const Outcome steady = run_program("ablate rkpm-wave-1d-flux --n 16 --out "
+                                     + directory.path("steady").string());
+  EXPECT_EQ(steady.status, 0);
+  expect_text(steady, "refused: the steady temperature would be known up to a constant");
+
+  const std::string data = directory.path("data").string();
+  const Outcome found = run_program(
+      "sensitivity plane-contrast --method rkpm-tracked --n 16 --out " + data);
+  ASSERT_EQ(found.status, 0) << found.output;
+  expect_text(found, "Material/Solid/conductivity");
+  EXPECT_EQ(read_json(data + "/sensitivity.json").at("method"), "rkpm-tracked");
+
+  EXPECT_EQ(run_program("ablate greenspan-rectangle-base-2.5 --out " + out).status, 2);
+  EXPECT_EQ(run_program("sensitivity plane-contrast --method sphh --out " + out).status,
+            2);
+}

@@ -65,6 +65,10 @@ namespace meltfront::verification
   /** Case by label: held, refused or failed; empty without verdicts. */
   Markup stability_chapter(const ReportContext &context);
 
+  /** What `meltfront ablate` wrote to the directory: the changes without each effect;
+   * empty where it did not run. */
+  Markup ablation_chapter(const ReportContext &context);
+
   /** Case by effect: on or off, and its share of the time. */
   Markup effects_chapter(const ReportContext &context);
 

@@ -1,3 +1,4 @@
+#include <cases/effect_bounds.h>
 #include <cases/error.h>
 #include <verification/studies/crosscheck/scene_check.h>
 
@@ -23,7 +24,7 @@ namespace meltfront::verification
 
     SimulatedScene simulated(const cases::Case &c)
     {
-      cases::EffectSet effects = cases::effects_called_for(c.scene);
+      cases::EffectSet effects = cases::effects_within(c.scene, c.effect_tolerance);
       cases::Scene scene = cases::simulated_scene(c.scene, effects);
       return {std::move(effects), std::move(scene)};
     }

@@ -1,3 +1,4 @@
+#include <cases/effect_bounds.h>
 #include <cases/error.h>
 #include <cases/run.h>
 #include <verification/studies/ladders/capable_methods.h>
@@ -28,7 +29,7 @@ namespace meltfront::verification
   CapableMethods capable_methods(const cases::Case &c,
                                  const std::vector<const cases::Method *> &all)
   {
-    const cases::EffectSet effects = cases::effects_called_for(c.scene);
+    const cases::EffectSet effects = cases::effects_within(c.scene, c.effect_tolerance);
     const cases::Scene scene = cases::simulated_scene(c.scene, effects);
     CapableMethods found;
     std::vector<std::pair<std::string, std::vector<std::string>>> reasons;
