@@ -168,7 +168,7 @@ namespace meltfront::verification
       for(const ReferenceTrust &trust : result.references)
         if(trust.case_name == record.name() && trust.quantity == of)
         {
-          const double bar = trust.convergence.uncertainty;
+          const double bar = trust.bar;
           return bar <= criterion.upper ? ""
                  : std::isnan(bar)
                      ? "the reference's error bar is not known"

@@ -1,6 +1,7 @@
 #ifndef meltfront_verification_judge_matrix_result_h
 #define meltfront_verification_judge_matrix_result_h
 
+#include <cases/numbers.h>
 #include <verification/judge/finding.h>
 #include <verification/measure/formulas/grid_convergence.h>
 #include <verification/record/run_record.h>
@@ -68,6 +69,9 @@ namespace meltfront::verification
     std::vector<double> abscissa; ///< h (m) or dt (s)
     std::vector<double> values;
     GridConvergence convergence; ///< NaN for fewer than three
+    /** The error bar of the finest value as of any other run (error_bar()); NaN for one
+     * run. */
+    double bar = cases::nan;
   };
 
   /** A matrix that ran (or is running): what summary.json and the report are made of. */

@@ -1,4 +1,5 @@
 #include <cases/numbers.h>
+#include <verification/judge/ladder.h>
 #include <verification/judge/reference.h>
 #include <verification/judge/refinement.h>
 #include <verification/measure/formulas/run_statistics.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace meltfront::verification
 {
@@ -37,6 +39,29 @@ namespace meltfront::verification
       return levels;
     }
 
+    /** As of any run; differences over time are those of the solid's volume. */
+    double bar_of(const std::vector<const RunRecord *> &levels,
+                  const Refinement &refinement, const std::string &name)
+    {
+      std::vector<BarLevel> values;
+      std::vector<double> differences;
+      for(auto run = levels.rbegin(); run != levels.rend(); ++run)
+      {
+        if(run != levels.rbegin())
+          differences.push_back(name.starts_with("solid_volume") ? course_difference(
+                                    **std::prev(run), **run, &RunSeries::solid_volume)
+                                                                 : nan);
+        values.push_back(
+            {refinement.of(**run), (*run)->cost.steps, (*run)->quantity(name)});
+      }
+      const BarConstants constants = bar_constants(*levels.front());
+      const ErrorBar bar
+          = error_bar(values, differences,
+                      {std::abs(values.back().value), constants.order_in_space,
+                       constants.order_in_time, constants.factor, refinement.in_time()});
+      return bar.bar;
+    }
+
     ReferenceTrust trust_in(const StoredCase &record,
                             const std::vector<const RunRecord *> &levels,
                             const std::string &name)
@@ -56,6 +81,8 @@ namespace meltfront::verification
       const bool different = std::ranges::is_sorted(trust.abscissa, std::less_equal());
       if(levels.size() == levels_of_index && different && trust.abscissa.front() > 0)
         trust.convergence = extrapolate(trust.abscissa, trust.values);
+      if(different && trust.abscissa.front() > 0)
+        trust.bar = bar_of(levels, refinement, name);
       return trust;
     }
 

@@ -270,7 +270,6 @@ TEST(LinearRun, GrowthOfTheRowsIsFound)
   EXPECT_NEAR(growth(-1, 1.01 * fastest), 101, 0.1);
 }
 
-/** The same rows without an inclusion fail where they leave the bounds, below. */
 TEST(LinearRun, AnInclusionWithoutStableRowsIsRefused)
 {
   Slab slab;
@@ -282,6 +281,7 @@ TEST(LinearRun, AnInclusionWithoutStableRowsIsRefused)
   EXPECT_THROW(slab.run("backward-euler", 50), cases::Refusal);
 }
 
+// Refused by what is at fault, the rows, which are looked at once the bounds are left.
 TEST(LinearRun, WhatLeavesItsBoundsIsNoResult)
 {
   Slab slab;
@@ -289,5 +289,5 @@ TEST(LinearRun, WhatLeavesItsBoundsIsNoResult)
   for(double &value : slab.problem.operator_rows.coefficients)
     value = -value;
   slab.problem.symmetric = false;
-  EXPECT_THROW(slab.run("backward-euler", 50), cases::NumericalError);
+  EXPECT_THROW(slab.run("backward-euler", 50), cases::Refusal);
 }

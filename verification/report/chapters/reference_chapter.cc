@@ -48,6 +48,7 @@ namespace meltfront::verification
       table.columns.push_back({"observed order", "", false});
       table.columns.push_back({"Richardson's limit", "", true});
       table.columns.push_back({"GCI", "", true});
+      table.columns.push_back({"error bar", "", true});
       table.columns.push_back({"course", "", false});
       RowGroup &group = table.groups.emplace_back();
       for(const ReferenceTrust *trust : trusts)
@@ -60,6 +61,7 @@ namespace meltfront::verification
         row.push_back({number_text(trust->convergence.extrapolated, digits)});
         row.push_back(
             {number_text(trust->convergence.uncertainty, 2, Notation::scientific)});
+        row.push_back({number_text(trust->bar, 2, Notation::scientific)});
         row.push_back({std::string(course_of(*trust))});
       }
       return table;
