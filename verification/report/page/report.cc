@@ -35,11 +35,11 @@ namespace meltfront::verification
 
     // A chapter is a line here; it is left out where it has nothing to show.
     constexpr Chapter before_cases[] = {{"answers", "Answers", answers_chapter},
+                                        {"stability", "Stability", stability_chapter},
                                         {"ablation", "Without", ablation_chapter},
                                         {"findings", "Findings", findings_chapter},
                                         {"variations", "Variations", variations_chapter},
                                         {"cost", "Cost", cost_chapter},
-                                        {"stability", "Stability", stability_chapter},
                                         {"effects", "Effects", effects_chapter},
                                         {"orders", "Orders", orders_chapter},
                                         {"coverage", "Error bars", coverage_chapter}};

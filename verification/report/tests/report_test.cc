@@ -69,7 +69,7 @@ namespace meltfront::verification
     const std::string html = report_of(fixture::matrix());
     std::size_t last = 0;
     for(const char *anchor :
-        {"id=\"verdict\"", "id=\"cost\"", "id=\"stability\"", "id=\"effects\"",
+        {"id=\"verdict\"", "id=\"stability\"", "id=\"cost\"", "id=\"effects\"",
          "id=\"case-plane\"", "id=\"case-sink\"", "id=\"provenance\""})
     {
       const std::size_t next = position(html, anchor);
