@@ -159,8 +159,8 @@ namespace meltfront::verification
           compare(before);
         for(const BaselineCriterion &criterion : now.criteria)
           if(!criterion.passed && !is_among(criterion, was.criteria))
-            flag("FAILS", fmt::format("{} = {:.3g}, new", words_of(criterion),
-                                      criterion.value));
+            flag("FAILS",
+                 fmt::format("{} = {:.3g}, new", words_of(criterion), criterion.value));
         return comparison;
       }
 

@@ -126,7 +126,7 @@ namespace meltfront::verification
               bars);
         add_course(bars);
         add("solid_volume", &RunSeries::solid_volume, finest.solid_volume_exact, bars);
-        add("heat", &RunSeries::heat, nan, bars);
+        add("heat", &RunSeries::heat, finest.heat_exact, bars);
         return bars;
       }
 

@@ -5,6 +5,7 @@
 #include <verification/matrix/matrix.h>
 #include <verification/run/run_one.h>
 
+#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -25,6 +26,9 @@ namespace meltfront::verification
     std::string command_line;
     std::FILE *progress = nullptr; ///< null: say nothing
     RepeatPolicy repeats{};
+    /** When runs that go on, and those that wait, are ended as by their time limit. */
+    std::chrono::steady_clock::time_point deadline
+        = std::chrono::steady_clock::time_point::max();
     /** Command that makes one run, whose identity is appended to it, in a process of its
      * own (with `only`), on whatever machine; empty: runs are made by forked processes
      * here. */

@@ -156,10 +156,12 @@ namespace meltfront::verification
     std::string problem;
     if(running_job.process.ended())
       problem = running_job.process.end().problem();
-    else if(running_job.claim && spent.count() > time_limit)
+    else if(running_job.claim
+            && (spent.count() > time_limit || Clock::now() > options.deadline))
     {
       running_job.process.kill();
-      problem = fmt::format("took longer than its time limit of {} s", time_limit);
+      problem = fmt::format("took longer than its time limit of {} s",
+                            std::min(time_limit, spent.count()));
     }
     else
       return false;

@@ -181,6 +181,7 @@ namespace meltfront::verification
     visit("profile", record.profile);
     visit("probes", record.probes, if_any);
     visit("solid_volume_exact", record.solid_volume_exact, since_later);
+    visit("heat_exact", record.heat_exact, since_later);
     visit("intermediate_profiles", record.intermediate_profiles, since_later);
     visit("frames", record.frames, since_later);
     visit("particle_frames", record.particle_frames, if_any);

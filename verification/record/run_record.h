@@ -126,6 +126,7 @@ namespace meltfront::verification
     RunProfile profile;
     std::vector<TemperatureProbe> probes;   ///< at places that are the same for all runs
     double solid_volume_exact = cases::nan; ///< at the end; NaN where it is unknown
+    double heat_exact = cases::nan; ///< taken in from start to end; NaN where unknown
     std::vector<RunProfile>
         intermediate_profiles;      ///< at Measurement::intermediate_times or some
     std::vector<FrontFrame> frames; ///< at Measurement::intermediate_times and at the end

@@ -58,6 +58,20 @@ namespace meltfront::verification
     return exact && time >= exact->start_time() ? exact->front(time) : nan;
   }
 
+  /** Of a scene that is the exact solution's whole domain, at one density. */
+  double HeatObserver::exact_heat() const
+  {
+    const cases::Material &material = scene.material;
+    if(!exact || !exact->depends_on_one_coordinate()
+       || scene.symmetry == cases::Symmetry::none
+       || scene.start_time < exact->start_time()
+       || material.solid.density != material.liquid.density)
+      return nan;
+    const auto [lower, upper] = coordinate_range(scene, exact);
+    return exact->heat_content(lower, upper, scene.end_time)
+           - exact->heat_content(lower, upper, scene.start_time);
+  }
+
   void HeatObserver::see(Sighting sighting)
   {
     const cases::Snapshot &snapshot = sighting.snapshot;
@@ -138,6 +152,7 @@ namespace meltfront::verification
     record.profile = end_profile;
     record.probes = probes;
     record.solid_volume_exact = exact_volume;
+    record.heat_exact = exact_heat();
     record.intermediate_profiles = profiles;
   }
 

@@ -42,6 +42,7 @@ namespace meltfront::verification
     bool asks_for(long step, double time) override;
     void see(Sighting sighting) override;
     double exact_front(double time) const;
+    double exact_heat() const;
     void add_to_series(const Sighting &sighting);
     void keep_pictures(const Sighting &sighting);
 

@@ -107,12 +107,8 @@ namespace meltfront::verification
                                              const cases::ExactSolution *exact,
                                              double spacing)
     {
-      const cases::Domain &domain = scene.domain;
       const bool planar = measured_symmetry(scene, exact) == cases::Symmetry::planar;
-      const double lower = planar ? domain.lower[0] : domain.inner_radius;
-      const double upper = planar           ? domain.upper[0]
-                           : domain.round() ? domain.radius
-                                            : domain.side() / 2;
+      const auto [lower, upper] = coordinate_range(scene, exact);
       const Profile profile = profile_of(snapshot, coordinates, spacing);
       std::vector<TemperatureProbe> probes;
       for(int i = 0; i < probes_along_line; ++i)
@@ -210,6 +206,15 @@ namespace meltfront::verification
       return rows.completeOrthogonalDecomposition().solve(values)[0];
     }
   } // namespace
+
+  std::pair<double, double> coordinate_range(const cases::Scene &scene,
+                                             const cases::ExactSolution *exact)
+  {
+    const cases::Domain &domain = scene.domain;
+    if(measured_symmetry(scene, exact) == cases::Symmetry::planar)
+      return {domain.lower[0], domain.upper[0]};
+    return {domain.inner_radius, domain.round() ? domain.radius : domain.side() / 2};
+  }
 
   std::vector<TemperatureProbe> read_probes(const cases::Scene &scene,
                                             const cases::Snapshot &snapshot,

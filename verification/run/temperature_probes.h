@@ -6,10 +6,15 @@
 #include <cases/snapshot.h>
 #include <verification/record/run_record.h>
 
+#include <utility>
 #include <vector>
 
 namespace meltfront::verification
 {
+  /** Least and largest coordinate of a scene that depends on one (m). */
+  std::pair<double, double> coordinate_range(const cases::Scene &scene,
+                                             const cases::ExactSolution *exact);
+
   /**
    * Temperatures at places that are the same for every method and resolution: the middles
    * of 20 equal parts of the coordinate of a scene that depends on one (symmetric, or

@@ -136,6 +136,7 @@ namespace meltfront::verification
     double expected_of_sources(const cases::Snapshot &snapshot) const;
     bool sites_are_cut() const;
     double heat_of_domain(const cases::Snapshot &snapshot) const;
+    double heat_between(const cases::Snapshot &snapshot, double range) const;
     void judge_balance(const cases::Snapshot &snapshot, const SiteHeat &held);
 
     const cases::Scene &scene;

@@ -90,8 +90,9 @@ namespace meltfront::verification
                                         { return v.verdict == "failed"; });
       const std::string words
           = failed == 0
-                ? fmt::format("All {} hard runs held, were caught or refused with a reason",
-                              verdicts.size())
+                ? fmt::format(
+                    "All {} hard runs held, were caught or refused with a reason",
+                    verdicts.size())
                 : fmt::format("{} of {} hard runs failed", failed, verdicts.size());
       return element("p", {{"class", failed == 0 ? "verdict good" : "verdict bad"}},
                      text(words));

@@ -90,6 +90,9 @@ namespace meltfront::verification
   void LadderGrowth::run(const std::function<void(MatrixResult &)> &what)
   {
     RunnerOptions now = options;
+    now.deadline = start
+                   + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                       std::chrono::duration<double>(within));
     now.conclude = what;
     made = run_matrix(matrix(), now, load_case, lookup);
   }
