@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <particles/sph/conduction_spectrum.h>
+#include <particles/sph/effective_conductivity.h>
 #include <particles/sph/heat_flow.h>
 
 #include <fmt/format.h>
@@ -58,6 +59,7 @@ namespace meltfront::particles
     , front_rule(parameters.front)
     , exchange_effect(Effect::phase_conductivity)
   {
+    require_true_conductivity(dis, conduction.rows);
     const bool melts_gradually = sharp_latent_heat(material) > 0;
     if(material.curves)
       require_rule_for_curves(front_rule);

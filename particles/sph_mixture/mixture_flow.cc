@@ -1,5 +1,6 @@
 #include <particles/alloy/wall_variable.h>
 #include <particles/sph/conduction_spectrum.h>
+#include <particles/sph/effective_conductivity.h>
 #include <particles/sph_mixture/mixture_flow.h>
 
 #include <fmt/format.h>
@@ -45,6 +46,7 @@ namespace meltfront::particles
                  dis.particles.size(), rows.rows.padded_rows())
     , wall_excess(excess_variable(substance.material))
   {
+    require_true_conductivity(dis, rows.rows);
     if(effects.contains(Effect::solute_diffusion) && substance.diffuses())
       diffusion.emplace(dis, parameters.sph, substance, rows.rows);
     if(effects.contains(Effect::heat_sources))

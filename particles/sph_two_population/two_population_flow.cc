@@ -1,5 +1,6 @@
 #include <particles/alloy/wall_variable.h>
 #include <particles/sph/conduction_spectrum.h>
+#include <particles/sph/effective_conductivity.h>
 #include <particles/sph_two_population/two_population_exchange.h>
 #include <particles/sph_two_population/two_population_flow.h>
 
@@ -9,6 +10,13 @@
 namespace meltfront::particles
 {
   using cases::Effect;
+
+  namespace
+  {
+    /** H(p, q) <= 2 p for what a particle exchanges with either population, while its own
+     * heat capacity goes with p: rows up to four times those of one conductivity. */
+    constexpr double published_excess = 4;
+  } // namespace
 
   TwoPopulationFlow::TwoPopulationFlow(const Discretisation &dis,
                                        const AlloySubstance &substance,
@@ -27,6 +35,7 @@ namespace meltfront::particles
                     / rows.second_moment)
     , wall_excess(excess_variable(substance.material))
   {
+    require_true_conductivity(dis, rows.rows);
     if(effects.contains(Effect::solute_diffusion) && substance.diffuses())
       diffusion.emplace(dis, parameters.sph, substance, rows.rows);
     if(effects.contains(Effect::wall_temperature))
@@ -220,7 +229,8 @@ namespace meltfront::particles
   {
     const cases::Material &m = substance.material;
     const double heat_rate
-        = substance.largest_conductivity() * (rows.largest_row_sum + self_strength);
+        = substance.largest_conductivity() * (rows.largest_row_sum + self_strength)
+          * (parameters.exchange == PhaseExchange::published ? published_excess : 1);
     const double capacity
         = std::min(substance.density * m.liquid.specific_heat_capacity,
                    sites.crystal_density * m.solid.specific_heat_capacity);

@@ -67,9 +67,10 @@ namespace meltfront::particles
     void solute(std::size_t solute, std::span<double> flow);
 
     /**
-     * The largest explicit step that is certain to keep the maximum principle where the
+     * The largest explicit step that keeps the maximum principle, for certain where the
      * exchange is the corrected one: with the self-exchange of a site in the sum and k
-     * the larger conductivity,
+     * the larger conductivity, of the published exchange four times that (all volumes
+     * taken for the site's),
      *
      *   dt <= min(rho c_l, rho_s c_s) V / (k sum_b g_ab),  dt <= m/(2 rho D sum_b g_ab).
      */

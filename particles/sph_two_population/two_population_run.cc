@@ -182,12 +182,14 @@ namespace meltfront::particles
               dis.kernel.smoothing_length());
         const cases::Material &m = scene.material;
         const double h = dis.kernel.smoothing_length();
-        const double longest
+        double longest
             = parameters.sph.step_factor * h * h
               * std::min(substance.density * m.liquid.specific_heat_capacity
                              / m.liquid.conductivity,
                          sites.crystal_density * m.solid.specific_heat_capacity
                              / m.solid.conductivity);
+        if(parameters.sph.step_limit == StepLimit::monotone)
+          longest = std::min(longest, flows.monotone_step());
         const double duration = scene.end_time - scene.start_time;
         const long steps = std::max(
             fewest_steps, static_cast<long>(std::ceil(duration / longest * (1 - 1e-12))));
@@ -246,12 +248,25 @@ namespace meltfront::particles
       {
         for(std::size_t a = 0; a < n; ++a)
         {
-          const double liquid = sites.liquid.mass[a], ice = sites.ice.mass[a];
-          temperature[a] = scene.material.melting_temperature
-                           + (liquid * sites.liquid.excess[a] + ice * sites.ice.excess[a])
-                                 / (liquid + ice);
-          solid_fraction[a]
-              = sites.is_dirichlet[a] ? 1. : std::min(ice / sites.site_mass, 1.);
+          // What both take on when they even out: it holds the site's sensible heat.
+          const double ice = sites.ice.mass[a];
+          const double of_liquid
+              = sites.liquid.mass[a] * scene.material.liquid.specific_heat_capacity,
+              of_ice = ice * scene.material.solid.specific_heat_capacity;
+          temperature[a]
+              = scene.material.melting_temperature
+                + (of_liquid * sites.liquid.excess[a] + of_ice * sites.ice.excess[a])
+                      / (of_liquid + of_ice);
+          if(sites.is_dirichlet[a])
+            solid_fraction[a] = 1;
+          else if(parameters.new_ice == NewIce::site)
+            solid_fraction[a] = std::min(ice / sites.site_mass, 1.);
+          else // ice that the kernel carries elsewhere takes its volume along
+          {
+            const double mass = sites.liquid.mass[a] + ice;
+            weights[a] = dis.weights[a] * mass / sites.site_mass;
+            solid_fraction[a] = ice / mass;
+          }
         }
         cases::Snapshot result
             = particle_snapshot(dis, step, time, temperature, solid_fraction);

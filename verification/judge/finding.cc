@@ -8,12 +8,30 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 namespace meltfront::verification
 {
   namespace
   {
     using cases::nan;
+
+    /** Bounds on both sides tell what an order was, of a clean fit or not. */
+    bool brackets_order(const cases::Criterion &criterion)
+    {
+      return criterion.statistic == cases::Statistic::order
+             && std::isfinite(criterion.lower) && std::isfinite(criterion.upper);
+    }
+
+    bool judge_bracket(const MatrixResult &result, const StoredCase &record,
+                       cases::Criterion criterion)
+    {
+      const double lower = criterion.lower;
+      criterion.lower = -std::numeric_limits<double>::infinity(); // asks no convergence
+      const Judgement judgement = judge(result, record, criterion);
+      return judgement.passed && judgement.value >= lower;
+    }
 
     EvidenceResult judged(const MatrixResult &result, const Evidence &evidence)
     {
@@ -22,7 +40,9 @@ namespace meltfront::verification
         if(label_matches(evidence.cases, record.name())
            && why_not_judged(result, record, evidence.criterion).empty())
         {
-          const Judgement judgement = judge(result, record, evidence.criterion);
+          Judgement judgement = judge(result, record, evidence.criterion);
+          if(brackets_order(evidence.criterion))
+            judgement.passed = judge_bracket(result, record, evidence.criterion);
           values.values.push_back(
               {record.name(), judgement.value, judgement.passed, judgement.remark});
         }
@@ -35,7 +55,10 @@ namespace meltfront::verification
         return "(not measured)";
       const std::string least = fmt::format("{:.3g}", evidence.least()),
                         greatest = fmt::format("{:.3g}", evidence.greatest());
-      return least == greatest ? least : least + " to " + greatest;
+      const auto remark = std::ranges::find_if(evidence.values, [](const auto &value)
+                                               { return !value.remark.empty(); });
+      return (least == greatest ? least : least + " to " + greatest)
+             + (remark == evidence.values.end() ? "" : " (" + remark->remark + ")");
     }
   } // namespace
 

@@ -189,7 +189,8 @@ namespace meltfront::particles::testing
     {
       try
       {
-        run(*make_sph_two_population_2005(), nitrate_slab(91800), 60);
+        run(*make_sph_two_population_2005(), nitrate_slab(91800), 60,
+            {{"step_limit", "printed"}});
         FAIL() << "no blow-up";
       }
       catch(const cases::NumericalError &error)

@@ -54,8 +54,6 @@ namespace meltfront::verification::claims
                                              : 16; // a power of two
     if(published(method))
       trial.n += 1 - trial.n % 2; // particles on both walls: an even number of spacings
-    if(method == "sph-two-population-2005" && trial.scene.alloy)
-      trial.options = {{"step_factor", "0.075"}}; // the printed step breaks bounds
     if(method == "sph-2005" && trial.scene.inclusion)
       trial.options = {{"step_factor", "0.04"}};
     else if(method == "sph-2005" && dimension > 1)
