@@ -82,15 +82,15 @@ namespace meltfront::particles
                                "principle. More than 1 is for implicit steps only.",
                 1e-6, 1e6);
     if(as_published)
-      return;
-    if(as_published)
+    {
       options.add("step_limit", sph.step_limit,
                   "Steps no longer than the largest that keeps the maximum principle; or "
                   "of step_factor with no guard, as printed, which breaks bounds where a "
                   "particle has little mass.",
                   {{"monotone", StepLimit::monotone}, {"printed", StepLimit::stability}});
-    else
-      bind_step_limit(sph, options);
+      return;
+    }
+    bind_step_limit(sph, options);
     options.add("time_scheme", sph.time_scheme,
                 "Explicit Euler steps; Runge-Kutta-Legendre super steps of second order; "
                 "implicit steps of any length by backward Euler or by Crank and "

@@ -211,11 +211,16 @@ namespace meltfront::reference_fem::cut
       step = std::max(step, std::min(damping_step(), by_front));
     const double whole = scene.end_time - scene.start_time;
     if(!(step > shortest_step * whole))
-      throw cases::NumericalError(
+    {
+      const cases::NumericalError error(
           method_name, step_number + 1, state.time, "front",
           fmt::format("moves at {:.3g} m/s, for which steps would be shorter than {:g} "
                       "of the run",
                       state.speed.largest, shortest_step));
+      if(const std::string reason = why_last_body_is_lost(state); !reason.empty())
+        throw cases::Refusal(fmt::format("{}; {}", error.what(), reason));
+      throw error;
+    }
     const double rest = next_stop() - state.time;
     if(step >= rest * (1 - 1e-10))
       return rest;

@@ -65,6 +65,7 @@ namespace meltfront::reference_fem::cut
     template <typename Visit>
     void visit_vertices(const State &of, bool rim, const Visit &visit) const;
     double corner_jump(double time) const;
+    std::string why_last_body_is_lost(const State &checked) const;
     std::string why_beyond_bounds(const State &checked) const;
     double overshoot(const State &of) const;
     double tolerated_overshoot() const;

@@ -18,15 +18,14 @@ namespace meltfront::reference_fem::cut
     constexpr double overshoot_of_step = 0.25;
     constexpr double worth_halving = 0.75;
 
-    /** Cells: what is left of a phase is not resolved where it is nowhere deeper. */
-    constexpr double depth_of_last_body = 2.5;
+    /** Cells: what there is of a phase, at the start or at its end, is not resolved where
+     * it is nowhere deeper. */
+    constexpr double least_depth = 2.5;
 
     /** Of the bounds' span: walls that meet in a corner differ by more than anything
      * counts. */
     constexpr double least_corner_jump = 1e-3;
 
-    /** Both phases are to be this deep at the start, in cells. */
-    constexpr double least_depth = 1.4;
   } // namespace
 
   /** How deep solid and liquid are at their deepest (m). */
@@ -157,6 +156,20 @@ namespace meltfront::reference_fem::cut
     return most;
   }
 
+  /** Whether the last of a phase is too small for the cells, in words; else empty. */
+  std::string CutRun::why_last_body_is_lost(const State &checked) const
+  {
+    const auto [solid, liquid] = depths(checked);
+    const double least = least_depth * checked.mesh->spacing;
+    if(!checked.geometry->has(Phase::solid) || !checked.geometry->has(Phase::liquid)
+       || !(std::min(solid, liquid) < least))
+      return {};
+    return fmt::format("the last {} is {:.2g} cells deep, and what is left of a phase is "
+                       "not resolved below {:.2g}",
+                       solid < liquid ? "solid" : "liquid",
+                       std::min(solid, liquid) / checked.mesh->spacing, least_depth);
+  }
+
   /** What of the method explains temperatures beyond the bounds, empty if nothing does.
    */
   std::string CutRun::why_beyond_bounds(const State &checked) const
@@ -171,16 +184,7 @@ namespace meltfront::reference_fem::cut
       return fmt::format("walls are held weakly, and beside a corner where two differ by "
                          "{:.3g} K temperatures overshoot",
                          corner);
-    const auto [solid, liquid] = depths(checked);
-    const double least = depth_of_last_body * checked.mesh->spacing;
-    if(checked.geometry->has(Phase::solid) && checked.geometry->has(Phase::liquid)
-       && std::min(solid, liquid) < least)
-      return fmt::format(
-          "the last {} is {:.2g} cells deep, and what is left of a phase is "
-          "not resolved below {:.2g}",
-          solid < liquid ? "solid" : "liquid",
-          std::min(solid, liquid) / checked.mesh->spacing, depth_of_last_body);
-    return {};
+    return why_last_body_is_lost(checked);
   }
 
   void CutRun::check(const State &checked) const
