@@ -110,7 +110,8 @@ namespace meltfront::verification
     {
       if(levels.empty())
         return;
-      fmt::print("\nThe cheapest for a relative error of the front:\n");
+      fmt::print("\nThe cheapest for a relative error of the {}:\n",
+                 levels.front().quantity);
       for(const double wanted : errors_of_interest)
         if(const LevelError *best = cheapest_level(levels, wanted))
           fmt::print("  {:.0e}  {} n = {} in {}D, {:.2g} s\n", wanted, best->label,
@@ -156,6 +157,7 @@ namespace meltfront::verification
         ;
     else
       growth.make_all(arguments.resolutions);
+    growth.check_steps();
     growth.conclude(remarks_on(growth, found),
                     [&](MatrixResult &result) { write_results(result, directory); });
     const std::vector<Answer> answers = tell_answers(growth.result(), directory);

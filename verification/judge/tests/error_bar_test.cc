@@ -162,12 +162,12 @@ TEST(ErrorBar, KnowsTheSchemeOfARun)
   RunRecord run;
   run.method = "fem-fitted";
   run.options = {{"degree", "3"}, {"time_scheme", "radau3"}};
-  EXPECT_EQ(bar_constants(run).order_in_space, 6);
+  EXPECT_EQ(bar_constants(run).front.order, 6);
   EXPECT_EQ(bar_constants(run).order_in_time, 3);
   run.method = "rkpm-tracked";
   run.options = {{"time_scheme", "backward-euler"}};
   EXPECT_EQ(bar_constants(run).order_in_time, 1);
-  EXPECT_EQ(bar_constants(run).factor, 2);
+  EXPECT_EQ(bar_constants(run).front.factor, 2);
   run.method = "a method of tomorrow";
-  EXPECT_EQ(bar_constants(run).factor, 2.5);
+  EXPECT_EQ(bar_constants(run).front.factor, 2.5);
 }
