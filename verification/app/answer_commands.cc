@@ -23,6 +23,10 @@ namespace meltfront::verification
     /** A comparison looks at many runs: each is repeated little. */
     constexpr RepeatPolicy few_repeats{3, 0.2, 0.5};
 
+    /** Of the time left that a stage of levels may take: the rest is for runs at half the
+     * step. */
+    constexpr double share_of_levels = 0.75;
+
     CapableMethods methods_for(const cases::Case &c)
     {
       std::vector<const cases::Method *> all;
@@ -153,7 +157,7 @@ namespace meltfront::verification
     LadderGrowth growth = growth_of(arguments.case_name, c, title, found, directory,
                                     arguments.jobs, arguments.memory, arguments.within);
     if(arguments.resolutions.empty())
-      while(growth.grow())
+      while(growth.grow(share_of_levels))
         ;
     else
       growth.make_all(arguments.resolutions);

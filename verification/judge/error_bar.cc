@@ -122,11 +122,11 @@ namespace meltfront::verification
       const bool line = run.description.dimension == 1;
       BarConstants constants;
       constants.order_in_time = 2;
-      constants.in_cells = true;
       if(run.method == "sph")
       {
         const BarTrust trust = line ? BarTrust{1.5, 1.25} : BarTrust{1, 1.25, true};
-        constants.front = constants.volume = constants.heat = trust;
+        constants.front = constants.volume = trust;
+        constants.heat = {trust.order, trust.factor, true};
         constants.temperature = line ? BarTrust{1.5, 1.5} : BarTrust{1, 1, true};
         return constants;
       }
@@ -152,19 +152,23 @@ namespace meltfront::verification
         {"sph-mixture", {2, 1.5, {2, 1.5}}},
         {"sph-two-population", {2, 1.5, {2, 1.5}}},
         {"rkpm-tracked", {2, 2, {2, 1.5}}},
-        {"sph-2005", {0.75, 2, {0.75, 2}, 1}},
-        {"sph-two-population-2005", {0.75, 2, {0.75, 2}, 1}},
-        {"fem-cut", {2, 1.5, {2, 1.5}}}};
+        {"sph-2005", {0.75, 2, {0.75, 2, true}, 1}},
+        {"sph-two-population-2005", {0.75, 2, {0.75, 2, true}, 1}},
+        {"fem-cut", {2, 1.5, {2, 1.25}}},
+        {"voronoi-fv", {2, 2.5, {2, 1.5}}}};
     const auto found = methods.find(run.method);
-    Known known = found == methods.end() ? Known{2, 2.5, {2, 1.5}} : found->second;
+    Known known = found == methods.end() ? Known{2, 2.5, {2, 1.25}} : found->second;
     BarConstants constants;
     if(run.method == "fem-fitted")
     {
-      const double order = 2 * std::max(1., option(run, "degree"));
-      known = {order, 1.5, {order, 1.5}};
+      // At the front it is superconvergent; elsewhere polynomials of its degree are not.
+      const double degree = std::max(1., option(run, "degree"));
+      known = {2 * degree, 1.5, {degree + 1, 1.25, true}};
       constants.floor = floor_of_fitted;
     }
     constants.front = constants.volume = constants.heat = {known.order, known.factor};
+    if(run.method == "rkpm-tracked")
+      constants.heat.factor = 1.5;
     constants.temperature = known.temperature;
     constants.order_in_time
         = known.order_in_time > 0 ? known.order_in_time : scheme_order(run);

@@ -24,9 +24,6 @@ namespace meltfront::verification
   {
     BarTrust front, volume, heat, temperature;
     double order_in_time; ///< of the time scheme in use
-    /** A front stands in a cell or particle and then jumps: the differences of values at
-     * the end are the larger of those over all times and over their second half. */
-    bool in_cells = false;
     /** Of a quantity's size, below which nothing is told: round-off, or what the method's
      * solver leaves. */
     double floor = 1e-12;

@@ -147,19 +147,6 @@ namespace meltfront::verification
       double to_finest = 1; ///< error of the finest level's step over that of runs[0]
     };
 
-    /** D of values at the end between neighbouring levels. */
-    Values end_differences(const CommonCourse &course, bool in_cells)
-    {
-      Values found = course.differences(true);
-      if(in_cells)
-      {
-        const Values all = course.differences(false);
-        for(std::size_t k = 0; k < found.size(); ++k)
-          found[k] = std::max(found[k], all[k]);
-      }
-      return found;
-    }
-
     void set_error(QuantityBar &known)
     {
       if(!std::isnan(known.exact))
@@ -226,9 +213,9 @@ namespace meltfront::verification
         if(step.measured())
           recipe.time_error = step.error(
               end_of(*step.of()[0], quantity) - end_of(*step.of()[1], quantity),
-              end_differences({step.of(), quantity}, constants.in_cells).front());
-        known.bar = error_bar(
-            values, end_differences({levels, quantity}, constants.in_cells), recipe);
+              CommonCourse(step.of(), quantity).differences(true).front());
+        known.bar
+            = error_bar(values, CommonCourse(levels, quantity).differences(true), recipe);
         known.exact = exact;
         set_error(known);
         bars.push_back(known);
@@ -375,9 +362,7 @@ namespace meltfront::verification
           values.push_back(level_of(*run, ladder.in_time, run->probes[i].temperature));
         BarRecipe recipe
             = bar_recipe(constants, constants.temperature, range, ladder.in_time);
-        const bool first_order = constants.temperature.order < 1;
-        if(!first_order)
-          recipe.local_differences = differences_of_levels(i, false);
+        recipe.local_differences = differences_of_levels(i, false);
         if(step.measured())
           recipe.time_error = time_error(i);
         QuantityBar known;

@@ -56,10 +56,9 @@ namespace meltfront::verification
    *
    * Differences over time are root mean squares over 96 times between 5 per cent of the
    * common duration and its end (for values at the end over their second half), read by
-   * cubics in sqrt(t), the larger of both where BarConstants::in_cells; those of
-   * temperatures over all places, for the width over the places within a tenth of the
-   * length. The error of the time step is that of half_step, if its whole_step is one of
-   * the two finest levels used.
+   * cubics in sqrt(t); those of temperatures over all places, for the width over the
+   * places within a tenth of the length. The error of the time step is that of half_step,
+   * if its whole_step is one of the two finest levels used.
    */
   std::vector<QuantityBar> bars_of(const Ladder &ladder);
 
