@@ -124,7 +124,8 @@ TEST(Ladder, ARunAtHalfTheStepTellsTheErrorOfTheStep)
   const Ladder &ladder = ladders.front();
   EXPECT_EQ(ladder.whole_step->n, 40);
   ASSERT_TRUE(ladder.half_step);
-  const QuantityBar &front = bar_named(bars_of(ladder), "front");
+  const auto bars = bars_of(ladder);
+  const QuantityBar &front = bar_named(bars, "front");
   EXPECT_EQ(front.bar.remark, "time error measured at half the step");
   EXPECT_NEAR(front.bar.order, 2, 1e-3);
   const double space = end_of_front / 1600;
