@@ -23,6 +23,10 @@ namespace meltfront::verification
     /** A comparison looks at many runs: each is repeated little. */
     constexpr RepeatPolicy few_repeats{3, 0.2, 0.5};
 
+    /** Of the time left that a stage of levels may take: the rest is for runs at half the
+     * step. */
+    constexpr double share_of_levels = 0.75;
+
     CapableMethods methods_for(const cases::Case &c)
     {
       std::vector<const cases::Method *> all;
@@ -110,7 +114,8 @@ namespace meltfront::verification
     {
       if(levels.empty())
         return;
-      fmt::print("\nThe cheapest for a relative error of the front:\n");
+      fmt::print("\nThe cheapest for a relative error of the {}:\n",
+                 levels.front().quantity);
       for(const double wanted : errors_of_interest)
         if(const LevelError *best = cheapest_level(levels, wanted))
           fmt::print("  {:.0e}  {} n = {} in {}D, {:.2g} s\n", wanted, best->label,
@@ -152,10 +157,11 @@ namespace meltfront::verification
     LadderGrowth growth = growth_of(arguments.case_name, c, title, found, directory,
                                     arguments.jobs, arguments.memory, arguments.within);
     if(arguments.resolutions.empty())
-      while(growth.grow())
+      while(growth.grow(share_of_levels))
         ;
     else
       growth.make_all(arguments.resolutions);
+    growth.check_steps();
     growth.conclude(remarks_on(growth, found),
                     [&](MatrixResult &result) { write_results(result, directory); });
     const std::vector<Answer> answers = tell_answers(growth.result(), directory);

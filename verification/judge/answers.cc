@@ -218,6 +218,8 @@ namespace meltfront::verification
               ? errors_to_exact(labels, std::abs(answer->exact))
               : errors_to_consensus(labels, *answer, course);
     std::erase_if(errors, [](const LevelError &one) { return !(one.error > 0); });
+    for(LevelError &one : errors)
+      one.quantity = front ? "front" : "solid volume";
     return errors;
   }
 

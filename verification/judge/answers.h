@@ -51,6 +51,7 @@ namespace meltfront::verification
     int dimension = 1;
     double error = cases::nan; ///< relative to the quantity's size at the end
     double cpu_seconds = 0;
+    std::string quantity{}; ///< of which: `front` or `solid volume`
   };
 
   /**

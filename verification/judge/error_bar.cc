@@ -20,6 +20,9 @@ namespace meltfront::verification
     constexpr double steps_refined = 1.1;    ///< ratio of steps: less is not refined
     constexpr double factor_of_two_levels = 2;
     constexpr double spread_factor = 3;
+    /** What Newton's method leaves of fem-fitted's values over some hundred steps, of
+     * their size: errors of ladders that no longer fall are up to 7e-10. */
+    constexpr double floor_of_fitted = 1e-9;
     /** Two levels whose values differ by less than this share of h may agree by chance;
      * 90 per cent of errors of position are below this share of h then. */
     constexpr double chance_share = 1e-3, error_share = 0.05;
@@ -48,6 +51,11 @@ namespace meltfront::verification
     {
       if(recipe.in_time)
         return recipe.order_in_time;
+      if(std::isfinite(recipe.time_error))
+      {
+        remark = "time error measured at half the step";
+        return recipe.highest_order;
+      }
       const double steps = static_cast<double>(std::max(finest.steps, 1L))
                            / static_cast<double>(std::max(coarser.steps, 1L));
       if(steps < steps_refined)
@@ -60,50 +68,126 @@ namespace meltfront::verification
       return std::min(recipe.highest_order, std::max(1., in_time));
     }
 
-    ErrorBar bar_of_two(const BarLevel &finest, const BarLevel &coarser, double d,
-                        double norm, const BarRecipe &recipe)
+    double time_error(const BarRecipe &recipe)
+    {
+      return std::isfinite(recipe.time_error) ? recipe.time_error : 0;
+    }
+
+    /** sqrt((d^2 + D^2)/2) */
+    double with_norm(double difference, double norm)
+    {
+      return std::isnan(norm) ? std::abs(difference)
+                              : std::sqrt((difference * difference + norm * norm) / 2);
+    }
+
+    /** Of the finest of all levels, if it falls as h^p, by a level and the next finer. */
+    double error_by_pair(std::span<const BarLevel> levels, std::size_t coarser,
+                         double width, double p)
+    {
+      const double d = levels[coarser].value - levels[coarser + 1].value;
+      return with_norm(d, width) * std::pow(levels.back().spacing, p)
+             / (std::pow(levels[coarser].spacing, p)
+                - std::pow(levels[coarser + 1].spacing, p));
+    }
+
+    ErrorBar bar_of_two(const BarLevel &finest, const BarLevel &coarser, double norm,
+                        const BarRecipe &recipe)
     {
       ErrorBar result;
       result.levels = 2;
       result.converging = true;
       result.value = finest.value;
       result.order = std::min(1., order_cap(finest, coarser, recipe, result.remark));
+      const double d = std::abs(finest.value - coarser.value);
       // Whether terms of the error cancel at a place only a third level could tell.
-      const double width = std::fmax(norm, recipe.local_difference);
-      const double a = std::isnan(width) ? d : std::sqrt((d * d + width * width) / 2);
-      result.bar = factor_of_two_levels * a
-                   / (std::pow(coarser.spacing / finest.spacing, result.order) - 1);
+      const double width = recipe.local_differences.empty()
+                               ? norm
+                               : std::fmax(norm, recipe.local_differences.back());
+      const double a = with_norm(d, width);
+      result.bar = std::max(factor_of_two_levels, recipe.factor)
+                   * (a / (std::pow(coarser.spacing / finest.spacing, result.order) - 1)
+                      + time_error(recipe));
+      result.bar = std::max(result.bar, recipe.floor * recipe.scale);
       if(std::isnan(norm) && !recipe.in_time && d <= chance_share * finest.spacing)
         result.bar = std::max(result.bar, error_share * finest.spacing);
       result.remark
           = result.remark.empty() ? "two levels" : "two levels; " + result.remark;
       return result;
     }
+
+    /** Of methods whose front stands in cells or particles: of first order in space,
+     * along a line nearly of second. */
+    BarConstants constants_in_cells(const RunRecord &run)
+    {
+      const bool line = run.description.dimension == 1;
+      BarConstants constants;
+      constants.order_in_time = 2;
+      if(run.method == "sph")
+      {
+        const BarTrust trust = line ? BarTrust{1.5, 1.25} : BarTrust{1, 1.25, true};
+        constants.front = constants.volume = trust;
+        constants.heat = {trust.order, trust.factor, true};
+        constants.temperature = line ? BarTrust{1.5, 1.5} : BarTrust{1, 1, true};
+        return constants;
+      }
+      constants.front = line ? BarTrust{1.5, 1.25} : BarTrust{1, 1.25};
+      constants.volume = line ? BarTrust{1.5, 1.25} : BarTrust{1, 1};
+      constants.heat = {1, 1.25};
+      constants.temperature = line ? BarTrust{1, 1.25} : BarTrust{1, 1, true};
+      return constants;
+    }
   } // namespace
 
   BarConstants bar_constants(const RunRecord &run)
   {
-    const double in_time = scheme_order(run);
-    static const std::map<std::string, BarConstants> known{
-        {"fem-enthalpy", {2, 2, 1.5, 1.5, 2}},
-        {"sph", {2, 2, 1.75, 1.25, 2}},
-        {"sph-mixture", {2, 0, 1.5, 2, 1.5}},
-        {"sph-two-population", {2, 0, 1.5, 2, 1.5}},
-        {"rkpm-tracked", {2, 0, 2, 2, 1.5}},
-        {"sph-2005", {0.75, 1, 2, 0.75, 2}},
-        {"sph-two-population-2005", {0.75, 1, 2, 0.75, 2}},
-        {"fem-cut", {2, 0, 1.5, 2, 1.5}}};
+    if(run.method == "fem-enthalpy" || run.method == "sph")
+      return constants_in_cells(run);
+    struct Known
+    {
+      double order, factor;
+      BarTrust temperature;
+      double order_in_time = 0; ///< 0: of the scheme
+    };
+    static const std::map<std::string, Known> methods{
+        {"sph-mixture", {2, 1.5, {2, 1.5}}},
+        {"sph-two-population", {2, 1.5, {2, 1.5}}},
+        {"rkpm-tracked", {2, 2, {2, 1.5}}},
+        {"sph-2005", {0.75, 2, {0.75, 2, true}, 1}},
+        {"sph-two-population-2005", {0.75, 2, {0.75, 2, true}, 1}},
+        {"fem-cut", {2, 1.5, {2, 1.25}}},
+        {"voronoi-fv", {2, 2.5, {2, 1.5}}}};
+    const auto found = methods.find(run.method);
+    Known known = found == methods.end() ? Known{2, 2.5, {2, 1.25}} : found->second;
+    BarConstants constants;
     if(run.method == "fem-fitted")
     {
-      const double order = 2 * std::max(1., option(run, "degree"));
-      return {order, in_time, 1.5, order, 1.5};
+      // At the front it is superconvergent; elsewhere polynomials of its degree are not.
+      const double degree = std::max(1., option(run, "degree"));
+      known = {2 * degree, 1.5, {degree + 1, 1.25, true}};
+      constants.floor = floor_of_fitted;
     }
-    const auto found = known.find(run.method);
-    BarConstants constants
-        = found == known.end() ? BarConstants{2, 0, 2.5, 2, 1.5} : found->second;
-    if(constants.order_in_time == 0)
-      constants.order_in_time = in_time;
+    constants.front = constants.volume = constants.heat = {known.order, known.factor};
+    if(run.method == "rkpm-tracked")
+      constants.heat.factor = 1.5;
+    constants.temperature = known.temperature;
+    constants.order_in_time
+        = known.order_in_time > 0 ? known.order_in_time : scheme_order(run);
     return constants;
+  }
+
+  BarRecipe bar_recipe(const BarConstants &constants, const BarTrust &trust, double scale,
+                       bool in_time)
+  {
+    BarRecipe recipe{scale, trust.order, constants.order_in_time, trust.factor, in_time};
+    recipe.all_pairs = trust.all_pairs;
+    recipe.floor = constants.floor;
+    return recipe;
+  }
+
+  double error_of_step(double difference, double norm, double ratio_of_steps,
+                       double order_in_time)
+  {
+    return with_norm(difference, norm) / (1 - std::pow(ratio_of_steps, -order_in_time));
   }
 
   double observed_order(double ratio, double r21, double r32)
@@ -142,30 +226,40 @@ namespace meltfront::verification
     const BarLevel &second = levels[count - 2];
     const double d21 = std::abs(finest.value - second.value);
     const double norm21 = differences[count - 2];
-    const double r21 = second.spacing / finest.spacing;
     if(count == 2)
-      return bar_of_two(finest, second, d21, norm21, recipe);
+      return bar_of_two(finest, second, norm21, recipe);
 
     const BarLevel &third = levels[count - 3];
     const double d32 = std::abs(second.value - third.value);
-    const bool norms = std::isfinite(norm21) && std::isfinite(differences[count - 3]);
+    const double norm32 = differences[count - 3];
+    const bool norms = std::isfinite(norm21) && std::isfinite(norm32);
     const double finer = norms ? norm21 : d21;
-    const double coarser = norms ? differences[count - 3] : d32;
-    const double width
-        = std::isnan(recipe.local_difference) ? finer : recipe.local_difference;
-    const double a = std::sqrt((d21 * d21 + width * width) / 2);
-    const double floor = round_off * recipe.scale;
+    const double coarser = norms ? norm32 : d32;
+    const double floor = recipe.floor * recipe.scale;
+    const auto width = [&](std::size_t pair)
+    {
+      return !recipe.local_differences.empty() ? recipe.local_differences[pair]
+             : norms                           ? differences[pair]
+                                               : nan;
+    };
     result.levels = 3;
     result.converging = true;
-    if(a <= floor)
+    const std::size_t coarsest_pair = recipe.all_pairs ? 0 : count - 2;
+    double largest = 0;
+    for(std::size_t pair = coarsest_pair; pair + 1 < count; ++pair)
+      largest = std::max(
+          largest, with_norm(levels[pair].value - levels[pair + 1].value, width(pair)));
+    if(largest <= floor)
     {
-      result.bar = floor;
-      result.remark = "round-off";
+      result.bar = floor + recipe.factor * time_error(recipe);
+      result.remark
+          = recipe.floor > round_off ? "at the floor of its solver" : "round-off";
       return result;
     }
     const double cap = order_cap(finest, second, recipe, result.remark);
     result.observed
-        = finer > 0 ? observed_order(coarser / finer, r21, third.spacing / second.spacing)
+        = finer > 0 ? observed_order(coarser / finer, second.spacing / finest.spacing,
+                                     third.spacing / second.spacing)
                     : cap;
     if(result.observed < converging_order && coarser > floor)
     {
@@ -175,7 +269,10 @@ namespace meltfront::verification
       return result;
     }
     result.order = std::min(std::max(result.observed, std::min(least_order, cap)), cap);
-    result.bar = recipe.factor * a / (std::pow(r21, result.order) - 1);
+    double error = 0;
+    for(std::size_t pair = coarsest_pair; pair + 1 < count; ++pair)
+      error = std::max(error, error_by_pair(levels, pair, width(pair), result.order));
+    result.bar = std::max(floor, recipe.factor * (error + time_error(recipe)));
     return result;
   }
 } // namespace meltfront::verification

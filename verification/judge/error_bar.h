@@ -10,17 +10,26 @@
 
 namespace meltfront::verification
 {
-  /** What is known of a method's errors before it runs; see verification/judge/README.md
-   * for the runs on which the factors were chosen. */
-  struct BarConstants
+  /** How far differences between levels are believed. */
+  struct BarTrust
   {
-    double order_in_space;     ///< highest that is believed, of front, volume and heat
-    double order_in_time;      ///< of the time scheme in use
-    double factor;             ///< of safety, on front, volume and heat
-    double temperature_order;  ///< highest that is believed, of temperatures
-    double temperature_factor; ///< of safety, on temperatures
+    double order;           ///< highest that is believed
+    double factor;          ///< of safety
+    bool all_pairs = false; ///< see BarRecipe
   };
 
+  /** What is known of a method's errors before it runs; see verification/judge/README.md
+   * for the runs on which it was chosen. */
+  struct BarConstants
+  {
+    BarTrust front, volume, heat, temperature;
+    double order_in_time; ///< of the time scheme in use
+    /** Of a quantity's size, below which nothing is told: round-off, or what the method's
+     * solver leaves. */
+    double floor = 1e-12;
+  };
+
+  /** By the run's method, dimension and time scheme. */
   BarConstants bar_constants(const RunRecord &run);
 
   /**
@@ -60,30 +69,47 @@ namespace meltfront::verification
     double order_in_time; ///< q_t
     double factor;        ///< F
     bool in_time = false; ///< the ladder refines time only
-    /** Of the two finest levels around the place of a value, where D_21 is over all
-     * places: the order is that of all, the width that of the place (of two levels the
-     * larger). */
-    double local_difference = cases::nan;
+    /** The largest error of the finest value of which any two neighbouring levels tell,
+     * instead of the finest two alone, which may agree by chance. */
+    bool all_pairs = false;
+    double floor = 1e-12; ///< of S: differences and bars below it are not believed
+    /** Between neighbouring levels around the place (or time) of a value, where D is over
+     * all places: the order is that of all, the width that of the place (of two levels
+     * the larger). Empty: D. */
+    std::vector<double> local_differences{};
+    /** Error of the finest value by its time step, from a run at half the step
+     * (error_of_step()); NaN where there is none. */
+    double time_error = cases::nan;
   };
+
+  BarRecipe bar_recipe(const BarConstants &constants, const BarTrust &trust, double scale,
+                       bool in_time = false);
+
+  /** The error of a value by its time step, from the difference d to a run that took r
+   * times as many steps and the root mean square D of that over time or place (NaN: d):
+   * sqrt((d^2 + D^2)/2) / (1 - r^-q), Richardson's with the scheme's order q. */
+  double error_of_step(double difference, double norm, double ratio_of_steps,
+                       double order_in_time);
 
   /**
    * The error bar of the finest value of a ladder.
    *
-   * From the three finest levels (1 the finest), with d the difference of the two finest
-   * values and D_21, D_32 root mean squares of differences over time or place, which do
-   * not vanish by chance as a single one does where a front stands in a cell and then
-   * jumps:
+   * With levels 1 (the finest), 2, 3, d the difference of two values and D the root mean
+   * square of differences over time or place, which does not vanish by chance as a single
+   * one does where a front stands in a cell and then jumps:
    *
-   *   bar = F sqrt((d^2 + D_21^2)/2) / (r_21^p - 1),
+   *   bar = F (max_k sqrt((d_k^2 + D_k^2)/2) h_1^p / (h_k+1^p - h_k^p) + e_t),
    *
-   * p solves D_32/D_21 = r_21^p (r_32^p - 1)/(r_21^p - 1), is at least 0.5, and at most
-   * p_s and, as far as the time steps were refined with h, max(1, q_t ln r_t/ln r_21)
-   * with the ratio r_t of steps; 1 where they were not. Differences at round-off, 1e-12
-   * of S, give that as the bar. Differences whose p is below 0.2 do not converge. Two
-   * levels give p = min(1, p_s, cap) and F = 2; where they hardly differ and nothing else
-   * tells, at least 0.05 h. One level gives no bar. (The classical grid convergence index
-   * of single values covers 83 per cent of the true errors of this program's methods,
-   * this one 97; see verification/judge/README.md.)
+   * k = 1, the finest two, or all neighbours (BarRecipe::all_pairs). p solves
+   * D_32/D_21 = r_21^p (r_32^p - 1)/(r_21^p - 1), is at least 0.5 and at most p_s. Where
+   * no run at half the step tells the error e_t of the time step, it is zero and p is
+   * bounded by what the steps were refined with h, too: max(1, q_t ln r_t/ln r_21) with
+   * the ratio r_t of steps; 1 where they were not. No bar is below the floor: differences
+   * there have converged. Differences whose p is below 0.2 do not converge. Two levels
+   * give p = min(1, p_s, cap) and F of at least 2; where they hardly differ and nothing
+   * else tells, at least 0.05 h. One level gives no bar. (The classical grid convergence
+   * index of single values covers 83 per cent of the true errors of this program's
+   * methods; see verification/judge/README.md.)
    *
    * @param coarse_to_fine of falling spacing
    * @param differences D between neighbouring levels, one fewer than levels; NaN where

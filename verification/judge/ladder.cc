@@ -20,8 +20,9 @@ namespace meltfront::verification
     constexpr int common_times = 96;
     constexpr double left_out_share = 0.05; ///< of the duration, at its start
     constexpr double equal_spacing = 1e-9;
-    constexpr double near_share = 0.1 + 1e-9; ///< of the length: places near another
-    constexpr double smallest_error = 1e-12;  ///< of a quantity's size
+    constexpr double near_share = 0.1 + 1e-9;    ///< of the length: places near another
+    constexpr double smallest_error = 1e-12;     ///< of a quantity's size
+    constexpr double least_ratio_of_steps = 1.5; ///< of a run at half the step
 
     using Values = std::vector<double>;
 
@@ -98,6 +99,54 @@ namespace meltfront::verification
               run.cost.steps, value};
     }
 
+    double steps_of(const RunRecord &run)
+    {
+      return static_cast<double>(std::max(run.cost.steps, 1L));
+    }
+
+    /** A level of the two finest and the same at half its step; nothing where there are
+     * none. */
+    class StepCheck
+    {
+    public:
+      StepCheck(const Ladder &ladder, const std::vector<const RunRecord *> &levels,
+                double order)
+        : order(order)
+      {
+        const auto first = levels.end() - std::min<long>(2, std::ssize(levels));
+        if(ladder.half_step
+           && std::find(first, levels.end(), ladder.whole_step) != levels.end())
+        {
+          runs = {ladder.whole_step, ladder.half_step};
+          to_finest
+              = std::pow(steps_of(*ladder.whole_step) / steps_of(*levels.back()), order);
+        }
+      }
+
+      bool measured() const
+      {
+        return !runs.empty();
+      }
+
+      const std::vector<const RunRecord *> &of() const
+      {
+        return runs;
+      }
+
+      /** Of the finest level by its time step. */
+      double error(double difference, double norm) const
+      {
+        return to_finest
+               * error_of_step(difference, norm, steps_of(*runs[1]) / steps_of(*runs[0]),
+                               order);
+      }
+
+    private:
+      double order;
+      std::vector<const RunRecord *> runs; ///< at the step and at half of it
+      double to_finest = 1; ///< error of the finest level's step over that of runs[0]
+    };
+
     void set_error(QuantityBar &known)
     {
       if(!std::isnan(known.exact))
@@ -113,6 +162,7 @@ namespace meltfront::verification
         : ladder(ladder)
         , levels(levels)
         , constants(bar_constants(*levels.back()))
+        , step(ladder, levels, constants.order_in_time)
       {
       }
 
@@ -121,12 +171,13 @@ namespace meltfront::verification
         std::vector<QuantityBar> bars;
         const RunRecord &finest = *levels.back();
         if(one_coordinate())
-          add("front", &RunSeries::front,
+          add("front", &RunSeries::front, constants.front,
               finest.series.front_exact.empty() ? nan : finest.series.front_exact.back(),
               bars);
         add_course(bars);
-        add("solid_volume", &RunSeries::solid_volume, finest.solid_volume_exact, bars);
-        add("heat", &RunSeries::heat, finest.heat_exact, bars);
+        add("solid_volume", &RunSeries::solid_volume, constants.volume,
+            finest.solid_volume_exact, bars);
+        add("heat", &RunSeries::heat, constants.heat, finest.heat_exact, bars);
         return bars;
       }
 
@@ -138,20 +189,14 @@ namespace meltfront::verification
         return probes.empty() || !probes.front().coordinate.empty();
       }
 
-      BarRecipe recipe(double scale) const
-      {
-        return {scale, constants.order_in_space, constants.order_in_time,
-                constants.factor, ladder.in_time};
-      }
-
       static double end_of(const RunRecord &run, Values RunSeries::*quantity)
       {
         const Values &values = run.series.*quantity;
         return values.empty() ? nan : values.back();
       }
 
-      void add(const char *name, Values RunSeries::*quantity, double exact,
-               std::vector<QuantityBar> &bars) const
+      void add(const char *name, Values RunSeries::*quantity, const BarTrust &trust,
+               double exact, std::vector<QuantityBar> &bars) const
       {
         std::vector<BarLevel> values;
         for(const RunRecord *run : levels)
@@ -164,8 +209,13 @@ namespace meltfront::verification
         QuantityBar known;
         known.quantity = name;
         known.scale = std::abs(values.back().value);
-        known.bar = error_bar(values, CommonCourse(levels, quantity).differences(true),
-                              recipe(known.scale));
+        BarRecipe recipe = bar_recipe(constants, trust, known.scale, ladder.in_time);
+        if(step.measured())
+          recipe.time_error = step.error(
+              end_of(*step.of()[0], quantity) - end_of(*step.of()[1], quantity),
+              CommonCourse(step.of(), quantity).differences(true).front());
+        known.bar
+            = error_bar(values, CommonCourse(levels, quantity).differences(true), recipe);
         known.exact = exact;
         set_error(known);
         bars.push_back(known);
@@ -192,7 +242,15 @@ namespace meltfront::verification
         QuantityBar known;
         known.quantity = front_course;
         known.scale = bars.back().scale;
-        known.bar = error_bar(values, differences, recipe(known.scale));
+        BarRecipe recipe
+            = bar_recipe(constants, constants.front, known.scale, ladder.in_time);
+        if(step.measured())
+        {
+          const double difference
+              = CommonCourse(step.of(), &RunSeries::front).differences(false).front();
+          recipe.time_error = step.error(difference, difference);
+        }
+        known.bar = error_bar(values, differences, recipe);
         const double rms = levels.back()->quantity("front_rms");
         if(std::isfinite(rms))
           known.error = std::max(rms, smallest_error * known.scale);
@@ -202,6 +260,7 @@ namespace meltfront::verification
       const Ladder &ladder;
       const std::vector<const RunRecord *> &levels;
       BarConstants constants;
+      StepCheck step;
     };
 
     std::string probe_name(const TemperatureProbe &probe)
@@ -228,6 +287,7 @@ namespace meltfront::verification
         : ladder(ladder)
         , levels(levels)
         , constants(bar_constants(*levels.back()))
+        , step(ladder, levels, constants.order_in_time)
       {
         const auto &probes = levels.back()->probes;
         for(std::size_t i = 0; i < probes.size(); ++i)
@@ -246,9 +306,7 @@ namespace meltfront::verification
         if(places.empty())
           return bars;
         double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-        Values differences;
-        for(std::size_t k = 0; k + 1 < levels.size(); ++k)
-          differences.push_back(difference(k, 0, true));
+        const Values differences = differences_of_levels(0, true);
         for(const std::size_t i : places)
         {
           lowest = std::min(lowest, finest(i).temperature);
@@ -265,8 +323,9 @@ namespace meltfront::verification
         return levels.back()->probes[i];
       }
 
-      /** D of a level and the next finer one over places near one of them, or all. */
-      double difference(std::size_t level, std::size_t around, bool everywhere) const
+      /** D of two runs over places near one of them, or all. */
+      double difference(const RunRecord &one, const RunRecord &other, std::size_t around,
+                        bool everywhere) const
       {
         const double length
             = distance(finest(places.front()).place, finest(places.back()).place);
@@ -274,9 +333,26 @@ namespace meltfront::verification
         for(const std::size_t i : places)
           if(everywhere
              || distance(finest(i).place, finest(around).place) <= near_share * length)
-            found.add(levels[level]->probes[i].temperature
-                      - levels[level + 1]->probes[i].temperature);
+            found.add(one.probes[i].temperature - other.probes[i].temperature);
         return found.root_mean_square();
+      }
+
+      Values differences_of_levels(std::size_t around, bool everywhere) const
+      {
+        Values differences;
+        for(std::size_t k = 0; k + 1 < levels.size(); ++k)
+          differences.push_back(
+              difference(*levels[k], *levels[k + 1], around, everywhere));
+        return differences;
+      }
+
+      double time_error(std::size_t i) const
+      {
+        const RunRecord &whole = *step.of()[0], &half = *step.of()[1];
+        if(half.probes.size() != whole.probes.size())
+          return nan;
+        return step.error(whole.probes[i].temperature - half.probes[i].temperature,
+                          difference(whole, half, i, false));
       }
 
       QuantityBar bar_at(std::size_t i, double range, const Values &differences) const
@@ -284,11 +360,11 @@ namespace meltfront::verification
         std::vector<BarLevel> values;
         for(const RunRecord *run : levels)
           values.push_back(level_of(*run, ladder.in_time, run->probes[i].temperature));
-        BarRecipe recipe{range, constants.temperature_order, constants.order_in_time,
-                         constants.temperature_factor, ladder.in_time};
-        const bool first_order = constants.temperature_order < 1;
-        if(levels.size() > 1 && !first_order)
-          recipe.local_difference = difference(levels.size() - 2, i, false);
+        BarRecipe recipe
+            = bar_recipe(constants, constants.temperature, range, ladder.in_time);
+        recipe.local_differences = differences_of_levels(i, false);
+        if(step.measured())
+          recipe.time_error = time_error(i);
         QuantityBar known;
         known.quantity = probe_name(finest(i));
         known.scale = range;
@@ -301,12 +377,49 @@ namespace meltfront::verification
       const Ladder &ladder;
       const std::vector<const RunRecord *> &levels;
       BarConstants constants;
+      StepCheck step;
       std::vector<std::size_t> places; ///< numbers of probes
     };
 
     double abscissa(const RunRecord &run, bool in_time)
     {
       return in_time ? run.description.time_step : run.description.spacing;
+    }
+
+    /** The same but for the number of steps, of which the other took more. */
+    bool halves_step(const RunRecord &whole, const RunRecord &half)
+    {
+      if(whole.n != half.n || whole.method != half.method || whole.seed != half.seed
+         || whole.case_name != half.case_name
+         || whole.description.dimension != half.description.dimension
+         || steps_of(half) < least_ratio_of_steps * steps_of(whole))
+        return false;
+      const auto without_steps = [](auto options)
+      {
+        for(const char *key : {"steps", "fewest_steps"})
+          options.erase(key);
+        return options;
+      };
+      return without_steps(whole.options) == without_steps(half.options);
+    }
+
+    /** Ladders of one run that is the check of another's step go to that one. */
+    void attach_half_steps(std::vector<Ladder> &ladders)
+    {
+      for(Ladder &single : ladders)
+      {
+        if(single.levels.size() != 1)
+          continue;
+        for(Ladder &ladder : ladders)
+          if(ladder.levels.size() > 1 && !ladder.in_time)
+            for(const RunRecord *level : ladder.levels)
+              if(!single.levels.empty() && halves_step(*level, *single.levels.front()))
+              {
+                ladder.whole_step = level;
+                ladder.half_step = single.levels.front();
+                single.levels.clear();
+              }
+      }
     }
   } // namespace
 
@@ -344,8 +457,24 @@ namespace meltfront::verification
       ladder.finest_failed
           = !ladder.levels.empty() && largest_ended_badly[i] > ladder.levels.back()->n;
     }
+    attach_half_steps(ladders);
     std::erase_if(ladders, [](const Ladder &ladder) { return ladder.levels.empty(); });
     return ladders;
+  }
+
+  bool hides_time_error(const Ladder &ladder)
+  {
+    if(ladder.levels.size() < 2 || ladder.in_time)
+      return false;
+    const RunRecord &finest = *ladder.levels.back();
+    const RunRecord &second = *ladder.levels[ladder.levels.size() - 2];
+    const BarConstants constants = bar_constants(finest);
+    const double in_time
+        = constants.order_in_time * std::log(steps_of(finest) / steps_of(second))
+          / std::log(second.description.spacing / finest.description.spacing);
+    // Steps are whole numbers: a ratio a little short of that of h is joint, too.
+    constexpr double whole_steps = 0.9;
+    return in_time < whole_steps * constants.front.order;
   }
 
   std::vector<QuantityBar> bars_of(const Ladder &ladder)

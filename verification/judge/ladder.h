@@ -19,10 +19,20 @@ namespace meltfront::verification
     std::vector<const RunRecord *> levels;
     bool in_time = false;       ///< its levels differ in time step only
     bool finest_failed = false; ///< a finer one was refused or failed
+    /** One of the levels and a run that differs from it by about half the time step only;
+     * null where there is none. */
+    const RunRecord *whole_step = nullptr, *half_step = nullptr;
   };
 
-  /** All ladders of a result that have a finished run, in the order of the runs. */
+  /** All ladders of a result that have a finished run, in the order of the runs. A label
+   * of one run that halves the step of another label's level is that ladder's half_step
+   * and none of its own. */
   std::vector<Ladder> ladders_of(const MatrixResult &result);
+
+  /** Whether the steps of its two finest levels were refined so little with space that
+   * the highest order of its errors cannot be believed: a run at half the step would
+   * tell more. False for one level. */
+  bool hides_time_error(const Ladder &ladder);
 
   /** A quantity of a run with its error bar. */
   struct QuantityBar
@@ -47,7 +57,8 @@ namespace meltfront::verification
    * Differences over time are root mean squares over 96 times between 5 per cent of the
    * common duration and its end (for values at the end over their second half), read by
    * cubics in sqrt(t); those of temperatures over all places, for the width over the
-   * places within a tenth of the length.
+   * places within a tenth of the length. The error of the time step is that of half_step,
+   * if its whole_step is one of the two finest levels used.
    */
   std::vector<QuantityBar> bars_of(const Ladder &ladder);
 

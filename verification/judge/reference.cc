@@ -55,11 +55,12 @@ namespace meltfront::verification
             {refinement.of(**run), (*run)->cost.steps, (*run)->quantity(name)});
       }
       const BarConstants constants = bar_constants(*levels.front());
-      const ErrorBar bar
-          = error_bar(values, differences,
-                      {std::abs(values.back().value), constants.order_in_space,
-                       constants.order_in_time, constants.factor, refinement.in_time()});
-      return bar.bar;
+      const BarTrust &trust
+          = name.starts_with("solid_volume") ? constants.volume : constants.front;
+      return error_bar(values, differences,
+                       bar_recipe(constants, trust, std::abs(values.back().value),
+                                  refinement.in_time()))
+          .bar;
     }
 
     ReferenceTrust trust_in(const StoredCase &record,
@@ -108,7 +109,7 @@ namespace meltfront::verification
         const double error
             = std::abs(run.quantity(trust.quantity) - trust.values.front());
         run.quantities[trust.quantity + "_error"] = error;
-        run.quantities[trust.quantity + "_bars"] = error / trust.convergence.uncertainty;
+        run.quantities[trust.quantity + "_bars"] = error / trust.bar;
       }
       run.quantities[series_error] = series_difference(run.series, reference.series);
     }
@@ -140,7 +141,7 @@ namespace meltfront::verification
       if(levels.size() < levels_of_index)
         result.omissions.push_back(named(record)
                                    + " has fewer than two coarser runs beside it: its "
-                                     "uncertainty is not known");
+                                     "error bar is that of two levels or none");
       std::vector<ReferenceTrust> trusts;
       for(const Quantity &known : all_quantities())
         if(known.compared && std::isfinite(levels.front()->quantity(known.name)))

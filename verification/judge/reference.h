@@ -20,9 +20,9 @@ namespace meltfront::verification
    * itself:
    *
    * X_error = |X - X_ref| for every X with Quantity::compared;
-   * X_bars = X_error over the uncertainty of X_ref, the grid convergence index of the
-   * three finest runs of the reference's label, itself the finest (extrapolate()): at or
-   * below 1, the reference cannot tell the run from itself;
+   * X_bars = X_error over the error bar of X_ref from the three finest runs of the
+   * reference's label, itself the finest (error_bar()): at or below 1, the reference
+   * cannot tell the run from itself;
    * solid_volume_rms_error: root mean square over the run's series, at least 50 times, of
    * the difference from the reference's series at these times, which is interpolated.
    *

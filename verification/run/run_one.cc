@@ -181,4 +181,13 @@ namespace meltfront::verification
     }
     return record;
   }
+
+  std::string steps_option(const cases::Options &options)
+  {
+    for(const char *key : {"steps", "fewest_steps"})
+      if(std::ranges::find(options.declarations(), key, &cases::OptionDeclaration::key)
+         != options.declarations().end())
+        return key;
+    return {};
+  }
 } // namespace meltfront::verification

@@ -24,6 +24,10 @@ namespace meltfront::verification
                         const std::map<std::string, std::string> &set_options,
                         int threads);
 
+  /** The option by which a method is told its number of steps, `steps`, or the least
+   * number, `fewest_steps`; empty where it has neither. */
+  std::string steps_option(const cases::Options &options);
+
   /**
    * Run one method on one case and measure it.
    *

@@ -131,6 +131,46 @@ TEST(ErrorBar, RoundOffIsItsFloor)
   EXPECT_EQ(bar.bar, 2e-12);
 }
 
+TEST(ErrorBar, AtTheFloorOfItsSolverALabelHasConverged)
+{
+  // Differences that grow, of 1e-10 of the size.
+  const std::vector<BarLevel> levels{
+      {.1, 10, 2.}, {.05, 20, 2. + 1e-10}, {.025, 40, 2. - 2e-10}};
+  BarRecipe recipe{2., 8, 5, 1.5};
+  EXPECT_FALSE(error_bar(levels, std::vector{1e-10, 3e-10}, recipe).converging);
+  recipe.floor = 1e-9;
+  const ErrorBar bar = error_bar(levels, std::vector{1e-10, 3e-10}, recipe);
+  EXPECT_TRUE(bar.converging);
+  EXPECT_EQ(bar.bar, 2e-9);
+  EXPECT_EQ(bar.remark, "at the floor of its solver");
+}
+
+TEST(ErrorBar, AllPairsDoNotBelieveTheFinestTwoThatAgreeByChance)
+{
+  // f = 1 + h but for the finest, which agrees with the second by chance.
+  const std::vector<BarLevel> levels{{.1, 10, 1.1}, {.05, 20, 1.05}, {.025, 40, 1.05}};
+  const std::vector<double> differences{.05, .0125};
+  BarRecipe recipe{1., 1, 2, 1.25};
+  const double finest = error_bar(levels, differences, recipe).bar;
+  EXPECT_NEAR(finest, 1.25 * .0125 / std::sqrt(2.), 1e-12);
+  recipe.all_pairs = true;
+  EXPECT_NEAR(error_bar(levels, differences, recipe).bar, 1.25 * .025, 1e-12);
+}
+
+TEST(ErrorBar, ARunAtHalfTheStepFreesTheOrderAndAddsItsError)
+{
+  // Spatial differences of order 4 at equal steps; the step's error is 1e-6.
+  const std::vector<BarLevel> levels{
+      {.1, 50, 1 + 256e-6}, {.05, 50, 1 + 16e-6}, {.025, 50, 1 + 1e-6}};
+  BarRecipe recipe{1., 4, 5, 1.5};
+  EXPECT_GT(error_bar(levels, std::vector{none, none}, recipe).bar, 20e-6);
+  recipe.time_error = error_of_step(31e-6 / 32, none, 2, 5);
+  EXPECT_NEAR(recipe.time_error, 1e-6, 1e-15);
+  const ErrorBar bar = error_bar(levels, std::vector{none, none}, recipe);
+  EXPECT_NEAR(bar.bar, 1.5 * 2e-6, 1e-12);
+  EXPECT_EQ(bar.remark, "time error measured at half the step");
+}
+
 TEST(ErrorBar, ValuesWithoutNormsUseTheirDifferences)
 {
   // f = 1 + h^2: the bar is F times the exact error.
@@ -162,12 +202,12 @@ TEST(ErrorBar, KnowsTheSchemeOfARun)
   RunRecord run;
   run.method = "fem-fitted";
   run.options = {{"degree", "3"}, {"time_scheme", "radau3"}};
-  EXPECT_EQ(bar_constants(run).order_in_space, 6);
+  EXPECT_EQ(bar_constants(run).front.order, 6);
   EXPECT_EQ(bar_constants(run).order_in_time, 3);
   run.method = "rkpm-tracked";
   run.options = {{"time_scheme", "backward-euler"}};
   EXPECT_EQ(bar_constants(run).order_in_time, 1);
-  EXPECT_EQ(bar_constants(run).factor, 2);
+  EXPECT_EQ(bar_constants(run).front.factor, 2);
   run.method = "a method of tomorrow";
-  EXPECT_EQ(bar_constants(run).factor, 2.5);
+  EXPECT_EQ(bar_constants(run).front.factor, 2.5);
 }

@@ -101,6 +101,53 @@ TEST(Ladder, SeedsAreLaddersOfTheirOwn)
   EXPECT_EQ(ladders_of(result).size(), 2u);
 }
 
+TEST(Ladder, ARunAtHalfTheStepTellsTheErrorOfTheStep)
+{
+  MatrixResult result = made_result({10, 20, 40});
+  for(RunRecord &run : result.runs)
+    run.cost.steps = 50;
+  EXPECT_TRUE(hides_time_error(ladders_of(result).front()));
+  const double hidden = bar_named(bars_of(ladders_of(result).front()), "front").bar.bar;
+  // Backward Euler whose error is 1e-4 t.
+  RunRecord half = made_run(40, 1);
+  half.label = "rkpm-tracked[steps=100]";
+  half.options["steps"] = "100";
+  half.cost.steps = 100;
+  for(RunRecord &run : result.runs)
+    run.options = {{"steps", "50"}, {"time_scheme", "backward-euler"}};
+  half.options["time_scheme"] = "backward-euler";
+  for(std::size_t i = 0; i < half.series.time.size(); ++i)
+    half.series.front[i] -= .5e-4 * half.series.time[i];
+  result.runs.push_back(half);
+  const auto ladders = ladders_of(result);
+  ASSERT_EQ(ladders.size(), 1u) << "it is no answer of its own";
+  const Ladder &ladder = ladders.front();
+  EXPECT_EQ(ladder.whole_step->n, 40);
+  ASSERT_TRUE(ladder.half_step);
+  const auto bars = bars_of(ladder);
+  const QuantityBar &front = bar_named(bars, "front");
+  EXPECT_EQ(front.bar.remark, "time error measured at half the step");
+  EXPECT_NEAR(front.bar.order, 2, 1e-3);
+  const double space = end_of_front / 1600;
+  EXPECT_LT(front.bar.bar, 2 * (space + 1e-4) * (1 + 1e-6));
+  EXPECT_GT(front.bar.bar, 2 * (space + 1e-4) * .85);
+  EXPECT_LT(front.bar.bar, hidden);
+  // It says nothing of ladders that do not reach the level.
+  Ladder coarse = ladder;
+  coarse.levels.resize(2);
+  EXPECT_EQ(bar_named(bars_of(coarse), "front").bar.remark,
+            "two levels; time step not refined: its error is not measured");
+  // Other options are another method.
+  result.runs.back().options["time_scheme"] = "bdf2";
+  EXPECT_FALSE(ladders_of(result).front().half_step);
+}
+
+TEST(Ladder, StepsRefinedWithSpaceHideNothing)
+{
+  EXPECT_FALSE(hides_time_error(ladders_of(made_result({10, 20, 40})).front()));
+  EXPECT_FALSE(hides_time_error(ladders_of(made_result({10})).front()));
+}
+
 TEST(Ladder, OneLevelHasNoBar)
 {
   const MatrixResult result = made_result({10});

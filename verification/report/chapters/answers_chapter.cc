@@ -119,7 +119,7 @@ namespace meltfront::verification
     {
       Table table;
       table.group_heading = "";
-      table.columns = {{"relative error of the front", "", false},
+      table.columns = {{"relative error of the " + levels.front().quantity, "", false},
                        {"cheapest", "", false},
                        {"n", "", true},
                        {"dimension", "", true},
@@ -151,7 +151,7 @@ namespace meltfront::verification
                        {"most accurate", "", false},
                        {"n", "", true},
                        {"dimension", "", true},
-                       {"relative error of the front", "", true}};
+                       {"relative error of the " + levels.front().quantity, "", true}};
       RowGroup group;
       for(const double seconds : times_of_interest)
         if(const LevelError *best = most_accurate_level(levels, seconds))
@@ -202,8 +202,9 @@ namespace meltfront::verification
     return content + element("h3", "All answers")
            + element("p",
                      "Values at the end of the finest run of each method, with error "
-                     "bars from its levels. A distance above 1 bar contradicts the "
-                     "consensus.")
+                     "bars from its levels; where the time step was not refined with "
+                     "them, also from a run at half the step. A distance above 1 bar "
+                     "contradicts the consensus.")
            + table_markup(answers_table(answers));
   }
 } // namespace meltfront::verification

@@ -59,7 +59,7 @@ namespace meltfront::verification
   Markup orders_chapter(const ReportContext &context);
 
   /** The reference run of a case without exact solution and how far it can be trusted:
-   * finest three values, observed order, Richardson's limit, grid convergence index. */
+   * finest three values, observed order, Richardson's limit, error bar. */
   Markup reference_of_case(const ReportContext &context, const CaseRuns &runs);
 
   /** Case by label: held, refused or failed; empty without verdicts. */

@@ -47,7 +47,6 @@ namespace meltfront::verification
         table.columns.push_back({fmt::format("n = {}", *n), "", true});
       table.columns.push_back({"observed order", "", false});
       table.columns.push_back({"Richardson's limit", "", true});
-      table.columns.push_back({"GCI", "", true});
       table.columns.push_back({"error bar", "", true});
       table.columns.push_back({"course", "", false});
       RowGroup &group = table.groups.emplace_back();
@@ -59,8 +58,6 @@ namespace meltfront::verification
           row.push_back({number_text(*value, digits)});
         row.push_back({order_text(*trust)});
         row.push_back({number_text(trust->convergence.extrapolated, digits)});
-        row.push_back(
-            {number_text(trust->convergence.uncertainty, 2, Notation::scientific)});
         row.push_back({number_text(trust->bar, 2, Notation::scientific)});
         row.push_back({std::string(course_of(*trust))});
       }
@@ -69,14 +66,14 @@ namespace meltfront::verification
 
     std::string trust_csv(const std::vector<const ReferenceTrust *> &trusts)
     {
-      std::string csv = "quantity,n,abscissa,value,order,limit,gci,monotone\n";
+      std::string csv = "quantity,n,abscissa,value,order,limit,bar,monotone\n";
       for(const ReferenceTrust *trust : trusts)
         for(std::size_t i = 0; i < trust->values.size(); ++i)
         {
           csv += fmt::format("{},{}", trust->quantity, trust->n[i]);
           for(const double value :
               {trust->abscissa[i], trust->values[i], trust->convergence.order,
-               trust->convergence.extrapolated, trust->convergence.uncertainty})
+               trust->convergence.extrapolated, trust->bar})
             csv += std::isnan(value) ? ",nan" : fmt::format(",{:.16g}", value);
           csv += trust->convergence.monotone ? ",1\n" : ",0\n";
         }
@@ -96,15 +93,13 @@ namespace meltfront::verification
       return content
              + element("p",
                        "It did not run or did not finish: nothing was compared with it.");
-    content
-        += element("h4", "Reference uncertainty (GCI)")
-           + table_markup(trust_table(trusts))
-           + linked_csv(context, record.name() + "-reference", trust_csv(trusts))
-           + element("p", {{"class", "nothing"}},
-                     text("GCI: the grid convergence index, 1.25 times the distance "
-                          "from Richardson's limit (three times the spread where the "
-                          "values are not monotone): the reference's error bar. Errors "
-                          "below that uncertainty are not significant."));
+    content += element("h4", "How far the reference can be trusted")
+               + table_markup(trust_table(trusts))
+               + linked_csv(context, record.name() + "-reference", trust_csv(trusts))
+               + element(
+                   "p", {{"class", "nothing"}},
+                   text("Error bar: as of any other run, from its label's finest three. "
+                        "Errors below it are not significant."));
     return content;
   }
 } // namespace meltfront::verification

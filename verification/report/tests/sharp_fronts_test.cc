@@ -115,7 +115,7 @@ namespace meltfront::verification
       const std::string html = directory.read("report.html");
       EXPECT_EQ(fixture::first_mistake(html), "");
       for(const char *words :
-          {"Reference uncertainty (GCI)", "Richardson", "solid_volume_end",
+          {"How far the reference can be trusted", "Richardson", "solid_volume_end",
            "front_mode_end", "Orders of the time schemes",
            "Orders of the elements by degree", "time step dt",
            "The front that fem-fitted tracked at n = 80, at t = 0.5, 1",

@@ -142,12 +142,10 @@ namespace meltfront::verification
       }
       const BarConstants constants = bar_constants(*full.back());
       const bool temperature = *quantity.bar == '\0';
-      return error_bar(
-                 levels, differences,
-                 {std::abs(levels.back().value),
-                  temperature ? constants.temperature_order : constants.order_in_space,
-                  constants.order_in_time,
-                  temperature ? constants.temperature_factor : constants.factor})
+      return error_bar(levels, differences,
+                       bar_recipe(constants,
+                                  temperature ? constants.temperature : constants.front,
+                                  std::abs(levels.back().value)))
           .bar;
     }
 

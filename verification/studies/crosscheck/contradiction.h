@@ -2,7 +2,7 @@
 #define meltfront_verification_studies_crosscheck_contradiction_h
 
 #include <cases/material.h>
-#include <verification/studies/crosscheck/error_bar.h>
+#include <verification/studies/crosscheck/estimate.h>
 #include <verification/studies/crosscheck/level_runs.h>
 
 #include <map>

@@ -190,15 +190,6 @@ namespace meltfront::verification
       run.course = json.at("course");
   }
 
-  std::string steps_option(const cases::Options &options)
-  {
-    for(const char *key : {"steps", "fewest_steps"})
-      if(std::ranges::find(options.declarations(), key, &cases::OptionDeclaration::key)
-         != options.declarations().end())
-        return key;
-    return {};
-  }
-
   std::vector<LevelRun> make_level_runs(const cases::Case &c,
                                         const std::vector<LevelPlan> &plan,
                                         const LevelLimits &limits)

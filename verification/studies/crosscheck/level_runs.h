@@ -36,10 +36,6 @@ namespace meltfront::verification
     long steps = 0; ///< of its steps_option(); 0: as many as it takes by itself
   };
 
-  /** The option by which a method is told its number of steps, `steps`, or the least
-   * number, `fewest_steps`; empty where it has neither. */
-  std::string steps_option(const cases::Options &options);
-
   /** How runs are made. */
   struct LevelLimits
   {

@@ -1,5 +1,6 @@
 #include <cases/effect_bounds.h>
 #include <cases/error.h>
+#include <verification/run/run_one.h>
 #include <verification/studies/crosscheck/scene_check.h>
 
 #include <algorithm>

@@ -143,7 +143,7 @@ namespace meltfront::verification
         }
         differences.push_back(std::sqrt(squares) / (highest - lowest));
       }
-      const double order = bar_constants(*ladder.levels.back()).temperature_order;
+      const double order = bar_constants(*ladder.levels.back()).temperature.order;
       return model_of(resolutions_of(ladder), differences, order, std::min(order, 2.));
     }
 

@@ -1,4 +1,6 @@
 #include <cases/numbers.h>
+#include <verification/judge/ladder.h>
+#include <verification/run/run_one.h>
 #include <verification/studies/ladders/ladder_growth.h>
 #include <verification/studies/ladders/method_priors.h>
 
@@ -18,11 +20,17 @@ namespace meltfront::verification
     constexpr double refinement_of_line = 2, refinement_of_plane = 1.5;
     /** Predictions of the growth are within 2 in 9 of 10. */
     constexpr double safety = 1.5;
-    constexpr double shortest_limit = 1; // s
+    constexpr double shortest_limit = 1;    // s
+    constexpr double cost_of_half_step = 2; ///< over the run at the whole step
 
     double seconds_of(const RunRecord &run)
     {
       return run.cost.setup_wall + run.cost.stepping_wall;
+    }
+
+    std::string steps_option_of(const cases::Method &method)
+    {
+      return steps_option(cases::Options(method.option_declarations()));
     }
 
     int next_resolution(const RunRecord &finest)
@@ -82,6 +90,13 @@ namespace meltfront::verification
         block.cases = {case_name};
         block.methods = {ladder.method->name()};
         block.resolutions = ladder.resolutions;
+        matrix.blocks.push_back(block);
+        if(ladder.checked == 0)
+          continue;
+        block.resolutions = {ladder.checked};
+        block.options = {{ladder.method->name(),
+                          steps_option_of(*ladder.method),
+                          {std::to_string(ladder.checked_steps)}}};
         matrix.blocks.push_back(std::move(block));
       }
     return matrix;
@@ -197,6 +212,52 @@ namespace meltfront::verification
       if(one.ladder->stopped.empty())
         drop_ended(*one.ladder);
     return true;
+  }
+
+  void LadderGrowth::check_steps()
+  {
+    const double jobs = options.jobs > 0
+                            ? options.jobs
+                            : std::max(1u, std::thread::hardware_concurrency());
+    double left = jobs * seconds_left();
+    for(const Ladder &known : ladders_of(made))
+      for(GrowingLadder &ladder : growing)
+      {
+        if(ladder.method->name() != known.label || !hides_time_error(known)
+           || steps_option_of(*ladder.method).empty())
+          continue;
+        for(std::size_t back = 1; back <= 2 && ladder.checked == 0; ++back)
+        {
+          const RunRecord &level = *known.levels[known.levels.size() - back];
+          const double seconds = safety * cost_of_half_step * seconds_of(level);
+          if(seconds > std::min(left, seconds_left()))
+            continue;
+          left -= seconds;
+          ladder.checked = level.n;
+          ladder.checked_steps = 2 * level.cost.steps;
+        }
+      }
+    if(std::ranges::none_of(growing,
+                            [](const GrowingLadder &one) { return one.checked > 0; }))
+      return;
+    run({});
+    drop_checks_that_ended();
+  }
+
+  /** A check that did not finish says nothing. */
+  void LadderGrowth::drop_checks_that_ended()
+  {
+    for(GrowingLadder &ladder : growing)
+      for(const RunRecord &run : made.runs)
+        if(run.method == ladder.method->name() && run.n == ladder.checked
+           && run.label != run.method && run.status != RunStatus::finished)
+        {
+          std::filesystem::remove_all(fmt::format("{}/runs/{}/{}/n={}", options.directory,
+                                                  short_case_name(case_name), run.label,
+                                                  run.n));
+          ladder.checked = 0;
+          break;
+        }
   }
 
   void LadderGrowth::make(const cases::Method &method, int n)

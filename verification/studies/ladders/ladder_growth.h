@@ -17,6 +17,8 @@ namespace meltfront::verification
     const cases::Method *method;
     std::vector<int> resolutions;
     std::string stopped{}; ///< why no finer one follows; empty while one may
+    int checked = 0;       ///< level that is made at half its step, too; 0: none
+    long checked_steps = 0;
   };
 
   /**
@@ -54,6 +56,11 @@ namespace meltfront::verification
     /** Make these levels of every method, whatever they take. */
     void make_all(const std::vector<int> &resolutions);
 
+    /** Of every ladder whose steps were refined too little with space to tell their error
+     * (hides_time_error()), one more run of its finest level at half the step, or of the
+     * level before it where time is left for that only; none where for neither. */
+    void check_steps();
+
     double seconds_left() const;
 
     /** What has been made, each stage over again. */
@@ -79,6 +86,7 @@ namespace meltfront::verification
     Matrix matrix() const;
     void run(const std::function<void(MatrixResult &)> &what);
     void drop_ended(GrowingLadder &ladder);
+    void drop_checks_that_ended();
 
     std::string case_name;
     int coarsest; ///< level of every ladder

@@ -155,6 +155,44 @@ namespace meltfront::verification
         EXPECT_EQ(one.distance_in_bars > 1, one.label == "wrong");
     }
 
+    TEST_F(LadderTest, StepsThatAreNotRefinedAreCheckedAtTheFinestLevel)
+    {
+      // Takes 200 steps at any level.
+      class Stepping : public FakeMethod
+      {
+      public:
+        using FakeMethod::FakeMethod;
+
+        std::vector<cases::OptionDeclaration> option_declarations() const override
+        {
+          auto declarations = FakeMethod::option_declarations();
+          declarations.push_back({"steps", "1", 0., "Steps; 0: its own.", 0, 1e6});
+          return declarations;
+        }
+      };
+      add("plain", 1);
+      methods.emplace("stepping", std::make_unique<Stepping>("stepping"));
+      LadderGrowth levels = growth(600);
+      levels.make_all({20, 40});
+      levels.check_steps();
+      int checks = 0;
+      for(const RunRecord &run : levels.result().runs)
+        if(run.label != run.method)
+        {
+          ++checks;
+          EXPECT_EQ(run.label, "stepping[steps=400]");
+          EXPECT_EQ(run.n, 40);
+          EXPECT_EQ(run.status, RunStatus::finished);
+        }
+      EXPECT_EQ(checks, 1);
+      LadderGrowth late = growth(1e-3);
+      late.make_all({20, 40});
+      late.check_steps();
+      EXPECT_TRUE(std::ranges::all_of(late.result().runs, [](const RunRecord &run)
+                                      { return run.label == run.method; }))
+          << "no time is left for checks";
+    }
+
     TEST_F(LadderTest, AdviceMeetsTheErrorAndIsRun)
     {
       // The orders that the priors know.

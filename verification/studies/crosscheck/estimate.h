@@ -1,5 +1,5 @@
-#ifndef meltfront_verification_studies_crosscheck_error_bar_h
-#define meltfront_verification_studies_crosscheck_error_bar_h
+#ifndef meltfront_verification_studies_crosscheck_estimate_h
+#define meltfront_verification_studies_crosscheck_estimate_h
 
 #include <cstddef>
 #include <vector>
@@ -27,8 +27,8 @@ namespace meltfront::verification
    * short, differences of three levels show a higher one by chance. */
   inline constexpr double highest_order = 1;
 
-  /** Least order with which a difference between levels is taken for an error. */
-  inline constexpr double lowest_order = 0.5;
+  /** The order of two levels, which show none. */
+  inline constexpr double order_of_two_levels = 0.5;
 
   /** By how much a bar exceeds Richardson's estimate of the error: Roache's (1994) factor
    * for two grids. Chosen on seeds 31415, 23426 and 990017: with a factor 2 and orders up
@@ -43,20 +43,13 @@ namespace meltfront::verification
   /**
    * The value of the finest level at one of the course's times, and its error bar.
    *
-   * With levels i < j of the finest four, d the difference f_i - f_j at this time, D its
-   * root mean square over a quarter of the course around it, and a = sqrt((d^2 + D^2)/2),
-   * because a front that stands in a cell makes single differences vanish by chance:
-   *
-   *   bar = F max_ij a_ij h_1^p / (h_j^p - h_i^p) + floor,
-   *
-   * with reading_error times the scale and what the finest level may be misread by as the
-   * floor: the largest error of the finest level (1) of which any two tell: where errors
-   * fall in leaps, the finest may agree by chance. Of the finest three, the order p
-   * solves D_32/D_21 = r_21^p (r_32^p - 1)/(r_21^p - 1) for root mean squares over the
-   * whole course, bounded by lowest_order and highest_order. Levels whose differences do
-   * not shrink give three times their largest difference (`converging` is false). Two
-   * levels tell no order, nor whether terms of the error cancel at a time: p =
-   * lowest_order, and a is at least the root mean square over the whole course.
+   * error_bar() of all pairs of neighbours among the finest four levels, with
+   * safety_factor and orders up to highest_order, whatever the method: random scenes are
+   * rougher than those on which the constants of methods were chosen. Its time norm is
+   * the root mean square over the whole course, for the width over a quarter of it around
+   * the time. Added to it is a floor, reading_error times the scale and what the finest
+   * level may be misread by. Steps are refined with space (scene_check), so that
+   * differences hold the error of both.
    *
    * Levels should not double: a front that rests at x stands in its cell at the fraction
    * of n x, and doubling n leaves its distance from the cell's middle as it was.
