@@ -1,0 +1,94 @@
+#include <verification/report/tables/convergence_table.h>
+#include <verification/report/tables/growth.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    /** What the levels of a label cost, each where it finished. */
+    struct Costs
+    {
+      int dimension = 1;
+      std::vector<double> unknowns, cells, steps, work, seconds;
+    };
+
+    Costs costs_of(const LabelRuns &label)
+    {
+      Costs costs;
+      for(const Level &level : label.levels)
+        if(level.finished && level.value("unknowns") > 0)
+        {
+          const RunRecord &run = *level.finished;
+          costs.dimension = run.description.dimension;
+          costs.unknowns.push_back(level.value("unknowns"));
+          costs.cells.push_back(1 / run.description.spacing);
+          costs.steps.push_back(static_cast<double>(run.cost.steps));
+          costs.work.push_back(static_cast<double>(run.cost.work));
+          costs.seconds.push_back(run.cost.stepping_cpu);
+        }
+      return costs;
+    }
+
+    Cell theory(const Costs &costs)
+    {
+      const OrderFit steps = fit_growth(costs.cells, costs.steps);
+      if(!std::isfinite(steps.order))
+        return {NumberText()};
+      constexpr double whole = 0.15;
+      const double nearest = std::round(steps.order);
+      const bool lawful = std::abs(steps.order - nearest) < whole;
+      const double k = lawful ? nearest : steps.order;
+      return {Power{"N", fmt::format("{:.3g}", 1 + k / costs.dimension), "",
+                    lawful ? fmt::format("steps ~ h^{}", nearest == 0 ? 0 : -nearest)
+                           : fmt::format("steps as taken, h^{:.2f}", -k)}};
+    }
+  } // namespace
+
+  OrderFit fit_growth(const std::vector<double> &sizes,
+                      const std::vector<double> &amounts)
+  {
+    std::vector<double> spacings;
+    for(const double size : sizes)
+      spacings.push_back(1 / size);
+    OrderFit fit = fit_order(spacings, amounts);
+    fit.order = -fit.order;
+    if(std::isfinite(fit.order) && fit.verdict != OrderVerdict::too_few_levels)
+      fit.verdict = OrderVerdict::clean;
+    return fit;
+  }
+
+  Table growth_table(const std::vector<CaseRuns> &cases)
+  {
+    Table table;
+    table.group_heading = "case";
+    table.columns
+        = {{"method", "", false},      {"dimension", "", true}, {"levels", "", true},
+           {"CPU of steps", "", true}, {"work", "", true},      {"steps", "", true},
+           {"theory", "", true}};
+    for(const CaseRuns &runs : cases)
+    {
+      RowGroup group{runs.record->name(), {}, {}};
+      for(const LabelRuns &label : runs.labels)
+      {
+        const Costs costs = costs_of(label);
+        const OrderFit seconds = fit_growth(costs.unknowns, costs.seconds);
+        if(seconds.verdict != OrderVerdict::clean)
+          continue;
+        group.rows.push_back({{label.label},
+                              {NumberText{grouped(costs.dimension), {}}},
+                              {NumberText{grouped(seconds.levels), {}}},
+                              order_cell(seconds, "N"),
+                              order_cell(fit_growth(costs.unknowns, costs.work), "N"),
+                              order_cell(fit_growth(costs.unknowns, costs.steps), "N"),
+                              theory(costs)});
+      }
+      if(!group.rows.empty())
+        table.groups.push_back(std::move(group));
+    }
+    return table;
+  }
+} // namespace meltfront::verification
