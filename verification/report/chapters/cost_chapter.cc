@@ -218,7 +218,8 @@ namespace meltfront::verification
                  "~ h^-k: k = 2 for explicit conduction, 1 for steps in proportion to "
                  "the "
                  "spacing, 0 for a fixed number of steps; k is that of the steps that "
-                 "each method took. Work beyond that is iterations of a solver; CPU time "
+                 "each method took between its two finest levels. Work beyond that is "
+                 "iterations of a solver; CPU time "
                  "below it, overheads of the coarse levels.")
              + table_markup(table);
     }

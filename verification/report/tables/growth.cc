@@ -35,16 +35,18 @@ namespace meltfront::verification
 
     Cell theory(const Costs &costs)
     {
-      const OrderFit steps = fit_growth(costs.cells, costs.steps);
-      if(!std::isfinite(steps.order))
+      // Coarse levels may be held by a least number of steps: the law is that of the
+      // finest two, whose counts have no noise.
+      const std::size_t last = costs.steps.size() - 1;
+      const double rate = std::log(costs.steps[last] / costs.steps[last - 1])
+                          / std::log(costs.cells[last] / costs.cells[last - 1]);
+      if(!std::isfinite(rate))
         return {NumberText()};
       constexpr double whole = 0.15;
-      const double nearest = std::round(steps.order);
-      const bool lawful = std::abs(steps.order - nearest) < whole;
-      const double k = lawful ? nearest : steps.order;
+      const bool lawful = std::abs(rate - std::round(rate)) < whole;
+      const double k = lawful ? std::round(rate) : rate;
       return {Power{"N", fmt::format("{:.3g}", 1 + k / costs.dimension), "",
-                    lawful ? fmt::format("steps ~ h^{}", nearest == 0 ? 0 : -nearest)
-                           : fmt::format("steps as taken, h^{:.2f}", -k)}};
+                    fmt::format("steps ~ h^{:.3g}", 0 - k)}};
     }
   } // namespace
 
