@@ -211,7 +211,8 @@ namespace meltfront::verification
       return element("h3", "How cost grows with the number of unknowns")
              + element(
                  "p",
-                 "Exponents of the number of unknowns N over all levels, with the half "
+                 "Exponents of the number of unknowns N over the finest four levels "
+                 "(coarser ones are held by a least number of steps), with the half "
                  "width of the 95 % interval by Student's t. In d dimensions a step "
                  "whose "
                  "effort is proportional to N makes t ~ N^(1 + k/d) where the steps are "

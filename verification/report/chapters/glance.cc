@@ -53,12 +53,14 @@ namespace meltfront::verification
     {
       Tally methods;
       std::vector<double> costs;
+      bool bounds = true; // the coarsest runs are better already
       for(const CaseRuns &runs : cases)
         if(const CostAtError found = cheapest(runs, wanted);
            found.reach != Reach::not_reached)
         {
           methods.add(found.label);
           costs.push_back(found.cost);
+          bounds = bounds && found.reach == Reach::coarsest;
         }
       Markup cells = element("td", number_markup(wanted, 1));
       if(costs.empty())
@@ -70,8 +72,8 @@ namespace meltfront::verification
       if(several)
         names += fmt::format(" of {}", cases.size());
       const auto [least, most] = std::ranges::minmax(costs);
-      std::string times = duration_text(least);
-      if(duration_text(most) != times)
+      std::string times = (bounds ? "≤ " : "") + duration_text(least);
+      if(duration_text(most) != duration_text(least))
         times += " to " + duration_text(most);
       return element("tr", cells + element("td", names) + element("td", times));
     }

@@ -17,10 +17,10 @@ namespace meltfront::verification
 
   /**
    * How steps, work and the processor time of stepping grow with the number of unknowns
-   * N, for every label of four sizes or more, beside theory: a step whose effort is
-   * proportional to N gives N^(1 + k/d) in d dimensions where the method took steps ~
-   * h^-k. k is that of the label's own steps between its two finest levels, as a whole
-   * number where it is one to within 0.15.
+   * N over the finest four sizes of every label that has four, beside theory: a step
+   * whose effort is proportional to N gives N^(1 + k/d) in d dimensions where the method
+   * took steps ~ h^-k. k is that of the label's own steps between its two finest levels,
+   * as a whole number where it is one to within 0.15.
    */
   Table growth_table(const std::vector<CaseRuns> &cases);
 } // namespace meltfront::verification
