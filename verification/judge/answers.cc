@@ -126,16 +126,22 @@ namespace meltfront::verification
       if(!trusted || !answer.consensus.agreed)
         return {};
       const RunRecord *reference = nullptr;
+      double bar = trusted->bar.bar;
       for(const auto &seeds : labels)
         if(seeds.front().label == trusted->label)
+        {
           reference = seeds.front().levels.back();
+          // What is compared is the course, whose bar may be wider than that of the end.
+          for(const QuantityBar &known : bars_of(seeds.front()))
+            if(known.quantity == front_course && course == &RunSeries::front)
+              bar = std::max(bar, known.bar.bar);
+        }
       std::vector<LevelError> errors;
       for(const auto &seeds : labels)
         for(const RunRecord *run : seeds.front().levels)
           errors.push_back(
               {run->label, run->n, run->description.dimension,
-               (course_difference(*run, *reference, course) + trusted->bar.bar)
-                   / answer.scale,
+               (course_difference(*run, *reference, course) + bar) / answer.scale,
                cpu_seconds_of(*run)});
       return errors;
     }

@@ -56,10 +56,10 @@ namespace meltfront::verification
   /**
    * The error of every level: the root mean square over time of its distance from the
    * finest run of the label with the smallest bar among those that agree with the
-   * consensus, plus that bar; from the exact solution where there is one (of a run with
-   * too few times for a mean the largest distance). Of the front
-   * where it is at one coordinate, else of the solid's volume. Empty where no label has a
-   * bar, or none agree and there is no exact solution.
+   * consensus, plus the bar of its course; from the exact solution where there is one (of
+   * a run with too few times for a mean the largest distance). Of the front where it is
+   * at one coordinate, else of the solid's volume. Empty where no label has a bar, or
+   * none agree and there is no exact solution.
    */
   std::vector<LevelError> level_errors(const MatrixResult &result,
                                        const StoredCase &record);
