@@ -109,8 +109,12 @@ namespace meltfront::verification
       std::vector<LevelError> errors;
       for(const auto &seeds : labels)
         for(const RunRecord *run : seeds.front().levels)
-          errors.push_back({run->label, run->n, run->description.dimension,
-                            run->quantity("front_rms") / scale, cpu_seconds_of(*run)});
+          errors.push_back(
+              {run->label, run->n, run->description.dimension,
+               (std::isnan(run->quantity("front_rms")) ? run->quantity("front_max")
+                                                       : run->quantity("front_rms"))
+                   / scale,
+               cpu_seconds_of(*run)});
       return errors;
     }
 
@@ -122,16 +126,22 @@ namespace meltfront::verification
       if(!trusted || !answer.consensus.agreed)
         return {};
       const RunRecord *reference = nullptr;
+      double bar = trusted->bar.bar;
       for(const auto &seeds : labels)
         if(seeds.front().label == trusted->label)
+        {
           reference = seeds.front().levels.back();
+          // What is compared is the course, whose bar may be wider than that of the end.
+          for(const QuantityBar &known : bars_of(seeds.front()))
+            if(known.quantity == front_course && course == &RunSeries::front)
+              bar = std::max(bar, known.bar.bar);
+        }
       std::vector<LevelError> errors;
       for(const auto &seeds : labels)
         for(const RunRecord *run : seeds.front().levels)
           errors.push_back(
               {run->label, run->n, run->description.dimension,
-               (course_difference(*run, *reference, course) + trusted->bar.bar)
-                   / answer.scale,
+               (course_difference(*run, *reference, course) + bar) / answer.scale,
                cpu_seconds_of(*run)});
       return errors;
     }
@@ -228,16 +238,6 @@ namespace meltfront::verification
     const LevelError *best = nullptr;
     for(const LevelError &level : levels)
       if(level.error <= wanted && (!best || level.cpu_seconds < best->cpu_seconds))
-        best = &level;
-    return best;
-  }
-
-  const LevelError *most_accurate_level(const std::vector<LevelError> &levels,
-                                        double seconds)
-  {
-    const LevelError *best = nullptr;
-    for(const LevelError &level : levels)
-      if(level.cpu_seconds <= seconds && (!best || level.error < best->error))
         best = &level;
     return best;
   }

@@ -57,26 +57,20 @@ namespace meltfront::verification
   /**
    * The error of every level: the root mean square over time of its distance from the
    * finest run of the label with the smallest bar among those that agree with the
-   * consensus, plus that bar; from the exact solution where there is one. Of the front
-   * where it is at one coordinate, else of the solid's volume. Empty where no label has a
-   * bar, or none agree and there is no exact solution.
+   * consensus, plus the bar of its course; from the exact solution where there is one (of
+   * a run with too few times for a mean the largest distance). Of the front where it is
+   * at one coordinate, else of the solid's volume. Empty where no label has a bar, or
+   * none agree and there is no exact solution.
    */
   std::vector<LevelError> level_errors(const MatrixResult &result,
                                        const StoredCase &record);
 
   /** Relative errors of which the cheapest method is told. */
-  inline constexpr double errors_of_interest[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8};
+  inline constexpr double errors_of_interest[]
+      = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
 
   /** The cheapest level whose error is at most the wanted one; null if there is none. */
   const LevelError *cheapest_level(const std::vector<LevelError> &levels, double wanted);
-
-  /** Processor times (s) for which the most accurate method is told. */
-  inline constexpr double times_of_interest[] = {1e-3, 1e-2, 1e-1, 1, 10};
-
-  /** The most accurate level that takes at most so much processor time (s); null for
-   * none. */
-  const LevelError *most_accurate_level(const std::vector<LevelError> &levels,
-                                        double seconds);
 } // namespace meltfront::verification
 
 #endif

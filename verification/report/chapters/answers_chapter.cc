@@ -114,56 +114,6 @@ namespace meltfront::verification
       }
       return table;
     }
-
-    Table cheapest_table(const std::vector<LevelError> &levels)
-    {
-      Table table;
-      table.group_heading = "";
-      table.columns = {{"relative error of the " + levels.front().quantity, "", false},
-                       {"cheapest", "", false},
-                       {"n", "", true},
-                       {"dimension", "", true},
-                       {"CPU", "s", true}};
-      RowGroup group;
-      for(const double wanted : errors_of_interest)
-      {
-        const LevelError *best = cheapest_level(levels, wanted);
-        if(best)
-          group.rows.push_back({{fmt::format("{:.0e}", wanted)},
-                                {best->label},
-                                {NumberText{grouped(best->n), {}}},
-                                {NumberText{grouped(best->dimension), {}}},
-                                {prose_number(best->cpu_seconds, 2)}});
-        else
-          group.rows.push_back({{fmt::format("{:.0e}", wanted)},
-                                {std::string("not reached")},
-                                {std::string()},
-                                {std::string()},
-                                {std::string()}});
-      }
-      table.groups.push_back(std::move(group));
-      return table;
-    }
-    Table most_accurate_table(const std::vector<LevelError> &levels)
-    {
-      Table table;
-      table.columns = {{"CPU of at most", "", false},
-                       {"most accurate", "", false},
-                       {"n", "", true},
-                       {"dimension", "", true},
-                       {"relative error of the " + levels.front().quantity, "", true}};
-      RowGroup group;
-      for(const double seconds : times_of_interest)
-        if(const LevelError *best = most_accurate_level(levels, seconds))
-          group.rows.push_back({{duration_text(seconds)},
-                                {best->label},
-                                {NumberText{grouped(best->n), {}}},
-                                {NumberText{grouped(best->dimension), {}}},
-                                {number_text(best->error, 2, Notation::scientific)}});
-      if(!group.rows.empty())
-        table.groups.push_back(std::move(group));
-      return table;
-    }
   } // namespace
 
   Markup answers_chapter(const ReportContext &context)
@@ -180,19 +130,7 @@ namespace meltfront::verification
         verdicts.push_back(verdict_on(answer));
     if(Markup words = verdict_on_temperatures(answers); !words.empty())
       verdicts.push_back(std::move(words));
-    const std::vector<LevelError> levels = level_errors(context.result, record);
     Markup content = element("h2", "What the methods answer") + list("ul", verdicts);
-    if(!levels.empty())
-    {
-      content += element("h3", "The cheapest") + table_markup(cheapest_table(levels));
-      if(const Table table = most_accurate_table(levels); !table.empty())
-        content += element("h3", "The most accurate") + table_markup(table);
-      content
-          += element("p", {{"class", "nothing"}},
-                     text("CPU seconds of set-up and stepping. A planar or round scene "
-                          "runs along a line where a method can: one in the plane "
-                          "does more work for the same answer."));
-    }
     std::vector<Markup> remarks;
     for(const std::string &remark : context.result.remarks)
       remarks.push_back(text(remark + "."));

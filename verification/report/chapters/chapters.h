@@ -36,6 +36,11 @@ namespace meltfront::verification
   /** What stands above all chapters. */
   Markup verdict_chapter(const ReportContext &context);
 
+  /** What the first screen tells beside the verdict: the cheapest for relative errors
+   * over all cases, what does not hold, failed, was refused, ended early or was left out;
+   * empty where no run has a relative error. */
+  Markup glance(const ReportContext &context);
+
   /** The matrix's findings and its pictures, and maps of what it varies; empty where it
    * has none of them. */
   Markup findings_chapter(const ReportContext &context);

@@ -1,7 +1,9 @@
-#include <verification/report/chapters/chapters.h>
+#include <verification/report/chapters/case_parts.h>
 #include <verification/report/plots/case_plots.h>
 #include <verification/report/tables/convergence_table.h>
 #include <verification/report/tables/cost_at_error.h>
+#include <verification/report/tables/equal_cost.h>
+#include <verification/report/tables/growth.h>
 #include <verification/report/tables/table.h>
 
 #include <fmt/format.h>
@@ -14,29 +16,6 @@ namespace meltfront::verification
 {
   namespace
   {
-    constexpr double always_wanted[] = {1e-2, 1e-3, 1e-4, 1e-6};
-    constexpr double wanted_if_reached = 1e-8;
-
-    /** The errors that columns stand for. */
-    std::vector<double> wanted_errors(const ReportContext &context)
-    {
-      std::vector<double> wanted(std::begin(always_wanted), std::end(always_wanted));
-      if(std::any_of(context.runs.begin(), context.runs.end(),
-                     [](const CaseRuns &runs) {
-                       return cheapest(runs, wanted_if_reached).reach
-                              != Reach::not_reached;
-                     }))
-        wanted.push_back(wanted_if_reached);
-      return wanted;
-    }
-
-    bool has_relative_error(const CaseRuns &runs)
-    {
-      return std::any_of(runs.labels.begin(), runs.labels.end(),
-                         [&runs](const LabelRuns &label)
-                         { return !relative_work_precision(label, runs).error.empty(); });
-    }
-
     Markup cost_cell(const ReportContext &context, const CostAtError &found)
     {
       if(found.reach == Reach::not_reached)
@@ -46,10 +25,10 @@ namespace meltfront::verification
                                + element("b", prefix + duration_text(found.cost)));
     }
 
-    Markup cost_table(const ReportContext &context)
+    Markup cost_table(const ReportContext &context, const std::vector<double> &errors)
     {
       Markup head = element("th", std::string("case"));
-      for(const double wanted : wanted_errors(context))
+      for(const double wanted : errors)
         head += element("th", number_text(wanted, 1, Notation::scientific).markup());
       Markup rows;
       for(const CaseRuns &runs : context.runs)
@@ -57,7 +36,7 @@ namespace meltfront::verification
         if(!has_relative_error(runs))
           continue;
         Markup row = element("td", case_link(runs.record->name()));
-        for(const double wanted : wanted_errors(context))
+        for(const double wanted : errors)
           row += cost_cell(context, cheapest(runs, wanted));
         rows += element("tr", row) + Markup("\n");
       }
@@ -92,12 +71,12 @@ namespace meltfront::verification
           timed, careful, agreeing, repeated, loaded);
     }
 
-    std::string cost_csv(const ReportContext &context)
+    std::string cost_csv(const ReportContext &context, const std::vector<double> &errors)
     {
       std::string csv = "case,relative_error,method,cpu_seconds,found\n";
       constexpr const char *words[] = {"not reached", "interpolated", "upper bound"};
       for(const CaseRuns &runs : context.runs)
-        for(const double wanted : wanted_errors(context))
+        for(const double wanted : errors)
           if(has_relative_error(runs))
           {
             const CostAtError found = cheapest(runs, wanted);
@@ -167,23 +146,89 @@ namespace meltfront::verification
                        + table_markup(table);
     }
 
-    Markup small_multiples(const ReportContext &context)
+    /** One diagram for each case and each dimension that its methods run in. */
+    Markup small_multiples(const ReportContext &context, const std::string &cost)
     {
       std::vector<Plot> plots;
       for(const CaseRuns &runs : context.runs)
         if(has_relative_error(runs))
-          plots.push_back(small_work_precision(runs, context.styles));
+          for(const int dimension : dimensions_of(runs))
+            plots.push_back(small_work_precision(runs, context.styles, dimension, cost));
       share_axes(plots);
       Markup figures;
       for(const Plot &plot : plots)
-        figures += context.plots.figure("work-precision-" + plot.heading, plot, {});
-      return context.styles.legend(context.labels())
-             + element("div", {{"class", "multiples"}}, figures);
+        figures += context.plots.figure(
+            fmt::format("work-precision-{}-{}", cost, plot.heading), plot, {});
+      return element("div", {{"class", "multiples"}}, figures);
+    }
+
+    Markup diagrams(const ReportContext &context)
+    {
+      const Markup work
+          = element("p", {{"class", "nothing"}},
+                    text("Work is the number of interactions or matrix entries that a "
+                         "run touched, without set-up: the same on every machine."))
+            + small_multiples(context, "work");
+      return element("h3", "Work-precision diagrams")
+             + element("p", {{"class", "nothing"}},
+                       text("One diagram for each dimension that methods run in: in the "
+                            "plane the same answer takes more work than along a line. "
+                            "All share their axes. A cross at the upper edge is a "
+                            "run that failed or was refused."
+                            + timing_sentence(context.result)))
+             + context.styles.legend(context.labels())
+             + small_multiples(context, "cpu_seconds")
+             + (context.runs.size() == 1 ? work : folded("The same against work", work));
+    }
+
+    /** What each method takes for the same errors and reaches in the same time; folded
+     * where there are several cases. */
+    Markup equal_costs(const ReportContext &context)
+    {
+      const auto key
+          = [&context](const std::string &label) { return context.styles.key(label); };
+      const std::vector<double> errors = wanted_errors(context.runs);
+      Markup content;
+      for(const CaseRuns &runs : context.runs)
+      {
+        if(!has_relative_error(runs))
+          continue;
+        const Markup tables = element("h4", "CPU seconds at equal error")
+                              + table_markup(cost_at_equal_error(runs, errors), key)
+                              + element("h4", "Relative error at equal cost")
+                              + table_markup(error_at_equal_cost(runs), key);
+        content
+            += context.runs.size() == 1 ? tables : folded(runs.record->name(), tables);
+      }
+      return element("h3", "Cost at equal error, error at equal cost") + content;
+    }
+
+    Markup growth(const ReportContext &context)
+    {
+      const Table table = growth_table(context.runs);
+      if(table.empty())
+        return {};
+      return element("h3", "How cost grows with the number of unknowns")
+             + element(
+                 "p",
+                 "Exponents of the number of unknowns N over the finest four levels "
+                 "(coarser ones are held by a least number of steps), with the half "
+                 "width of the 95 % interval by Student's t. In d dimensions a step "
+                 "whose "
+                 "effort is proportional to N makes t ~ N^(1 + k/d) where the steps are "
+                 "~ h^-k: k = 2 for explicit conduction, 1 for steps in proportion to "
+                 "the "
+                 "spacing, 0 for a fixed number of steps; k is that of the steps that "
+                 "each method took between its two finest levels. Work beyond that is "
+                 "iterations of a solver; CPU time "
+                 "below it, overheads of the coarse levels.")
+             + table_markup(table);
     }
   } // namespace
 
   Markup cost_chapter(const ReportContext &context)
   {
+    const bool one_case = context.runs.size() == 1;
     const Markup solids = step_costs(context);
     const bool compared
         = std::any_of(context.runs.begin(), context.runs.end(), has_relative_error);
@@ -202,29 +247,28 @@ namespace meltfront::verification
     }
     else
     {
+      const std::vector<double> errors = wanted_errors(context.runs);
       content
           += element(
                  "p",
                  "The cheapest method that reaches an error, and the CPU time "
                  "that it takes. The error is the front's root mean square over the run, "
-                 "divided by the exact front at the end; where there is no exact "
+                 "divided by the exact front at the end (of a run with too few times for "
+                 "a mean "
+                 "the largest, which bounds it); where there is no exact "
                  "solution, the error of the solid's volume at the end, divided by the "
                  "reference's volume; where nothing changes its phase, the "
                  "temperature's root mean square over its largest value; of a front "
                  "that is carried along, the part of the region that is wrong at the "
-                 "end. Times are "
+                 "end; of a scene of which neither is known, the front's distance from "
+                 "that of the method which the consensus trusts most, and its error bar, "
+                 "divided by the front at the end. Times are those of set-up and steps, "
                  "interpolated "
                  "between measured resolutions, never extrapolated; ≤ marks a "
                  "method whose coarsest run is already better.")
-             + cost_table(context)
-             + linked_csv(context, "what-accuracy-costs", cost_csv(context))
-             + element("h3", "Work-precision diagrams") + small_multiples(context)
-             + element(
-                 "p", {{"class", "nothing"}},
-                 text("All diagrams share their axes. A cross at the upper edge is a "
-                      "run that failed or was refused."
-                      + timing_sentence(context.result)))
-             + solids;
+             + (one_case ? Markup() : cost_table(context, errors))
+             + linked_csv(context, "what-accuracy-costs", cost_csv(context, errors))
+             + equal_costs(context) + diagrams(context) + growth(context) + solids;
     }
     return content;
   }

@@ -204,7 +204,7 @@ namespace meltfront::verification
         = element("p", {{"class", "kicker"}}, text(kicker))
           + element("h1", result.title.empty() ? "Matrix " + result.name : result.title)
           + verdict_line(result) + text(" ") + stability_line(result.stability)
-          + text(" ") + findings_line(result.findings);
+          + text(" ") + findings_line(result.findings) + glance(context);
     if(!result.description.empty())
       content += element("p", {{"class", "lead"}}, text(result.description));
     content += facts(result);

@@ -1,3 +1,4 @@
+#include <verification/judge/answers.h>
 #include <verification/judge/criteria.h>
 #include <verification/judge/reference.h>
 #include <verification/report/page/case_runs.h>
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace meltfront::verification
 {
@@ -40,6 +42,12 @@ namespace meltfront::verification
       if(level->finished)
         return level->finished;
     return nullptr;
+  }
+
+  int LabelRuns::dimension() const
+  {
+    const RunRecord *run = finest();
+    return (run ? run : levels.back().runs.back())->description.dimension;
   }
 
   ErrorLevels LabelRuns::errors(const std::string &quantity) const
@@ -139,6 +147,15 @@ namespace meltfront::verification
       const auto found = std::find_if(list.begin(), list.end(), matches);
       return found == list.end() ? list.emplace_back() : *found;
     }
+
+    void add_consensus_errors(CaseRuns &runs, const MatrixResult &result)
+    {
+      for(const LevelError &error : level_errors(result, *runs.record))
+        for(LabelRuns &label : runs.labels)
+          for(Level &level : label.levels)
+            if(label.label == error.label && level.n == error.n)
+              level.values["consensus_error"] = {error.error, 0, 1};
+    }
   } // namespace
 
   CaseRuns collect_runs(const MatrixResult &result, const StoredCase &record)
@@ -177,6 +194,9 @@ namespace meltfront::verification
     std::vector<CaseRuns> all;
     for(const StoredCase &record : result.cases)
       all.push_back(collect_runs(result, record));
+    if(all.size() == 1 && !all.front().record->exact
+       && !std::isfinite(main_error_scale(all.front())))
+      add_consensus_errors(all.front(), result);
     return all;
   }
 
@@ -217,8 +237,31 @@ namespace meltfront::verification
     return !record.exact ? "solid_volume_end_error" : "front_rms";
   }
 
+  std::vector<int> dimensions_of(const CaseRuns &runs)
+  {
+    std::set<int> dimensions;
+    for(const LabelRuns &label : runs.labels)
+      dimensions.insert(label.dimension());
+    return {dimensions.begin(), dimensions.end()};
+  }
+
+  std::string main_error(const CaseRuns &runs)
+  {
+    constexpr const char *consensus = "consensus_error";
+    return runs.has(consensus) ? consensus : main_error(*runs.record);
+  }
+
+  double shown_error(const Level &level, const CaseRuns &runs)
+  {
+    const std::string name = main_error(runs);
+    const double error = level.value(name);
+    return name == "front_rms" && std::isnan(error) ? level.value("front_max") : error;
+  }
+
   double main_error_scale(const CaseRuns &runs)
   {
+    if(main_error(runs) != main_error(*runs.record))
+      return 1;
     if(moves_particles(*runs.record))
       return std::nan(""); // nothing is known that it could be relative to
     if(!runs.record->scene.changes_phase())

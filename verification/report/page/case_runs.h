@@ -47,6 +47,9 @@ namespace meltfront::verification
     /** The finished run of the largest n; null if none finished. */
     const RunRecord *finest() const;
 
+    /** In which its runs are simulated. */
+    int dimension() const;
+
     /** A quantity at every level that has it, over h or dt. */
     ErrorLevels errors(const std::string &quantity) const;
   };
@@ -78,17 +81,30 @@ namespace meltfront::verification
   /** The exact front at the end time (m); NaN where there is none. */
   double exact_front_at_end(const StoredCase &record);
 
-  /** The error that diagrams of a case show: `front_rms`; where there is no exact
-   * solution `solid_volume_end_error`; of a front that is carried along
-   * `shape_mismatch_end`; of a particle solid `energy_error`. */
+  /** The dimensions that the labels of a case run in, ascending. */
+  std::vector<int> dimensions_of(const CaseRuns &runs);
+
+  /** The error that a case is judged by: `front_rms`; where there is no exact solution
+   * `solid_volume_end_error`; of a front that is carried along `shape_mismatch_end`; of a
+   * particle solid `energy_error`. */
   std::string main_error(const StoredCase &record);
 
+  /** The error that its diagrams show: the same, or `consensus_error` where
+   * collect_runs() has given its levels one. */
+  std::string main_error(const CaseRuns &runs);
+
+  /** Its value at a level. Of a run with too few times for a mean of the front's error
+   * the largest stands, which bounds it. */
+  double shown_error(const Level &level, const CaseRuns &runs);
+
   /** What it is relative to: the exact front at the end (m), or the reference's solid
-   * volume there; NaN where there is neither. */
+   * volume there; 1 for what is relative already; NaN where there is nothing. */
   double main_error_scale(const CaseRuns &runs);
 
   CaseRuns collect_runs(const MatrixResult &result, const StoredCase &record);
 
+  /** Of a single case without exact solution and reference, levels have a
+   * `consensus_error`: level_errors(), relative. */
   std::vector<CaseRuns> collect_runs(const MatrixResult &result);
 
   /** CPU seconds of set-up and stepping. */

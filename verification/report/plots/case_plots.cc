@@ -58,6 +58,8 @@ namespace meltfront::verification
     {
       if(error.starts_with("shape"))
         return "mismatch of the region, relative";
+      if(error.starts_with("consensus"))
+        return "distance from the consensus, relative";
       const std::string unit = error.starts_with("front") ? "m" : volume_unit(record);
       if(error.starts_with("temperature"))
         return "temperature error, RMS over the largest";
@@ -96,7 +98,9 @@ namespace meltfront::verification
           continue;
         }
         curve.x.push_back(x);
-        curve.y.push_back(level.value(error) * scale);
+        curve.y.push_back(
+            (error == main_error(runs) ? shown_error(level, runs) : level.value(error))
+            * scale);
         curve.spread.push_back(level.spread(error) * scale);
         several_seeds = several_seeds || level.finished_count > 1;
       }
@@ -117,7 +121,7 @@ namespace meltfront::verification
       const bool resolution = abscissa == "h" || abscissa == "dt";
       const bool few_steps = abscissa == "dt" && runs.has("front_end")
                              && runs.record->scene.changes_phase();
-      const std::string error = few_steps ? "front_end" : main_error(*runs.record);
+      const std::string error = few_steps ? "front_end" : main_error(runs);
       Plot plot;
       plot.x.logarithmic = plot.y.logarithmic = true;
       plot.y.label = error_label(*runs.record, error);
@@ -161,18 +165,28 @@ namespace meltfront::verification
     Plot plot = error_plot(runs, styles, "cpu_seconds", 1);
     plot.description = "Error against CPU time, " + runs.record->name();
     plot.x.label = "CPU time t (s)";
+    if(dimensions_of(runs).size() > 1)
+      for(std::size_t i = 0; i < plot.curves.size(); ++i)
+        plot.curves[i].label
+            = fmt::format("{}D {}", runs.labels[i].dimension(), plot.curves[i].label);
     if(has_several_levels(runs))
       plot.guides = {{-0.5, "t"}, {-1, "t"}};
     return plot;
   }
 
-  Plot small_work_precision(const CaseRuns &runs, const MethodStyles &styles)
+  Plot small_work_precision(const CaseRuns &runs, const MethodStyles &styles,
+                            int dimension, const std::string &cost)
   {
-    Plot plot = error_plot(runs, styles, "cpu_seconds", 1 / main_error_scale(runs));
-    plot.description = "Relative error against CPU time, " + runs.record->name();
-    plot.heading = runs.record->name();
+    CaseRuns some = runs;
+    std::erase_if(some.labels, [dimension](const LabelRuns &label)
+                  { return label.dimension() != dimension; });
+    const bool seconds = cost == "cpu_seconds";
+    Plot plot = error_plot(some, styles, cost, 1 / main_error_scale(runs));
+    plot.heading = fmt::format("{}, {}D", runs.record->name(), dimension);
+    plot.description = fmt::format("Relative error against {}, {}",
+                                   seconds ? "CPU time" : "work", plot.heading);
     plot.small = true;
-    plot.x.label = "CPU time (s)";
+    plot.x.label = seconds ? "CPU time (s)" : "work (entries touched)";
     plot.y.label = "relative error";
     return plot;
   }

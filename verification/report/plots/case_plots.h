@@ -15,11 +15,15 @@ namespace meltfront::verification
    * of the front at the end, which few steps have too. */
   Plot error_against_time_step(const CaseRuns &runs, const MethodStyles &styles);
 
-  /** Front error (RMS) against CPU seconds: the work-precision diagram. */
+  /** Front error (RMS) against CPU seconds: the work-precision diagram. Where methods run
+   * in different dimensions, their curves say in which. */
   Plot error_against_cost(const CaseRuns &runs, const MethodStyles &styles);
 
-  /** The same relative to the exact front at the end, small, for comparing cases. */
-  Plot small_work_precision(const CaseRuns &runs, const MethodStyles &styles);
+  /** The same relative to the exact front at the end, small, for comparing cases; of the
+   * labels that run in one dimension.
+   * @param cost `cpu_seconds` or `work` */
+  Plot small_work_precision(const CaseRuns &runs, const MethodStyles &styles,
+                            int dimension, const std::string &cost = "cpu_seconds");
 
   /** Front against time: the finest run of every label and the exact front. */
   Plot front_against_time(const CaseRuns &runs, const MethodStyles &styles);

@@ -102,8 +102,7 @@ namespace meltfront::verification
       case Shown::without_exact:
         return !runs.record->exact || asked_for(*runs.record, quantity);
       default:
-        return asked_for(*runs.record, quantity)
-               || quantity.name == main_error(*runs.record);
+        return asked_for(*runs.record, quantity) || quantity.name == main_error(runs);
       }
     }
 

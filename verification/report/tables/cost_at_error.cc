@@ -1,5 +1,6 @@
 #include <verification/report/tables/cost_at_error.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meltfront::verification
@@ -45,7 +46,7 @@ namespace meltfront::verification
       return result;
     for(const Level &level : label.levels)
     {
-      const double error = level.value(main_error(*runs.record)),
+      const double error = shown_error(level, runs),
                    cost = level.value("cpu_seconds");
       if(positive(error) && positive(cost))
       {
@@ -54,6 +55,13 @@ namespace meltfront::verification
       }
     }
     return result;
+  }
+
+  bool has_relative_error(const CaseRuns &runs)
+  {
+    return std::any_of(runs.labels.begin(), runs.labels.end(),
+                       [&runs](const LabelRuns &label)
+                       { return !relative_work_precision(label, runs).error.empty(); });
   }
 
   CostAtError cheapest(const CaseRuns &runs, double wanted)

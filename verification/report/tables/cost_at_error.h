@@ -38,9 +38,12 @@ namespace meltfront::verification
    */
   CostAtError cost_at_error(const WorkPrecision &measured, double wanted);
 
-  /** main_error() over main_error_scale(), against CPU seconds. Empty where there is no
+  /** shown_error() over main_error_scale(), against CPU seconds. Empty where there is no
    * such scale. */
   WorkPrecision relative_work_precision(const LabelRuns &label, const CaseRuns &runs);
+
+  /** Whether some label of a case has a relative error. */
+  bool has_relative_error(const CaseRuns &runs);
 
   /** The label of least cost at which the case reaches a relative error. */
   CostAtError cheapest(const CaseRuns &runs, double wanted);

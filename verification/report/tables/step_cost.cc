@@ -1,5 +1,5 @@
-#include <verification/measure/formulas/order_fit.h>
 #include <verification/report/tables/convergence_table.h>
+#include <verification/report/tables/growth.h>
 #include <verification/report/tables/step_cost.h>
 
 #include <cmath>
@@ -29,17 +29,14 @@ namespace meltfront::verification
 
     Cell exponent_in_n(const LabelRuns &label)
     {
-      std::vector<double> spacing, cost;
+      std::vector<double> resolutions, costs;
       for(const Level &level : label.levels)
         if(const double milliseconds = milliseconds_per_step(level); milliseconds > 0)
         {
-          spacing.push_back(1. / level.n);
-          cost.push_back(milliseconds);
+          resolutions.push_back(level.n);
+          costs.push_back(milliseconds);
         }
-      OrderFit fit = fit_order(spacing, cost);
-      fit.order = -fit.order;
-      fit.verdict = OrderVerdict::clean; // costs may grow as they like
-      return order_cell(fit, "n");
+      return order_cell(fit_growth(resolutions, costs), "n");
     }
   } // namespace
 

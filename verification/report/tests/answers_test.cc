@@ -67,8 +67,9 @@ namespace meltfront::verification
     expect_in(html, "What the methods answer");
     expect_in(html, "in which 2 of 2 methods agree");
     expect_in(html, "temperature: agreed at 2 of 2 places");
-    expect_in(html, "The cheapest");
-    expect_in(html, "The most accurate");
+    expect_in(html, "CPU seconds at equal error");
+    expect_in(html, "Relative error at equal cost");
+    expect_in(html, "<b>Left out: </b>fem-cut.");
     expect_in(html, "Left out: fem-cut: takes &lt;no&gt; slab.");
     EXPECT_EQ(html.find("contradicted by"), std::string::npos);
   }
