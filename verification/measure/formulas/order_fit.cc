@@ -111,8 +111,9 @@ namespace meltfront::verification
       if(fit.order < -least_order)
         return OrderVerdict::diverging;
       const double scatter = std::sqrt(line.squares / fit.levels);
+      // Rates that rise from pair to pair are those of spectral convergence.
       if(*std::min_element(fit.pairwise.begin(), fit.pairwise.end()) < rising_rate
-         || scatter > largest_scatter)
+         || (scatter > largest_scatter && !std::ranges::is_sorted(fit.pairwise)))
         return OrderVerdict::oscillating;
       const std::span x(levels.log_h), y(levels.log_error);
       const double coarse = least_squares(x.first(3), y.first(3)).slope;

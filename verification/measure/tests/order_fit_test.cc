@@ -117,6 +117,14 @@ namespace meltfront::verification
                 OrderVerdict::oscillating);
     }
 
+    TEST(OrderFit, RatesThatRiseDoNotOscillate)
+    {
+      EXPECT_EQ(fit_order(halving, std::vector{1., 0.3, 0.05, 4e-3, 2e-4}, 8).verdict,
+                OrderVerdict::clean);
+      EXPECT_EQ(fit_order(halving, std::vector{1., 0.05, 0.04, 1e-3, 2e-4}, 8).verdict,
+                OrderVerdict::oscillating);
+    }
+
     TEST(OrderFit, SaysThatASequenceDivergesOrIsTooFast)
     {
       EXPECT_EQ(fit_order(halving, errors_of_order(-1, 1)).verdict,
