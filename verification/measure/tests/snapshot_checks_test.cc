@@ -277,6 +277,30 @@ namespace meltfront::verification
       EXPECT_TRUE(says(judged(scene, state.view(1, 0.5), loses), "heat balance leaves"));
     }
 
+    // A wall that was hot for a moment does not widen what may be lost later.
+    TEST(SnapshotChecks, APulseThatHasPassedExcusesNoLoss)
+    {
+      cases::Scene scene = tests::scene_of(DomainShape::slab, 1, cases::Symmetry::planar);
+      set_wall(scene, Side::x_max, BoundaryKind::fixed_temperature, 1000);
+      cases::Capabilities loses = capable_of({FrontOrigin::wall});
+      loses.conserves_heat = false;
+      SnapshotChecks checks(scene, loses, "fake", spacing);
+      tests::State state = state_with(-0.5);
+      cases::HeatBudget &heat = state.snapshot.heat;
+      const auto judge_with_loss = [&](double time, double loss)
+      {
+        state.book(1);
+        heat.initial = heat.stored + heat.latent + loss;
+        heat.boundary = heat.sources = 0;
+        return judged(checks, state.view(1, time));
+      };
+      state.temperature.assign(n, 1);
+      state.temperature.back() = 900;
+      EXPECT_EQ(judge_with_loss(0.25, 5), "") << "a part of a layer that is hot";
+      state.temperature.back() = 1;
+      EXPECT_TRUE(says(judge_with_loss(0.5, 5), "heat balance leaves 5"));
+    }
+
     TEST(SnapshotChecks, FindAFrontWhereNoPhaseChangesAndOneThatIsMissing)
     {
       const cases::Scene scene = freezing_slab();
