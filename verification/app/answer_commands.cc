@@ -145,30 +145,58 @@ namespace meltfront::verification
           answers, [](const Answer &answer)
           { return !answer.consensus.agreed && answer.methods.size() > 1; });
     }
+
+    /** A case that is asked for answers: where they go, who can give them, and the runs.
+     */
+    class Inquiry
+    {
+    public:
+      /** @param arguments CompareArguments or AdviseArguments */
+      template <typename Arguments>
+      Inquiry(const Arguments &arguments, const std::string &command)
+        : asked(load_checked_case(arguments.case_name))
+        , title(command + "-" + asked.scene.name)
+        , found(methods_for(asked))
+        , directory(arguments.output.empty() ? default_directory(title)
+                                             : arguments.output)
+        , growth(growth_of(arguments.case_name, asked, title, found, directory,
+                           arguments.jobs, arguments.memory, arguments.within))
+      {
+      }
+
+      std::vector<std::string> remarks() const
+      {
+        return remarks_on(growth, found);
+      }
+
+    private:
+      cases::Case asked;
+      std::string title;
+      CapableMethods found;
+
+    public:
+      std::string directory;
+      LadderGrowth growth;
+    };
   } // namespace
 
   int compare(const CompareArguments &arguments)
   {
-    const cases::Case c = load_checked_case(arguments.case_name);
-    const std::string title = "compare-" + c.scene.name;
-    const std::string directory
-        = arguments.output.empty() ? default_directory(title) : arguments.output;
-    const CapableMethods found = methods_for(c);
-    LadderGrowth growth = growth_of(arguments.case_name, c, title, found, directory,
-                                    arguments.jobs, arguments.memory, arguments.within);
+    Inquiry inquiry(arguments, "compare");
     if(arguments.resolutions.empty())
-      while(growth.grow(share_of_levels))
+      while(inquiry.growth.grow(share_of_levels))
         ;
     else
-      growth.make_all(arguments.resolutions);
-    growth.check_steps();
-    growth.conclude(remarks_on(growth, found),
-                    [&](MatrixResult &result) { write_results(result, directory); });
-    const std::vector<Answer> answers = tell_answers(growth.result(), directory);
+      inquiry.growth.make_all(arguments.resolutions);
+    inquiry.growth.check_steps();
+    inquiry.growth.conclude(inquiry.remarks(), [&](MatrixResult &result)
+                            { write_results(result, inquiry.directory); });
+    const std::vector<Answer> answers
+        = tell_answers(inquiry.growth.result(), inquiry.directory);
     fmt::print("\n");
-    for(const std::string &remark : remarks_on(growth, found))
+    for(const std::string &remark : inquiry.remarks())
       fmt::print("{}\n", remark);
-    print_place_of_report(directory);
+    print_place_of_report(inquiry.directory);
     return answers.empty()          ? run_failed
            : contradictory(answers) ? criterion_failed
                                     : all_well;
@@ -176,19 +204,13 @@ namespace meltfront::verification
 
   int advise(const AdviseArguments &arguments)
   {
-    const cases::Case c = load_checked_case(arguments.case_name);
-    const std::string title = "advise-" + c.scene.name;
-    const std::string directory
-        = arguments.output.empty() ? default_directory(title) : arguments.output;
-    const CapableMethods found = methods_for(c);
-    LadderGrowth growth = growth_of(arguments.case_name, c, title, found, directory,
-                                    arguments.jobs, arguments.memory, arguments.within);
+    Inquiry inquiry(arguments, "advise");
     const Advice advice
-        = advise(growth, {arguments.front_error, arguments.temperature_error});
-    growth.conclude(remarks_on(growth, found),
-                    [&](MatrixResult &result) { write_results(result, directory); });
-    tell_answers(growth.result(), directory);
-    write_json(directory + "/advice.json", advice);
+        = advise(inquiry.growth, {arguments.front_error, arguments.temperature_error});
+    inquiry.growth.conclude(inquiry.remarks(), [&](MatrixResult &result)
+                            { write_results(result, inquiry.directory); });
+    tell_answers(inquiry.growth.result(), inquiry.directory);
+    write_json(inquiry.directory + "/advice.json", advice);
     fmt::print("\n");
     for(const MethodForecast &one : advice.forecasts)
       fmt::print("  {:24} n = {:<7} error {:.1e}, {:.2g} s of CPU{}\n",
@@ -203,7 +225,7 @@ namespace meltfront::verification
                  advice.reachable ? "" : "; the wanted error is NOT REACHED");
     if(!advice.explanation.empty())
       fmt::print("{}\n", advice.explanation);
-    print_place_of_report(directory);
+    print_place_of_report(inquiry.directory);
     return advice.reachable ? all_well : criterion_failed;
   }
 } // namespace meltfront::verification

@@ -49,6 +49,9 @@ namespace meltfront::verification
   /** The name of the quantity that is the course of the front, not its end. */
   inline constexpr const char *front_course = "front over time";
 
+  /** Steps in time of a run, one at the least. */
+  double steps_of(const RunRecord &run);
+
   /**
    * Every quantity of the finest level with its bar (error_bar()), from the finest three
    * of the levels. Those that no level has are left out: `front` where the front is not

@@ -135,13 +135,7 @@ namespace meltfront::verification
 
   void write_front_page(const std::vector<MatrixLine> &lines, const std::string &path)
   {
-    const std::string title = "meltfront: all matrices";
-    const Markup head
-        = void_element("meta", {{"charset", "utf-8"}})
-          + void_element("meta", {{"name", "viewport"},
-                                  {"content", "width=device-width, initial-scale=1"}})
-          + void_element("meta", {{"name", "color-scheme"}, {"content", "light dark"}})
-          + element("title", title) + element("style", Markup(page_style()));
+    const Markup head = page_head("meltfront: all matrices");
     const Markup body
         = element("main", element("section", element("h1", std::string("All matrices"))
                                                  + verdict(lines) + table(lines)));

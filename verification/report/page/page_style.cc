@@ -152,14 +152,22 @@ ul,ol{padding-left:1.25rem;max-width:82ch} li{margin:.22rem 0}
  a{color:inherit;text-decoration:none}
 }
 )css";
+    std::string page_style()
+    {
+      // Paper is light whatever the screen prefers.
+      return fmt::format(":root{{{}}}\n@media screen and "
+                         "(prefers-color-scheme:dark){{:root{{{}}}}}\n",
+                         variables(false), variables(true))
+             + rules + frame_style();
+    }
   } // namespace
 
-  std::string page_style()
+  Markup page_head(const std::string &title)
   {
-    // Paper is light whatever the screen prefers.
-    return fmt::format(":root{{{}}}\n@media screen and "
-                       "(prefers-color-scheme:dark){{:root{{{}}}}}\n",
-                       variables(false), variables(true))
-           + rules + frame_style();
+    return void_element("meta", {{"charset", "utf-8"}})
+           + void_element("meta", {{"name", "viewport"},
+                                   {"content", "width=device-width, initial-scale=1"}})
+           + void_element("meta", {{"name", "color-scheme"}, {"content", "light dark"}})
+           + element("title", title) + element("style", Markup(page_style()));
   }
 } // namespace meltfront::verification

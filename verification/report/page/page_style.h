@@ -1,12 +1,15 @@
 #ifndef meltfront_verification_report_page_page_style_h
 #define meltfront_verification_report_page_page_style_h
 
+#include <verification/report/page/markup.h>
+
 #include <string>
 
 namespace meltfront::verification
 {
-  /** The style sheet of the report: light and dark, screens from 390 pixels on, print. */
-  std::string page_style();
+  /** The head of a page, with the style sheet: light and dark, screens from 390 pixels
+   * on, print. */
+  Markup page_head(const std::string &title);
 } // namespace meltfront::verification
 
 #endif

@@ -110,13 +110,7 @@ namespace meltfront::verification
 
     Markup page(const ReportContext &context)
     {
-      const std::string title = "meltfront: " + context.result.name;
-      const Markup head
-          = void_element("meta", {{"charset", "utf-8"}})
-            + void_element("meta", {{"name", "viewport"},
-                                    {"content", "width=device-width, initial-scale=1"}})
-            + void_element("meta", {{"name", "color-scheme"}, {"content", "light dark"}})
-            + element("title", title) + element("style", Markup(page_style()));
+      const Markup head = page_head("meltfront: " + context.result.name);
       return Markup("<!DOCTYPE html>\n")
              + element("html", {{"lang", "en"}},
                        element("head", head) + Markup("\n")
