@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 
 namespace
@@ -275,6 +276,52 @@ TEST(App, ARunCanStandInForAnExactSolution)
   expect_text(outcome, "the reference");
   for(const char *file : {"out/report.html", "out/tables/slab-reference.csv"})
     EXPECT_TRUE(fs::exists(directory.path() / file)) << file;
+}
+
+TEST(App, ABoundFinerThanItsReferenceFails)
+{
+  const TemporaryDirectory directory;
+  write_referenced_case(directory.path(),
+                        "sph[step_factor=0.4, dimension=1]: solid_volume_2_error at n=64 "
+                        "in -1 .. 1e-9");
+  const Outcome outcome
+      = run_program("verify " + (directory.path() / "matrix.prm").string() + " --out "
+                    + (directory.path() / "out").string());
+  EXPECT_EQ(outcome.status, 1) << outcome.output;
+  expect_text(outcome, "the reference's error bar");
+}
+
+// A figure that grew and a run that is missing change the exit status; times do not.
+TEST(App, FiguresAreHeldAgainstThoseThatWereKept)
+{
+  const TemporaryDirectory directory;
+  write_referenced_case(directory.path(), "fem-enthalpy: worst budget_defect <= 1e-9");
+  const std::string kept = (directory.path() / "kept").string(),
+                    verify = "verify " + (directory.path() / "matrix.prm").string()
+                             + " --out " + (directory.path() / "out").string();
+  fs::create_directory(kept);
+  ASSERT_EQ(run_program(verify + " --keep-reference " + kept).status, 0);
+  EXPECT_EQ(run_program(verify + " --against " + kept).status, 0);
+
+  const std::string file = kept + "/matrix.json";
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  const auto with = [&](const std::string &key, const std::string &value)
+  {
+    std::string changed = text.str();
+    const std::size_t begin = changed.find('"' + key + "\": ") + key.size() + 4;
+    changed.replace(begin, changed.find_first_of(",}", begin) - begin, value);
+    std::ofstream(file) << changed;
+    return run_program(verify + " --against " + kept);
+  };
+  EXPECT_EQ(with("cpu_seconds", "1e-9").status, 0);
+  const Outcome grew = with("work", "10");
+  EXPECT_EQ(grew.status, 1);
+  expect_text(grew, "GREW");
+  const Outcome missing = with("status", "\"finished\"}, \"x/y/n=1\": {\"status\": "
+                                         "\"finished\"");
+  EXPECT_EQ(missing.status, 1);
+  expect_text(missing, "MISSING");
 }
 
 TEST(App, NamesTheNearestOptionInALabelOfACriterion)
