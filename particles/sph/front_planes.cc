@@ -47,43 +47,117 @@ namespace meltfront::particles
   {
     const NeighbourList neighbours(dis.particles, reach * dis.spacing, dis.periodicity);
     const std::size_t n = dis.particles.size();
+    find_images(dis, neighbours);
+    std::vector<std::vector<std::uint32_t>> beyond(n);
+    for(std::size_t i = 0; i < images.size(); ++i)
+    {
+      const auto number = static_cast<std::uint32_t>(n + i);
+      beyond[images[i].of].push_back(number);
+      for(const std::uint32_t a : neighbours[images[i].of])
+        beyond[a].push_back(number);
+    }
     offsets.reserve(n + 1);
     links.reserve(neighbours.size());
     for(std::size_t a = 0; a < n; ++a)
     {
       offsets.push_back(links.size());
-      for(const std::uint32_t b : neighbours[a])
+      const auto link = [&](std::uint32_t b, const cases::Position &place)
       {
         const auto difference = [&](int d)
-        {
-          return dis.periodicity.shortest(d, dis.particles.position[d][b]
-                                                 - dis.particles.position[d][a]);
-        };
+        { return dis.periodicity.shortest(d, place[d] - dis.particles.position[d][a]); };
         const double x = difference(0), y = difference(1);
-        const double weight
-            = -dis.kernel.radial_derivative_over_distance(std::hypot(x, y));
-        links.push_back({b, x / dis.spacing, y / dis.spacing, weight});
-      }
+        const double distance = std::hypot(x, y);
+        if(distance < reach * dis.spacing)
+          links.push_back({b, x / dis.spacing, y / dis.spacing,
+                           -dis.kernel.radial_derivative_over_distance(distance)});
+      };
+      for(const std::uint32_t b : neighbours[a])
+        link(b, dis.particles.point(b));
+      for(const std::uint32_t image : beyond[a])
+        link(image, images[image - n].place);
     }
     offsets.push_back(links.size());
-    fraction.resize(n);
+    fraction.resize(n + images.size());
     lines.resize(n);
     distances.resize((n + ParticleOperator::lanes - 1) / ParticleOperator::lanes
                      * ParticleOperator::lanes);
+  }
+
+  /** Of the particles beside plane walls, in each wall and in each corner. */
+  void FrontPlanes::find_images(const Discretisation &dis,
+                                const NeighbourList &neighbours)
+  {
+    const auto beside = [&](const PlaneWall &wall, const cases::Position &place)
+    { return std::abs(place[wall.direction] - wall.coordinate) < 0.75 * dis.spacing; };
+    const auto inner_of = [&](std::uint32_t a, const PlaneWall &wall)
+    {
+      for(const std::uint32_t b : neighbours[a])
+      {
+        const cases::Position place = dis.particles.point(b),
+                              own = dis.particles.point(a);
+        const double depth = std::abs(place[wall.direction] - wall.coordinate)
+                             - std::abs(own[wall.direction] - wall.coordinate);
+        const int along = 1 - wall.direction;
+        if(depth > 0.5 * dis.spacing
+           && std::abs(dis.periodicity.shortest(along, place[along] - own[along]))
+                  < 0.5 * dis.spacing)
+          return b;
+      }
+      return a;
+    };
+    const auto driven = [](const PlaneWall &wall)
+    { return wall.boundary->kind != cases::BoundaryKind::insulated; };
+    const auto mirrored = [](const PlaneWall &wall, cases::Position place)
+    {
+      place[wall.direction] = 2 * wall.coordinate - place[wall.direction];
+      return place;
+    };
+    for(std::uint32_t a = 0; a < dis.particles.size(); ++a)
+    {
+      const cases::Position place = dis.particles.point(a);
+      for(std::size_t i = 0; i < dis.walls.size(); ++i)
+      {
+        const PlaneWall &wall = dis.walls[i];
+        if(!beside(wall, place))
+          continue;
+        images.push_back({a, inner_of(a, wall), driven(wall), mirrored(wall, place)});
+        for(std::size_t j = i + 1; j < dis.walls.size(); ++j)
+          if(const PlaneWall &other = dis.walls[j];
+             other.direction != wall.direction && beside(other, place))
+            images.push_back({a, inner_of(a, driven(wall) ? wall : other),
+                              driven(wall) || driven(other),
+                              mirrored(other, mirrored(wall, place))});
+      }
+    }
+  }
+
+  /**
+   * Insulated walls mirror the phases. A front sets out from a wall that lets heat
+   * through, and ends there: beyond a particle that melts there is the phase that its
+   * inner neighbour has less of.
+   */
+  double FrontPlanes::fraction_of(const Image &image) const
+  {
+    const double own = fraction[image.of], inner = fraction[image.inner];
+    if(!image.driven || own == 0 || own == 1 || own == inner)
+      return own;
+    return inner < own ? 1 : 0;
   }
 
   void FrontPlanes::update(std::span<const std::uint32_t> slices, const double *enthalpy,
                            double latent_heat)
   {
     constexpr std::size_t lanes = ParticleOperator::lanes;
-    for(std::size_t a = 0; a < fraction.size(); ++a)
+    const std::size_t n = lines.size();
+    for(std::size_t a = 0; a < n; ++a)
       fraction[a] = 1 - std::clamp(enthalpy[a] / latent_heat, 0., 1.);
+    for(std::size_t i = 0; i < images.size(); ++i)
+      fraction[n + i] = fraction_of(images[i]);
     ++updates;
     const auto visit = [&](const auto &each)
     {
       for(const std::uint32_t slice : slices)
-        for(std::size_t a = slice * lanes;
-            a < std::min((slice + 1) * lanes, fraction.size()); ++a)
+        for(std::size_t a = slice * lanes; a < std::min((slice + 1) * lanes, n); ++a)
           each(a);
     };
     visit([&](std::size_t a) { lines[a] = line_of(a); });
@@ -126,6 +200,8 @@ namespace meltfront::particles
     for(std::size_t i = offsets[a]; i < offsets[a + 1]; ++i)
     {
       const Link &link = links[i];
+      if(link.neighbour >= lines.size()) // an image
+        continue;
       const Line &other = lines[link.neighbour];
       if(other.update != updates || other.length == 0)
         continue;
@@ -151,6 +227,6 @@ namespace meltfront::particles
   {
     return offsets.size() * sizeof(offsets[0]) + links.size() * sizeof(Link)
            + (fraction.size() + distances.size()) * sizeof(double)
-           + lines.size() * sizeof(Line);
+           + lines.size() * sizeof(Line) + images.size() * sizeof(Image);
   }
 } // namespace meltfront::particles

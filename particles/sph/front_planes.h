@@ -66,11 +66,24 @@ namespace meltfront::particles
       long update = -1;                  ///< at which it was found
     };
 
+    /** The image of a particle beside a plane wall, in its wall. */
+    struct Image
+    {
+      std::uint32_t of;
+      std::uint32_t inner; ///< the particle behind it, seen from the wall
+      bool driven;         ///< the wall lets heat through
+      cases::Position place;
+    };
+
+    void find_images(const Discretisation &discretisation,
+                     const NeighbourList &neighbours);
+    double fraction_of(const Image &image) const;
     Line line_of(std::size_t particle) const;
     double beyond_line(std::size_t particle) const;
 
     std::vector<std::size_t> offsets;
     std::vector<Link> links;      ///< to the neighbours in the square
+    std::vector<Image> images;    ///< numbered after the particles
     std::vector<double> fraction; ///< of solid
     std::vector<Line> lines;
     std::vector<double> distances;
