@@ -151,11 +151,6 @@ namespace meltfront::particles
      * fraction; for a rule of sub_particle in the plane. */
     void follow_planes(const Discretisation &discretisation);
 
-    bool follows_planes() const
-    {
-      return planes.has_value();
-    }
-
     /** The largest factor by which a pair exchanges more than u_b - u_a. */
     static double largest_factor(FrontRule rule);
 

@@ -244,9 +244,7 @@ namespace meltfront::particles
          "1"}};
     if(front_exchange)
       result.push_back({"exchange at fronts",
-                        front_exchange->follows_planes()
-                            ? "front as a line through the particles about it"
-                        : front_rule == FrontRule::sub_particle
+                        front_rule == FrontRule::sub_particle
                             ? "front within the melting particle"
                         : front_rule == FrontRule::partner
                             ? "melting particles conduct as their partners"

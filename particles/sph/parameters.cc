@@ -59,7 +59,7 @@ namespace meltfront::particles
         "",
         false,
         LatticeLayout::cell_centred,
-        FrontRule::automatic,
+        FrontRule::sub_particle,
         true,
         1.0,
         TimeScheme::rkl2,
@@ -120,10 +120,8 @@ namespace meltfront::particles
                 "melting particle (plane: as a line through the particles about it; two "
                 "dimensions, explicit steps), with a melting particle conducting as "
                 "its partner, or "
-                "as the liquid until it has frozen. automatic: plane for lattices in the "
-                "plane and explicit steps, but for slabs; elsewhere sub_particle.",
-                {{"automatic", FrontRule::automatic},
-                 {"sub_particle", FrontRule::sub_particle},
+                "as the liquid until it has frozen.",
+                {{"sub_particle", FrontRule::sub_particle},
                  {"plane", FrontRule::plane},
                  {"partner", FrontRule::partner},
                  {"liquid", FrontRule::liquid}});
@@ -196,20 +194,6 @@ namespace meltfront::particles
     }
   } // namespace
 
-  FrontRule automatic_front(const cases::Scene &scene, const SphParameters &parameters)
-  {
-    const bool on_lattice
-        = parameters.arrangement == Arrangement::lattice
-          || (parameters.arrangement == Arrangement::jittered && parameters.jitter == 0);
-    const cases::DomainShape shape = scene.domain.shape;
-    return parameters.dimension == 2 && on_lattice && !scene.material.curves
-                   && shape != cases::DomainShape::slab
-                   && shape != cases::DomainShape::axisymmetric
-                   && !is_implicit(parameters.time_scheme)
-               ? FrontRule::plane
-               : FrontRule::sub_particle;
-  }
-
   SphParameters resolve_parameters(const SphPolicy &policy, const cases::Scene &scene,
                                    const cases::Resolution &resolution)
   {
@@ -232,8 +216,6 @@ namespace meltfront::particles
           "{} takes as many steps as n says or as step_error asks for, not both",
           policy.name));
     require_jitter(policy, p.arrangement, p.jitter);
-    if(p.front == FrontRule::automatic)
-      p.front = automatic_front(scene, p);
     p.seed = resolution.seed;
     p.threads = resolution.threads;
     return p;

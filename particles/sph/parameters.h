@@ -14,7 +14,6 @@ namespace meltfront::particles
   /** How particles exchange heat across a front. */
   enum class FrontRule
   {
-    automatic,    ///< plane where automatic_front() says so, elsewhere sub_particle
     sub_particle, ///< the front lies within the melting particle, where its solid
                   ///< fraction puts it
     plane,        ///< in two dimensions and explicit steps: where the solid fraction of
@@ -98,7 +97,7 @@ namespace meltfront::particles
     double smoothing_length = 1; ///< h/dp
     LatticeLayout layout = LatticeLayout::cell_centred;
     bool moment_correction = true;
-    FrontRule front = FrontRule::partner; ///< never automatic once resolved
+    FrontRule front = FrontRule::partner;
     TimeScheme time_scheme = TimeScheme::euler;
     int stages = 8;         ///< most stages of a super step
     double step_factor = 1; ///< 0: the paper's step
@@ -129,11 +128,6 @@ namespace meltfront::particles
     bool refines_time = false;
     int cells = 80;
   };
-
-  /** The rule that `automatic` stands for in a scene: `plane` where particles on a
-   * lattice of the plane take explicit steps and fronts may run in any direction; a
-   * slab's are along the lattice, where `sub_particle` is exact. */
-  FrontRule automatic_front(const cases::Scene &scene, const SphParameters &parameters);
 
   /** @throws cases::Refusal for a dimension in which the scene cannot be simulated. */
   SphParameters resolve_parameters(const SphPolicy &policy, const cases::Scene &scene,

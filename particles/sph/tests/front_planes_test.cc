@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <string>
 #include <vector>
 
 namespace meltfront::particles
@@ -110,36 +108,6 @@ namespace meltfront::particles
       EXPECT_NEAR(length_in_square(0.25, M_SQRT1_2, M_SQRT1_2), 2 * (M_SQRT1_2 - 0.25),
                   1e-15);
       EXPECT_DOUBLE_EQ(length_in_square(-0.3, 0, -1), 1);
-    }
-
-    TEST(FrontPlanes, AreTheDefaultWhereTheyApplyAndNowhereElse)
-    {
-      const auto rule = [](cases::DomainShape shape, int dimension,
-                           const std::map<std::string, std::string> &options)
-      {
-        cases::Scene scene;
-        scene.domain.shape = shape;
-        scene.domain.dimension = dimension;
-        cases::Resolution resolution;
-        resolution.n = 20;
-        resolution.options
-            = cases::Options(cases::options_of(SphOptions(corrected_policy())));
-        for(const auto &[key, value] : options)
-          resolution.options.set(key, value);
-        return resolve_parameters(corrected_policy(), scene, resolution).front;
-      };
-      using enum cases::DomainShape;
-      EXPECT_EQ(rule(box, 2, {}), FrontRule::plane);
-      EXPECT_EQ(rule(ball, 2, {{"time_scheme", "euler"}}), FrontRule::plane);
-      EXPECT_EQ(rule(box, 2, {{"front", "sub_particle"}}), FrontRule::sub_particle);
-      EXPECT_EQ(rule(box, 2, {{"front", "partner"}}), FrontRule::partner);
-      EXPECT_EQ(rule(box, 3, {}), FrontRule::sub_particle);
-      EXPECT_EQ(rule(slab, 1, {}), FrontRule::sub_particle);
-      EXPECT_EQ(rule(slab, 1, {{"dimension", "2"}}), FrontRule::sub_particle);
-      EXPECT_EQ(rule(axisymmetric, 2, {}), FrontRule::sub_particle);
-      EXPECT_EQ(rule(box, 2, {{"jitter", "0.1"}}), FrontRule::sub_particle);
-      EXPECT_EQ(rule(box, 2, {{"time_scheme", "crank-nicolson"}}),
-                FrontRule::sub_particle);
     }
   } // namespace
 } // namespace meltfront::particles
