@@ -1,5 +1,7 @@
 #include <particles/core/particle_operator.h>
 #include <particles/sph/front_planes.h>
+#include <particles/sph/sph.h>
+#include <particles/sph/tests/scenes.h>
 
 #include <gtest/gtest.h>
 
@@ -98,6 +100,29 @@ namespace meltfront::particles
       EXPECT_LT(error_on_disk(4), 0.04);
       EXPECT_LT(error_on_disk(8), 0.03);
       EXPECT_LT(error_on_disk(16), 0.03);
+    }
+
+    // Along a lattice line both rules agree, beside walls too: those that the front sets
+    // out from and ends at, and those that it runs into at right angles.
+    TEST(FrontPlanes, AFrontAlongAWallIsThatWithinParticles)
+    {
+      cases::Scene scene = testing::unit_box(2, test_support::unit_material(1), 0.2, 0.2);
+      testing::set_boundary(scene, cases::Side::x_min, testing::fixed_wall(-1));
+      testing::set_boundary(scene, cases::Side::x_max, testing::fixed_wall(-0.5));
+      const auto end_of = [&](const char *rule)
+      {
+        return testing::run(*make_sph(), {scene, nullptr}, 20, {{"front", rule}})
+            .solid_fraction;
+      };
+      const std::vector<double> lines = end_of("plane"), own = end_of("sub_particle");
+      double partly = 0;
+      for(std::size_t a = 0; a < own.size(); ++a)
+      {
+        ASSERT_NEAR(lines[a], own[a], 1e-12);
+        partly += own[a];
+      }
+      EXPECT_GT(partly, 0.2 * double(own.size()));
+      EXPECT_LT(partly, 0.95 * double(own.size()));
     }
 
     TEST(FrontPlanes, LengthOfALineInTheSquare)
