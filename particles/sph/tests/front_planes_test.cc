@@ -106,7 +106,7 @@ namespace meltfront::particles
     // out from and ends at, and those that it runs into at right angles.
     TEST(FrontPlanes, AFrontAlongAWallIsThatWithinParticles)
     {
-      cases::Scene scene = testing::unit_box(2, test_support::unit_material(1), 0.2, 0.2);
+      cases::Scene scene = testing::unit_box(2, test_support::unit_material(1), 0.2, 0.08);
       testing::set_boundary(scene, cases::Side::x_min, testing::fixed_wall(-1));
       testing::set_boundary(scene, cases::Side::x_max, testing::fixed_wall(-0.5));
       const auto end_of = [&](const char *rule)
