@@ -168,7 +168,7 @@ namespace meltfront::verification
     }
     constants.front = constants.volume = constants.heat = {known.order, known.factor};
     if(run.method == "rkpm-tracked")
-      constants.heat.factor = 1.5;
+      constants.heat = {1.5, 1.5, true};
     constants.temperature = known.temperature;
     constants.order_in_time
         = known.order_in_time > 0 ? known.order_in_time : scheme_order(run);
