@@ -127,12 +127,14 @@ namespace meltfront::particles::testing
 
     TEST(Convergence, DisorderedParticles)
     {
-      for(const char *amount : {"0.1", "0.2", "0.3"})
+      for(const char *amount : {"0.1", "0.15"})
       {
         const Outcome sink = run(*method, line_sink(), 40, {{"jitter", amount}});
         EXPECT_LE(sink.front_rms, 1.3e-3) << amount;
         EXPECT_LE(sink.largest_defect, 1e-12);
       }
+      // Few neighbours that are far from a lattice conduct too little.
+      EXPECT_THROW(run(*method, line_sink(), 40, {{"jitter", "0.3"}}), cases::Refusal);
       // Plane N = 80 with h = 1.3 dp in two dimensions: 1.9e-3 and 2.6e-3 were known.
       const OptionTexts options{{"dimension", "2"}, {"smoothing_length", "1.3"}};
       for(const auto &[amount, bound] :
