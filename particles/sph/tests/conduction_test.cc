@@ -130,7 +130,9 @@ namespace meltfront::particles::testing
       };
       EXPECT_LE(spread({{"arrangement", "lennard-jones"}, {"smoothing_length", "1.3"}}),
                 1e-9);
-      EXPECT_LE(spread({{"arrangement", "random"}, {"smoothing_length", "1.3"}}), 1e-9);
+      EXPECT_LE(spread({{"arrangement", "random"}, {"smoothing_length", "3"}}), 1e-9);
+      EXPECT_THROW(spread({{"arrangement", "random"}, {"smoothing_length", "1.3"}}),
+                   cases::Refusal);
       EXPECT_THROW(run(*method, line_sink_in_disk(), 20, {{"arrangement", "random"}}),
                    cases::Refusal);
       EXPECT_THROW(
