@@ -1,5 +1,6 @@
 #include <cases/domain_measure.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace meltfront::cases
@@ -61,5 +62,27 @@ namespace meltfront::cases
     default:
       return volume_of(domain) / (domain.upper[direction] - domain.lower[direction]);
     }
+  }
+
+  int fewest_whole_cells(const Domain &domain)
+  {
+    constexpr int most = 1000;
+    constexpr double tolerance = 1e-9; // of a cell
+    if(!domain.rectangular())
+      return 1;
+    const auto fits = [&domain](int cells)
+    {
+      for(int d = 0; d < domain.dimension; ++d)
+      {
+        const double along = cells * (domain.upper[d] - domain.lower[d]) / domain.side();
+        if(std::abs(along - std::round(along)) > tolerance || std::round(along) < 1)
+          return false;
+      }
+      return true;
+    };
+    for(int cells = 1; cells <= most; ++cells)
+      if(fits(cells))
+        return cells;
+    return 1;
   }
 } // namespace meltfront::cases

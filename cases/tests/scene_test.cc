@@ -1,3 +1,4 @@
+#include <cases/domain_measure.h>
 #include <cases/error.h>
 #include <cases/scene.h>
 #include <cases/snapshot.h>
@@ -194,4 +195,22 @@ TEST(HeatBudget, DefectIsRelativeToItsLargestTerm)
   EXPECT_EQ((HeatBudget{3, 4, -2, -1, 10}).defect(), 0);
   EXPECT_DOUBLE_EQ((HeatBudget{3, 4, -2, -1.5, 10}).defect(), 0.05);
   EXPECT_TRUE(std::isinf((HeatBudget{0, 0, std::nan(""), 0, 0}).defect()));
+}
+
+TEST(DomainMeasure, CellsOfWhichAllSidesAreWholeNumbers)
+{
+  Domain domain;
+  domain.shape = DomainShape::box;
+  domain.dimension = 3;
+  domain.upper = {0.06, 0.04, 0.1};
+  EXPECT_EQ(fewest_whole_cells(domain), 3);
+  domain.dimension = 2;
+  domain.upper = {1, 1, 0};
+  EXPECT_EQ(fewest_whole_cells(domain), 1);
+  domain.upper = {1, 0.7, 0};
+  EXPECT_EQ(fewest_whole_cells(domain), 10);
+  domain.upper = {1, std::sqrt(2.), 0};
+  EXPECT_EQ(fewest_whole_cells(domain), 1) << "there is none";
+  domain.shape = DomainShape::ball;
+  EXPECT_EQ(fewest_whole_cells(domain), 1);
 }

@@ -1,3 +1,4 @@
+#include <cases/domain_measure.h>
 #include <cases/error.h>
 #include <particles/relaxation/lennard_jones.h>
 #include <particles/sph/discretisation.h>
@@ -211,6 +212,18 @@ namespace meltfront::particles
                                      how);
   }
 
+  /** @throws cases::InputError with the next n at which a lattice fills the box */
+  void Discretisation::require_whole_cells(const SphParameters &p) const
+  {
+    const int step = cases::fewest_whole_cells(scene.domain);
+    const int on_walls = p.layout == LatticeLayout::on_edge ? 1 : 0;
+    if((p.n - on_walls) % step != 0)
+      throw cases::InputError(fmt::format(
+          "with n = {} not all sides of the box are whole numbers of particle spacings; "
+          "n = {} fits",
+          p.n, (p.n - on_walls + step - 1) / step * step + on_walls));
+  }
+
   void Discretisation::fill_slab_or_box(const SphParameters &p)
   {
     const bool slab = scene.domain.shape == DomainShape::slab;
@@ -236,6 +249,7 @@ namespace meltfront::particles
       if(across)
         cross_section *= upper - lower;
     }
+    require_whole_cells(p);
     particles = arrange_in_box(dimension, directions, spacing);
   }
 

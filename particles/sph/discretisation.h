@@ -110,6 +110,7 @@ namespace meltfront::particles
     std::vector<std::uint32_t> dirichlet;
 
   private:
+    void require_whole_cells(const SphParameters &parameters) const;
     void fill_slab_or_box(const SphParameters &parameters);
     void fill_ball_or_shell();
     void add_points_beyond(const RoundWall &wall, ParticleStorage &points) const;

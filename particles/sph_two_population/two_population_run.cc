@@ -182,12 +182,11 @@ namespace meltfront::particles
               dis.kernel.smoothing_length());
         const cases::Material &m = scene.material;
         const double h = dis.kernel.smoothing_length();
-        double longest
-            = parameters.sph.step_factor * h * h
-              * std::min(substance.density * m.liquid.specific_heat_capacity
-                             / m.liquid.conductivity,
-                         sites.crystal_density * m.solid.specific_heat_capacity
-                             / m.solid.conductivity);
+        double longest = parameters.sph.step_factor * h * h
+                         * std::min(substance.density * m.liquid.specific_heat_capacity
+                                        / m.liquid.conductivity,
+                                    sites.crystal_density * m.solid.specific_heat_capacity
+                                        / m.solid.conductivity);
         if(parameters.sph.step_limit == StepLimit::monotone)
           longest = std::min(longest, flows.monotone_step());
         const double duration = scene.end_time - scene.start_time;

@@ -48,7 +48,7 @@ namespace meltfront::verification
       RunnerOptions options = runner_options(directory, jobs, memory);
       options.repeats = few_repeats;
       return LadderGrowth(
-          case_name, c.scene.domain.dimension, title, found.capable, options,
+          case_name, c.scene.domain, title, found.capable, options,
           [&c](const std::string &) { return c; }, method_named, within);
     }
 

@@ -106,7 +106,8 @@ namespace meltfront::particles
     // out from and ends at, and those that it runs into at right angles.
     TEST(FrontPlanes, AFrontAlongAWallIsThatWithinParticles)
     {
-      cases::Scene scene = testing::unit_box(2, test_support::unit_material(1), 1.2, 0.06);
+      cases::Scene scene
+          = testing::unit_box(2, test_support::unit_material(1), 1.2, 0.06);
       testing::set_boundary(scene, cases::Side::x_min, testing::fixed_wall(0.2));
       testing::set_boundary(scene, cases::Side::x_max, testing::fixed_wall(0.5));
       const auto end_of = [&](const char *rule)

@@ -46,8 +46,7 @@ namespace meltfront::verification
       return result;
     for(const Level &level : label.levels)
     {
-      const double error = shown_error(level, runs),
-                   cost = level.value("cpu_seconds");
+      const double error = shown_error(level, runs), cost = level.value("cpu_seconds");
       if(positive(error) && positive(cost))
       {
         result.error.push_back(error / scale);

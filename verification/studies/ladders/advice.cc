@@ -286,8 +286,9 @@ namespace meltfront::verification
     }
 
     /** Run what was chosen. */
-    void make_chosen(LadderGrowth &growth, const MethodForecast &chosen, Advice &advice)
+    void make_chosen(LadderGrowth &growth, MethodForecast chosen, Advice &advice)
     {
+      chosen.n = growth.fitting(*chosen.method, chosen.n);
       advice.method = chosen.method->name();
       advice.n = chosen.n;
       advice.predicted_error = chosen.error;

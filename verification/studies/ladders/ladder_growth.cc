@@ -1,3 +1,4 @@
+#include <cases/domain_measure.h>
 #include <cases/numbers.h>
 #include <verification/judge/ladder.h>
 #include <verification/run/run_one.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <thread>
 
 namespace meltfront::verification
@@ -42,13 +44,14 @@ namespace meltfront::verification
     }
   } // namespace
 
-  LadderGrowth::LadderGrowth(const std::string &case_name, int dimension,
+  LadderGrowth::LadderGrowth(const std::string &case_name, const cases::Domain &domain,
                              const std::string &title,
                              const std::vector<const cases::Method *> &methods,
                              const RunnerOptions &options, CaseLoader load_case,
                              MethodLookup lookup, double within)
     : case_name(case_name)
-    , coarsest(dimension == 3 ? coarsest_in_space : coarsest_level)
+    , coarsest(domain.dimension == 3 ? coarsest_in_space : coarsest_level)
+    , whole_cells(cases::fewest_whole_cells(domain))
     , title(title)
     , options(options)
     , load_case(std::move(load_case))
@@ -58,6 +61,19 @@ namespace meltfront::verification
   {
     for(const cases::Method *method : methods)
       growing.push_back({method, {}});
+  }
+
+  int LadderGrowth::fitting(const cases::Method &method, int n) const
+  {
+    if(whole_cells == 1)
+      return n;
+    const auto values = cases::Options(method.option_declarations()).values();
+    const auto layout = values.find("layout");
+    // Points on both walls have one cell less between them than there are points.
+    const bool on_walls = layout != values.end() && layout->second == "edge";
+    const int step = on_walls ? whole_cells : std::lcm(whole_cells, 2);
+    const int cells = n - (on_walls ? 1 : 0);
+    return (cells + step - 1) / step * step + (on_walls ? 1 : 0);
   }
 
   double LadderGrowth::seconds_left() const
@@ -148,7 +164,7 @@ namespace meltfront::verification
       ladder.stopped = fmt::format(
           "n = {} was ended when the time was up, after {:.0f} s", n, within);
     // The first level may be too coarse for it.
-    else if(ladder.resolutions.size() > 1 || n > coarsest)
+    else if(ladder.resolutions.size() > 1 || n > fitting(*ladder.method, coarsest))
       ladder.stopped
           = fmt::format("{} at n = {}: {}", to_string(run->status), n, run->message);
     if(out_of_time)
@@ -177,10 +193,13 @@ namespace meltfront::verification
       if(!known)
         candidates.push_back(
             {&ladder,
-             ladder.resolutions.empty() ? coarsest : 2 * ladder.resolutions.back(), 0});
+             fitting(*ladder.method, ladder.resolutions.empty()
+                                         ? coarsest
+                                         : 2 * ladder.resolutions.back()),
+             0});
       else if(known->n == ladder.resolutions.back())
       {
-        const int n = next_resolution(*known);
+        const int n = fitting(*ladder.method, next_resolution(*known));
         candidates.push_back({&ladder, n, safety * predicted_seconds(*ladder.method, n)});
       }
     }

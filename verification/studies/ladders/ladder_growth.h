@@ -36,11 +36,12 @@ namespace meltfront::verification
   public:
     /**
      * @param case_name by name or path
-     * @param dimension of its domain
+     * @param domain of the case: levels are those whose lattices fill it
      * @param load_case is called at every stage
      * @param within seconds by the clock for all
      */
-    LadderGrowth(const std::string &case_name, int dimension, const std::string &title,
+    LadderGrowth(const std::string &case_name, const cases::Domain &domain,
+                 const std::string &title,
                  const std::vector<const cases::Method *> &methods,
                  const RunnerOptions &options, CaseLoader load_case, MethodLookup lookup,
                  double within);
@@ -60,6 +61,9 @@ namespace meltfront::verification
      * (hides_time_error()), one more run of its finest level at half the step, or of the
      * level before it where time is left for that only; none where for neither. */
     void check_steps();
+
+    /** The least resolution from n on at which a method's lattice fills the domain. */
+    int fitting(const cases::Method &method, int n) const;
 
     double seconds_left() const;
 
@@ -89,7 +93,8 @@ namespace meltfront::verification
     void drop_checks_that_ended();
 
     std::string case_name;
-    int coarsest; ///< level of every ladder
+    int coarsest;    ///< level of every ladder, if its lattice fills the domain
+    int whole_cells; ///< fewest_whole_cells()
     std::string title;
     std::vector<std::string> remarks;
     std::vector<GrowingLadder> growing;

@@ -50,7 +50,7 @@ namespace meltfront::verification
         for(const auto &[name, method] : methods)
           all.push_back(method.get());
         return LadderGrowth(
-            "slab", 1, "levels", all, options,
+            "slab", domain, "levels", all, options,
             [](const std::string &name) { return tests::slab_case(name); },
             [this](const std::string &name) -> const cases::Method &
             { return *methods.at(name); },
@@ -64,9 +64,21 @@ namespace meltfront::verification
       }
 
       ScratchDirectory scratch;
+      cases::Domain domain;
       std::map<std::string, std::unique_ptr<FakeMethod>> methods;
       RunnerOptions options;
     };
+
+    TEST_F(LadderTest, LevelsFillBoxesWhoseSidesDiffer)
+    {
+      add("one", 1);
+      domain.shape = cases::DomainShape::box;
+      domain.dimension = 2;
+      domain.upper = {0.06, 0.04, 0};
+      const LadderGrowth levels = growth(600);
+      EXPECT_EQ(levels.fitting(*methods.at("one"), 20), 24);
+      EXPECT_EQ(levels.fitting(*methods.at("one"), 36), 36);
+    }
 
     TEST_F(LadderTest, GrowsUntilThereAreEnoughLevels)
     {
