@@ -255,6 +255,13 @@ subsection Acceptance
         << "\n  set methods = sph, fem-enthalpy\n  set resolutions = 16, 32, 64\n"
            "  set options = sph.step_factor = 0.4; sph.dimension = 1\nend\n";
   }
+
+  /** The command that makes the matrix of such a directory. */
+  std::string verify_in(const fs::path &directory)
+  {
+    return "verify " + (directory / "matrix.prm").string() + " --out "
+           + (directory / "out").string();
+  }
 } // namespace
 
 TEST(App, ARunCanStandInForAnExactSolution)
@@ -265,9 +272,7 @@ TEST(App, ARunCanStandInForAnExactSolution)
       "sph[ step_factor = 0.4, dimension = 1 ]: solid_volume_2_error at n=64 <= 3e-3\n"
       "  set criterion 2 = any method: worst budget_defect <= 1e-9\n"
       "  set criterion 3 = sph: front_rms at n=64 <= 1");
-  const Outcome outcome
-      = run_program("verify " + (directory.path() / "matrix.prm").string() + " --out "
-                    + (directory.path() / "out").string());
+  const Outcome outcome = run_program(verify_in(directory.path()));
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   expect_text(outcome, "PASS  slab: sph[ step_factor = 0.4, dimension = 1 ]");
   expect_text(outcome, "PASS  slab: sph[dimension=1,step_factor=0.4]: worst budget");
@@ -284,9 +289,7 @@ TEST(App, ABoundFinerThanItsReferenceFails)
   write_referenced_case(directory.path(),
                         "sph[step_factor=0.4, dimension=1]: solid_volume_2_error at n=64 "
                         "in -1 .. 1e-9");
-  const Outcome outcome
-      = run_program("verify " + (directory.path() / "matrix.prm").string() + " --out "
-                    + (directory.path() / "out").string());
+  const Outcome outcome = run_program(verify_in(directory.path()));
   EXPECT_EQ(outcome.status, 1) << outcome.output;
   expect_text(outcome, "the reference's error bar");
 }
@@ -297,8 +300,7 @@ TEST(App, FiguresAreHeldAgainstThoseThatWereKept)
   const TemporaryDirectory directory;
   write_referenced_case(directory.path(), "fem-enthalpy: worst budget_defect <= 1e-9");
   const std::string kept = (directory.path() / "kept").string(),
-                    verify = "verify " + (directory.path() / "matrix.prm").string()
-                             + " --out " + (directory.path() / "out").string();
+                    verify = verify_in(directory.path());
   fs::create_directory(kept);
   ASSERT_EQ(run_program(verify + " --keep-reference " + kept).status, 0);
   EXPECT_EQ(run_program(verify + " --against " + kept).status, 0);
@@ -329,9 +331,7 @@ TEST(App, NamesTheNearestOptionInALabelOfACriterion)
   const TemporaryDirectory directory;
   write_referenced_case(directory.path(),
                         "fem-enthalpy[step=5]: worst budget_defect <= 1e-12");
-  const Outcome outcome
-      = run_program("verify " + (directory.path() / "matrix.prm").string() + " --out "
-                    + (directory.path() / "out").string());
+  const Outcome outcome = run_program(verify_in(directory.path()));
   EXPECT_EQ(outcome.status, 2);
   expect_text(outcome, "'steps'");
   EXPECT_FALSE(fs::exists(directory.path() / "out/runs"));

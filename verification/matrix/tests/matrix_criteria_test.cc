@@ -2,6 +2,7 @@
 #include <verification/matrix/matrix_file.h>
 #include <verification/matrix/matrix_files.h>
 #include <verification/matrix/runner.h>
+#include <verification/matrix/tests/runner_fixture.h>
 #include <verification/run/tests/fakes.h>
 
 #include <gtest/gtest.h>
@@ -128,10 +129,7 @@ end
     protected:
       MatrixCriteriaRun()
       {
-        options.directory = scratch.path("out");
-        options.jobs = 2;
-        options.program_version = "1";
-        options.repeats.most = 1;
+        options = tests::options_in(scratch.path("out"));
         matrix.name = matrix.title = "test";
         matrix.blocks = {{{"slab"}, {"good"}, {20, 40, 80, 160}, {}, {1}, {1}}};
       }

@@ -18,16 +18,24 @@ namespace meltfront::verification::tests
     std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
   }
 
+  /** Two runs at once, each timed once. */
+  inline RunnerOptions options_in(const std::string &directory)
+  {
+    RunnerOptions options;
+    options.directory = directory;
+    options.jobs = 2;
+    options.program_version = "1";
+    options.repeats.most = 1;
+    return options;
+  }
+
   /** Methods of a test, the log of their runs, and a matrix of them. */
   class RunnerTest : public ::testing::Test
   {
   protected:
     RunnerTest()
     {
-      options.directory = scratch.path("out");
-      options.jobs = 2;
-      options.program_version = "1";
-      options.repeats.most = 1;
+      options = options_in(scratch.path("out"));
       add("good", [](const auto &, const auto &) {});
       add("diverging", [](const auto &, const auto &)
           { throw cases::NumericalError("diverging", 3, 0.5, "temperature", "is bad"); });

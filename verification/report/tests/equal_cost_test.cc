@@ -32,14 +32,7 @@ namespace meltfront::verification
       return result;
     }
 
-    std::size_t count(const std::string &in, const std::string &what)
-    {
-      std::size_t found = 0;
-      for(std::size_t at = in.find(what); at != std::string::npos;
-          at = in.find(what, at + 1))
-        ++found;
-      return found;
-    }
+    using fixture::count;
   } // namespace
 
   TEST(Growth, FitsKnownExponents)

@@ -253,4 +253,13 @@ namespace meltfront::verification::fixture
   {
     return std::filesystem::exists(directory.path(file));
   }
+
+  std::size_t count(const std::string &in, const std::string &what)
+  {
+    std::size_t found = 0;
+    for(std::size_t at = in.find(what); at != std::string::npos;
+        at = in.find(what, at + 1))
+      ++found;
+    return found;
+  }
 } // namespace meltfront::verification::fixture

@@ -40,6 +40,9 @@ namespace meltfront::verification::fixture
   private:
     TemporaryDirectory directory;
   };
+
+  /** How often a text occurs in another. */
+  std::size_t count(const std::string &in, const std::string &what);
 } // namespace meltfront::verification::fixture
 
 #endif

@@ -22,14 +22,7 @@ namespace meltfront::verification
   namespace
   {
 
-    std::size_t count(const std::string &in, const std::string &what)
-    {
-      std::size_t found = 0;
-      for(std::size_t at = in.find(what); at != std::string::npos;
-          at = in.find(what, at + 1))
-        ++found;
-      return found;
-    }
+    using fixture::count;
 
     StoredCase solid_case(const std::string &name)
     {

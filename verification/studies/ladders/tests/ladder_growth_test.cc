@@ -1,4 +1,5 @@
 #include <verification/judge/answers.h>
+#include <verification/matrix/tests/runner_fixture.h>
 #include <verification/run/tests/fakes.h>
 #include <verification/studies/ladders/advice.h>
 #include <verification/studies/ladders/capable_methods.h>
@@ -32,10 +33,7 @@ namespace meltfront::verification
     protected:
       LadderTest()
       {
-        options.directory = scratch.path("out");
-        options.jobs = 2;
-        options.program_version = "1";
-        options.repeats.most = 1;
+        options = tests::options_in(scratch.path("out"));
       }
 
       void add(const std::string &name, double order, FakeMethod::Act act = {},
