@@ -28,7 +28,7 @@ namespace meltfront::particles
 
   double FrontExchange::largest_factor(FrontRule rule)
   {
-    return rule == FrontRule::sub_particle ? 2 : 1;
+    return rule == FrontRule::sub_particle || rule == FrontRule::plane ? 2 : 1;
   }
 
   bool FrontExchange::update_phases(const double *u)
@@ -100,44 +100,41 @@ namespace meltfront::particles
   }
 
   /**
-   * What a solid and a liquid particle leave over goes to the melting particles that both
-   * reach, by their coefficients. Where there is none, the pair exchanges as
-   * SubParticlePair does.
+   * What a solid and a liquid particle leave over goes to the melting particles between
+   * them, by their coefficients and by how near to the middle they lie. Where there is
+   * none, or the front has all but reached the particle that is about to change phase,
+   * it goes to that one: else it would keep its phase when the front is past its centre.
    */
   void FrontExchange::settle(const ParticleOperator &rows, FrontState state,
                              std::span<double> flow) const
   {
     const PlanePair pair{state, latent_heat, planes->distance()};
-    const SubParticlePair direct{state, latent_heat};
     const auto visit_between = [&](std::size_t a, std::size_t b, const auto &visit)
     {
-      rows.visit_row(a,
-                     [&](std::size_t m, double to_a)
-                     {
-                       if(state.u[m] != 0)
-                         return;
-                       rows.visit_row(b,
-                                      [&](std::size_t same, double to_b)
-                                      {
-                                        if(same == m)
-                                          visit(m, to_a * to_b);
-                                      });
-                     });
+      const auto weigh = [&](std::size_t m, double coefficient)
+      {
+        if(state.u[m] == 0)
+          if(const double share = pair.share_between(a, b, m); share > 0)
+            visit(m, coefficient * share);
+      };
+      rows.visit_row(a, weigh);
+      rows.visit_row(b, weigh);
     };
     const auto settle_pair = [&](std::size_t a, std::size_t b, double coefficient)
     {
       if(!(a < b && state.u[a] * state.u[b] < 0))
         return;
-      double weight = 0;
-      visit_between(a, b, [&](std::size_t, double share) { weight += share; });
       const double to_a = coefficient * pair(a, b), to_b = coefficient * pair(b, a);
+      const std::size_t changing = std::abs(to_a) < std::abs(to_b) ? a : b;
+      double weight = 0;
+      if(!pair.reached(changing))
+        visit_between(a, b, [&](std::size_t, double share) { weight += share; });
       if(weight > 0)
-        return visit_between(a, b,
-                             [&](std::size_t m, double share)
-                             { flow[m] -= (to_a + to_b) * share / weight; });
-      const double exchanged = coefficient * direct(a, b);
-      flow[a] += exchanged - to_a;
-      flow[b] -= exchanged + to_b;
+        visit_between(a, b,
+                      [&](std::size_t m, double share)
+                      { flow[m] -= (to_a + to_b) * share / weight; });
+      else
+        flow[changing] -= to_a + to_b;
     };
     constexpr std::size_t lanes = ParticleOperator::lanes;
     for(const std::uint32_t slice : fronts)

@@ -143,12 +143,13 @@ namespace meltfront::particles
   class FrontExchange
   {
   public:
-    /** @param rule FrontRule::sub_particle for a material with latent heat only */
+    /** @param rule FrontRule::sub_particle and plane for a material with latent heat
+     * only */
     FrontExchange(const cases::Material &material, FrontRule rule,
                   const ParticleOperator &rows);
 
     /** Take the front's place from FrontPlanes in place of a melting particle's own solid
-     * fraction; for a rule of sub_particle in the plane. */
+     * fraction; for the rule `plane`. */
     void follow_planes(const Discretisation &discretisation);
 
     /** The largest factor by which a pair exchanges more than u_b - u_a. */
@@ -161,7 +162,7 @@ namespace meltfront::particles
     template <typename Use>
     auto with_pair(FrontState state, const Use &use) const
     {
-      if(rule == FrontRule::sub_particle)
+      if(rule == FrontRule::sub_particle || rule == FrontRule::plane)
         return use(SubParticlePair{state, latent_heat});
       return use(
           HarmonicPair{state, solid_scale, liquid_scale, rule == FrontRule::liquid});

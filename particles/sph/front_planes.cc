@@ -161,6 +161,7 @@ namespace meltfront::particles
           each(a);
     };
     visit([&](std::size_t a) { lines[a] = line_of(a); });
+    visit([&](std::size_t a) { lines[a].curvature = curvature_of(a); });
     visit([&](std::size_t a) { distances[a] = lines[a].distance - beyond_line(a); });
   }
 
@@ -190,37 +191,62 @@ namespace meltfront::particles
     return line;
   }
 
-  /** How far the middle of the arc lies beyond its line, towards the liquid. */
-  double FrontPlanes::beyond_line(std::size_t a) const
+  template <typename Visit>
+  void FrontPlanes::visit_lines(std::size_t a, const Visit &visit) const
+  {
+    for(std::size_t i = offsets[a]; i < offsets[a + 1]; ++i)
+    {
+      if(links[i].neighbour >= lines.size()) // an image
+        continue;
+      const Line &other = lines[links[i].neighbour];
+      if(other.update == updates && other.length > 0)
+        visit(links[i], other);
+    }
+  }
+
+  double FrontPlanes::curvature_of(std::size_t a) const
   {
     const Line &own = lines[a];
     if(own.length == 0)
       return 0;
     double count = 1, q = 0, r = 0, qq = 0, qr = 0;
-    for(std::size_t i = offsets[a]; i < offsets[a + 1]; ++i)
-    {
-      const Link &link = links[i];
-      if(link.neighbour >= lines.size()) // an image
-        continue;
-      const Line &other = lines[link.neighbour];
-      if(other.update != updates || other.length == 0)
-        continue;
-      const double along = own.normal_x * link.x + own.normal_y * link.y;
-      const double tangent = own.normal_x * link.y - own.normal_y * link.x;
-      const double bend = tangent * tangent / 2;
-      const double rest = other.distance - own.distance - along;
-      ++count;
-      q += bend;
-      r += rest;
-      qq += bend * bend;
-      qr += bend * rest;
-    }
+    visit_lines(a,
+                [&](const Link &link, const Line &other)
+                {
+                  const double along = own.normal_x * link.x + own.normal_y * link.y;
+                  const double tangent = own.normal_x * link.y - own.normal_y * link.x;
+                  const double bend = tangent * tangent / 2;
+                  const double rest = other.distance - own.distance - along;
+                  ++count;
+                  q += bend;
+                  r += rest;
+                  qq += bend * bend;
+                  qr += bend * rest;
+                });
     const double spread = count * qq - q * q;
     if(!(spread > 1e-9))
       return 0;
-    const double curvature
-        = std::clamp((count * qr - q * r) / spread, -most_curved, most_curved);
-    return curvature * own.length * own.length / 24;
+    return std::clamp((count * qr - q * r) / spread, -most_curved, most_curved);
+  }
+
+  /**
+   * How far the middle of the arc lies beyond its line, towards the liquid. The curvature
+   * is the mean of the neighbours': that of one particle would feed rows that melt in
+   * turns, every other one ahead, and hold the front back.
+   */
+  double FrontPlanes::beyond_line(std::size_t a) const
+  {
+    const Line &own = lines[a];
+    if(own.length == 0)
+      return 0;
+    double count = 1, sum = own.curvature;
+    visit_lines(a,
+                [&](const Link &, const Line &other)
+                {
+                  ++count;
+                  sum += other.curvature;
+                });
+    return sum / count * own.length * own.length / 24;
   }
 
   std::size_t FrontPlanes::bytes() const

@@ -63,6 +63,7 @@ namespace meltfront::particles
       double normal_x = 0, normal_y = 0; ///< into the liquid
       double distance = 0;               ///< of the particle
       double length = 0;                 ///< within the square; 0: there is none
+      double curvature = 0;              ///< of the front, per spacing
       long update = -1;                  ///< at which it was found
     };
 
@@ -79,7 +80,13 @@ namespace meltfront::particles
                      const NeighbourList &neighbours);
     double fraction_of(const Image &image) const;
     Line line_of(std::size_t particle) const;
+    double curvature_of(std::size_t particle) const;
     double beyond_line(std::size_t particle) const;
+
+    /** Call visit(link, line) for each neighbour about which there is a line. */
+    template <typename Visit>
+    void visit_lines(std::size_t particle, const Visit &visit) const;
+
 
     std::vector<std::size_t> offsets;
     std::vector<Link> links;      ///< to the neighbours in the square

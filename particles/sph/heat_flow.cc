@@ -29,21 +29,35 @@ namespace meltfront::particles
       return material;
     }
 
-    /** @throws cases::Refusal for rules that need one conductivity per phase */
-    void require_rule_for_curves(FrontRule rule)
+    /** Whether FrontPlanes finds fronts among these particles and steps. */
+    bool follows_lines(const Discretisation &dis, const SphParameters &p)
     {
-      if(rule != FrontRule::sub_particle)
+      constexpr double to_nearest = 2 * (1 + 1e-9); // spacings; none at 2 themselves
+      return dis.dimension == 2
+             && dis.scene.domain.shape != cases::DomainShape::axisymmetric
+             && p.layout == LatticeLayout::cell_centred && p.jitter == 0
+             && p.arrangement < Arrangement::random
+             && dis.kernel.support() <= to_nearest * dis.spacing
+             && !is_implicit(p.time_scheme);
+    }
+
+    /** The rule asked for, or the best that can be had.
+     * @throws cases::Refusal for a rule that the scene or the particles do not allow */
+    FrontRule resolve_front_rule(const Discretisation &dis, const SphParameters &p)
+    {
+      const bool curves = bool(dis.scene.material.curves);
+      const bool lines = follows_lines(dis, p) && !curves;
+      if(p.front == FrontRule::automatic)
+        return lines ? FrontRule::plane : FrontRule::sub_particle;
+      if(curves && p.front != FrontRule::sub_particle)
         throw cases::Refusal("where properties depend on temperature, or the material "
                              "melts over a range, sph needs front = sub_particle");
-    }
-    /** @throws cases::Refusal where fronts are not followed as lines of the plane */
-    void require_place_for_planes(const Discretisation &dis,
-                                  const SphParameters &parameters)
-    {
-      if(dis.dimension != 2 || dis.scene.domain.shape == cases::DomainShape::axisymmetric
-         || is_implicit(parameters.time_scheme))
-        throw cases::Refusal("sph follows fronts as lines (front = plane) in two "
-                             "dimensions, not about an axis, and with explicit steps");
+      if(p.front == FrontRule::plane && !lines)
+        throw cases::Refusal(
+            "sph follows fronts as lines (front = plane) in two dimensions, not about an "
+            "axis, on a lattice (layout = cell, jitter = 0) whose kernel reaches the "
+            "nearest particles alone, and with explicit steps");
+      return p.front;
     }
   } // namespace
 
@@ -56,20 +70,13 @@ namespace meltfront::particles
     , thread_count(n < worth_sharing ? 1 : parameters.threads)
     , conduction(dis, parameters.moment_correction)
     , variable(material, effects)
-    , front_rule(parameters.front)
+    , front_rule(resolve_front_rule(dis, parameters))
     , exchange_effect(Effect::phase_conductivity)
   {
     require_true_conductivity(dis, conduction.rows);
     const bool melts_gradually = sharp_latent_heat(material) > 0;
-    if(material.curves)
-      require_rule_for_curves(front_rule);
-    const bool follows_planes = front_rule == FrontRule::plane;
-    if(follows_planes)
-      require_place_for_planes(dis, parameters);
-    if(front_rule == FrontRule::plane)
-      front_rule = FrontRule::sub_particle;
     // Without latent heat no particle melts gradually: fronts lie between particles.
-    if(front_rule == FrontRule::sub_particle)
+    if(front_rule == FrontRule::sub_particle || front_rule == FrontRule::plane)
     {
       if(effects.contains(Effect::phase_change) && melts_gradually)
         exchange_effect = Effect::phase_change;
@@ -82,7 +89,7 @@ namespace meltfront::particles
     // Without a jump u_b - u_a holds whatever u's slope is between the particles.
     if(exchange_at_fronts() && (melts_gradually || !material.curves))
       front_exchange.emplace(at_fronts(material), front_rule, conduction.rows);
-    if(follows_planes && front_rule == FrontRule::sub_particle)
+    if(front_rule == FrontRule::plane && front_exchange)
       front_exchange->follow_planes(dis);
     if(variable.mapped())
       mapped.resize(padded_size());
@@ -244,7 +251,9 @@ namespace meltfront::particles
          "1"}};
     if(front_exchange)
       result.push_back({"exchange at fronts",
-                        front_rule == FrontRule::sub_particle
+                        front_rule == FrontRule::plane
+                            ? "front as a line through the particles about it"
+                        : front_rule == FrontRule::sub_particle
                             ? "front within the melting particle"
                         : front_rule == FrontRule::partner
                             ? "melting particles conduct as their partners"

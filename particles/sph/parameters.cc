@@ -59,7 +59,7 @@ namespace meltfront::particles
         "",
         false,
         LatticeLayout::cell_centred,
-        FrontRule::sub_particle,
+        FrontRule::automatic,
         true,
         1.0,
         TimeScheme::rkl2,
@@ -117,11 +117,13 @@ namespace meltfront::particles
         "of a quadratic is exact.");
     options.add("front", values.front,
                 "Exchange of heat at a front: with the front at its place within the "
-                "melting particle (plane: as a line through the particles about it; two "
-                "dimensions, explicit steps), with a melting particle conducting as "
-                "its partner, or "
-                "as the liquid until it has frozen.",
-                {{"sub_particle", FrontRule::sub_particle},
+                "melting particle, as that particle's own solid fraction says "
+                "(sub_particle) or as a line through the particles about it (plane: two "
+                "dimensions, a lattice, explicit steps; automatic: where that is so), "
+                "with a melting particle conducting as its partner, or as the liquid "
+                "until it has frozen.",
+                {{"automatic", FrontRule::automatic},
+                 {"sub_particle", FrontRule::sub_particle},
                  {"plane", FrontRule::plane},
                  {"partner", FrontRule::partner},
                  {"liquid", FrontRule::liquid}});

@@ -14,6 +14,7 @@ namespace meltfront::particles
   /** How particles exchange heat across a front. */
   enum class FrontRule
   {
+    automatic,    ///< plane where FrontPlanes finds fronts, else sub_particle
     sub_particle, ///< the front lies within the melting particle, where its solid
                   ///< fraction puts it
     plane,        ///< in two dimensions and explicit steps: where the solid fraction of

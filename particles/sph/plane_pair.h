@@ -14,7 +14,7 @@ namespace meltfront::particles
    * what a pair with a melting partner exchanges. Between solid and liquid each side
    * takes what its own slope gives; what one leaves over melts or freezes what lies
    * between (FrontExchange::settle). Then a linear temperature in a phase stays as it is
-   * whatever way the front runs across the lattice. Factors of u are within 0 and 2.
+   * whatever way the front runs across the lattice.
    */
   struct PlanePair
   {
@@ -46,9 +46,30 @@ namespace meltfront::particles
       return latent_heat / std::max(latent_heat, sensible);
     }
 
+    /** Of what a solid and a liquid particle leave over, the share of a melting one: 1 in
+     * the middle between them, falling to none at either. */
+    double share_between(std::size_t a, std::size_t b, std::size_t melting) const
+    {
+      const double place = (distance[melting] - distance[a]) / (distance[b] - distance[a]);
+      const double share = 1 - std::abs(2 * place - 1);
+      return share > least_share ? share : 0.;
+    }
+
+    /** Whether the front is so near to a solid or liquid particle that its phase changes
+     * next. */
+    bool reached(std::size_t a) const
+    {
+      return (state.u[a] < 0 ? -distance[a] : distance[a]) < nearest;
+    }
+
   private:
-    /** Nearest to the front that a particle's slope is trusted, in spacings. */
-    static constexpr double nearest = 0.25;
+    /** Spacings from the front at which a particle begins to change phase, so that no
+     * slope is taken from one that is nearer. On the lattice a row's coefficients then
+     * add up to at most 1.5 times those of u_b - u_a. */
+    static constexpr double nearest = 0.4;
+
+    /** Below it a melting particle lies beside one of the pair, not between the two. */
+    static constexpr double least_share = 0.2;
 
     /** (d - d')/d of a particle of one phase at d to a melting one at d'; none where the
      * melting one lies deeper in the phase. */
@@ -56,12 +77,12 @@ namespace meltfront::particles
     {
       const double depth = u < 0 ? -own : own;
       const double beyond = u < 0 ? melting - own : own - melting;
-      return beyond > 0 ? std::min(2., apart / std::max(depth, nearest)) : 0.;
+      return beyond > 0 ? apart / std::max(depth, nearest) : 0.;
     }
 
     static double across(double own, double other)
     {
-      return std::min(2., std::abs(other - own) / std::max(std::abs(own), nearest));
+      return std::abs(other - own) / std::max(std::abs(own), nearest);
     }
 
     /** |c (T - T_m)| */
