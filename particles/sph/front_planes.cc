@@ -1,4 +1,5 @@
 #include <particles/core/particle_operator.h>
+#include <particles/sph/cell_sections.h>
 #include <particles/sph/front_planes.h>
 
 #include <algorithm>
@@ -8,47 +9,46 @@ namespace meltfront::particles
 {
   namespace
   {
-    /** Spacings within which neighbours lie in the square of three by three cells. */
-    constexpr double reach = 1.5;
+    /** Spacings within which neighbours on a lattice lie in the cells about a particle.
+     */
+    constexpr double reach = 1.8;
 
-    /** Side of the square in spacings. */
-    constexpr double side = 3;
+    /** Cells along the side of the square (the cube) about a particle. */
+    constexpr int side = 3;
 
     /** Largest curvature that a lattice shows, per spacing. */
     constexpr double most_curved = 0.5;
+
+    double dot(const std::array<double, 3> &a, const std::array<double, 3> &b)
+    {
+      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+
+    /** Number of a step of -1, 0 or 1 cells in each direction. */
+    std::uint32_t number_of(const std::array<long, 3> &step)
+    {
+      return static_cast<std::uint32_t>((step[0] + 1) * 9 + (step[1] + 1) * 3 + step[2]
+                                        + 1);
+    }
   } // namespace
 
-  double line_through_square(double part_behind, double normal_x, double normal_y)
-  {
-    const double longer = std::max(std::abs(normal_x), std::abs(normal_y));
-    const double shorter = std::min(std::abs(normal_x), std::abs(normal_y));
-    // The chord is of constant length up to `flat`, then shrinks to a corner.
-    const double flat = (longer - shorter) / 2, corner = (longer + shorter) / 2;
-    const double beyond_centre = std::abs(std::clamp(part_behind, 0., 1.) - 0.5);
-    const double distance
-        = beyond_centre * longer <= flat
-              ? beyond_centre * longer
-              : corner - std::sqrt(2 * longer * shorter * (0.5 - beyond_centre));
-    return std::copysign(distance, part_behind - 0.5);
-  }
-
-  double length_in_square(double distance, double normal_x, double normal_y)
-  {
-    const double longer = std::max(std::abs(normal_x), std::abs(normal_y));
-    const double shorter = std::min(std::abs(normal_x), std::abs(normal_y));
-    const double flat = (longer - shorter) / 2, corner = (longer + shorter) / 2;
-    const double from_centre = std::abs(distance);
-    if(from_centre <= flat)
-      return 1 / longer;
-    return from_centre < corner ? (corner - from_centre) / (longer * shorter) : 0;
-  }
-
   FrontPlanes::FrontPlanes(const Discretisation &dis)
+    : dimension(dis.dimension)
+    , sections(dis.particles.size())
   {
+    for(double x : {-1., 0., 1.})
+      for(double y : {-1., 0., 1.})
+        for(double z : {-1., 0., 1.})
+        {
+          const double length = dis.spacing * std::hypot(x, y, z);
+          steps.push_back(
+              {{x, y, z},
+               length > 0 ? -dis.kernel.radial_derivative_over_distance(length) : 0.});
+        }
     const NeighbourList neighbours(dis.particles, reach * dis.spacing, dis.periodicity);
     const std::size_t n = dis.particles.size();
     find_images(dis, neighbours);
-    std::vector<std::vector<std::uint32_t>> beyond(n);
+    std::vector<std::vector<std::uint32_t>> beyond(images.empty() ? 0 : n);
     for(std::size_t i = 0; i < images.size(); ++i)
     {
       const auto number = static_cast<std::uint32_t>(n + i);
@@ -63,27 +63,27 @@ namespace meltfront::particles
       offsets.push_back(links.size());
       const auto link = [&](std::uint32_t b, const cases::Position &place)
       {
-        const auto difference = [&](int d)
-        { return dis.periodicity.shortest(d, place[d] - dis.particles.position[d][a]); };
-        const double x = difference(0), y = difference(1);
-        const double distance = std::hypot(x, y);
-        if(distance < reach * dis.spacing)
-          links.push_back({b, x / dis.spacing, y / dis.spacing,
-                           -dis.kernel.radial_derivative_over_distance(distance)});
+        std::array<long, 3> step{};
+        for(int d = 0; d < dimension; ++d)
+          step[d] = std::lround(
+              dis.periodicity.shortest(d, place[d] - dis.particles.position[d][a])
+              / dis.spacing);
+        if(std::ranges::all_of(step, [](long cells) { return std::abs(cells) <= 1; }))
+          links.push_back({b, number_of(step)});
       };
       for(const std::uint32_t b : neighbours[a])
         link(b, dis.particles.point(b));
-      for(const std::uint32_t image : beyond[a])
-        link(image, images[image - n].place);
+      if(!images.empty())
+        for(const std::uint32_t image : beyond[a])
+          link(image, images[image - n].place);
     }
     offsets.push_back(links.size());
     fraction.resize(n + images.size());
-    lines.resize(n);
     distances.resize((n + ParticleOperator::lanes - 1) / ParticleOperator::lanes
                      * ParticleOperator::lanes);
   }
 
-  /** Of the particles beside plane walls, in each wall and in each corner. */
+  /** Of the particles beside plane walls, in each wall and where walls meet. */
   void FrontPlanes::find_images(const Discretisation &dis,
                                 const NeighbourList &neighbours)
   {
@@ -91,44 +91,44 @@ namespace meltfront::particles
     { return std::abs(place[wall.direction] - wall.coordinate) < 0.75 * dis.spacing; };
     const auto inner_of = [&](std::uint32_t a, const PlaneWall &wall)
     {
+      const cases::Position own = dis.particles.point(a);
       for(const std::uint32_t b : neighbours[a])
       {
-        const cases::Position place = dis.particles.point(b),
-                              own = dis.particles.point(a);
-        const double depth = std::abs(place[wall.direction] - wall.coordinate)
-                             - std::abs(own[wall.direction] - wall.coordinate);
-        const int along = 1 - wall.direction;
-        if(depth > 0.5 * dis.spacing
-           && std::abs(dis.periodicity.shortest(along, place[along] - own[along]))
-                  < 0.5 * dis.spacing)
+        const cases::Position place = dis.particles.point(b);
+        bool behind = std::abs(place[wall.direction] - wall.coordinate)
+                          - std::abs(own[wall.direction] - wall.coordinate)
+                      > 0.5 * dis.spacing;
+        for(int d = 0; d < dimension; ++d)
+          behind = behind
+                   && (d == wall.direction
+                       || std::abs(dis.periodicity.shortest(d, place[d] - own[d]))
+                              < 0.5 * dis.spacing);
+        if(behind)
           return b;
       }
       return a;
     };
-    const auto driven = [](const PlaneWall &wall)
-    { return wall.boundary->kind != cases::BoundaryKind::insulated; };
-    const auto mirrored = [](const PlaneWall &wall, cases::Position place)
+    // Each image is mirrored in the walls that follow those that it was mirrored in.
+    const auto mirror = [&](const auto &self, const Image &image, std::size_t first,
+                            unsigned directions) -> void
     {
-      place[wall.direction] = 2 * wall.coordinate - place[wall.direction];
-      return place;
-    };
-    for(std::uint32_t a = 0; a < dis.particles.size(); ++a)
-    {
-      const cases::Position place = dis.particles.point(a);
-      for(std::size_t i = 0; i < dis.walls.size(); ++i)
+      for(std::size_t i = first; i < dis.walls.size(); ++i)
       {
         const PlaneWall &wall = dis.walls[i];
-        if(!beside(wall, place))
+        if(directions >> wall.direction & 1 || !beside(wall, image.place))
           continue;
-        images.push_back({a, inner_of(a, wall), driven(wall), mirrored(wall, place)});
-        for(std::size_t j = i + 1; j < dis.walls.size(); ++j)
-          if(const PlaneWall &other = dis.walls[j];
-             other.direction != wall.direction && beside(other, place))
-            images.push_back({a, inner_of(a, driven(wall) ? wall : other),
-                              driven(wall) || driven(other),
-                              mirrored(other, mirrored(wall, place))});
+        Image beyond = image;
+        beyond.place[wall.direction] = 2 * wall.coordinate - beyond.place[wall.direction];
+        const bool driven = wall.boundary->kind != cases::BoundaryKind::insulated;
+        if(directions == 0 || (driven && !image.driven))
+          beyond.inner = inner_of(image.of, wall);
+        beyond.driven = image.driven || driven;
+        images.push_back(beyond);
+        self(self, beyond, i + 1, directions | 1u << wall.direction);
       }
-    }
+    };
+    for(std::uint32_t a = 0; a < dis.particles.size(); ++a)
+      mirror(mirror, {a, a, false, dis.particles.point(a)}, 0, 0);
   }
 
   /**
@@ -148,7 +148,7 @@ namespace meltfront::particles
                            double latent_heat)
   {
     constexpr std::size_t lanes = ParticleOperator::lanes;
-    const std::size_t n = lines.size();
+    const std::size_t n = sections.size();
     for(std::size_t a = 0; a < n; ++a)
       fraction[a] = 1 - std::clamp(enthalpy[a] / latent_heat, 0., 1.);
     for(std::size_t i = 0; i < images.size(); ++i)
@@ -160,69 +160,81 @@ namespace meltfront::particles
         for(std::size_t a = slice * lanes; a < std::min((slice + 1) * lanes, n); ++a)
           each(a);
     };
-    visit([&](std::size_t a) { lines[a] = line_of(a); });
-    visit([&](std::size_t a) { lines[a].curvature = curvature_of(a); });
-    visit([&](std::size_t a) { distances[a] = lines[a].distance - beyond_line(a); });
+    visit([&](std::size_t a) { sections[a] = section_of(a); });
+    visit([&](std::size_t a) { sections[a].curvature = curvature_of(a); });
+    visit([&](std::size_t a)
+          { distances[a] = sections[a].distance - beyond_section(a); });
   }
 
-  FrontPlanes::Line FrontPlanes::line_of(std::size_t a) const
+  FrontPlanes::Section FrontPlanes::section_of(std::size_t a) const
   {
-    double sum = fraction[a], x = 0, y = 0;
+    double sum = fraction[a];
+    Vector gradient{};
     for(std::size_t i = offsets[a]; i < offsets[a + 1]; ++i)
     {
+      const Step &step = steps[links[i].step];
       const double other = fraction[links[i].neighbour];
       sum += other;
-      x -= links[i].weight * links[i].x * (other - fraction[a]);
-      y -= links[i].weight * links[i].y * (other - fraction[a]);
+      for(int d = 0; d < 3; ++d)
+        gradient[d] -= step.weight * step.step[d] * (other - fraction[a]);
     }
     const double mean = sum / double(1 + offsets[a + 1] - offsets[a]);
-    const double size = std::hypot(x, y);
-    Line line{.update = updates};
+    const double size = std::sqrt(dot(gradient, gradient));
+    Section section{.update = updates};
     if(size == 0)
     {
-      line.distance = side * (0.5 - mean);
-      return line;
+      section.distance = side * (0.5 - mean);
+      return section;
     }
-    line.normal_x = x / size;
-    line.normal_y = y / size;
-    const double from_centre = line_through_square(mean, line.normal_x, line.normal_y);
-    line.distance = -side * from_centre;
-    line.length = side * length_in_square(from_centre, line.normal_x, line.normal_y);
-    return line;
+    for(int d = 0; d < 3; ++d)
+      section.normal[d] = gradient[d] / size;
+    const auto &[x, y, z] = section.normal;
+    if(dimension == 2)
+    {
+      const double from_centre = line_through_square(mean, x, y);
+      section.distance = -side * from_centre;
+      section.size = side * length_in_square(from_centre, x, y);
+    }
+    else
+    {
+      const double from_centre = plane_through_cube(mean, section.normal);
+      section.distance = -side * from_centre;
+      section.size = side * side * area_in_cube(from_centre, section.normal);
+    }
+    return section;
   }
 
   template <typename Visit>
-  void FrontPlanes::visit_lines(std::size_t a, const Visit &visit) const
+  void FrontPlanes::visit_sections(std::size_t a, const Visit &visit) const
   {
     for(std::size_t i = offsets[a]; i < offsets[a + 1]; ++i)
     {
-      if(links[i].neighbour >= lines.size()) // an image
+      if(links[i].neighbour >= sections.size()) // an image
         continue;
-      const Line &other = lines[links[i].neighbour];
-      if(other.update == updates && other.length > 0)
-        visit(links[i], other);
+      const Section &other = sections[links[i].neighbour];
+      if(other.update == updates && other.size > 0)
+        visit(steps[links[i].step].step, other);
     }
   }
 
   double FrontPlanes::curvature_of(std::size_t a) const
   {
-    const Line &own = lines[a];
-    if(own.length == 0)
+    const Section &own = sections[a];
+    if(own.size == 0)
       return 0;
     double count = 1, q = 0, r = 0, qq = 0, qr = 0;
-    visit_lines(a,
-                [&](const Link &link, const Line &other)
-                {
-                  const double along = own.normal_x * link.x + own.normal_y * link.y;
-                  const double tangent = own.normal_x * link.y - own.normal_y * link.x;
-                  const double bend = tangent * tangent / 2;
-                  const double rest = other.distance - own.distance - along;
-                  ++count;
-                  q += bend;
-                  r += rest;
-                  qq += bend * bend;
-                  qr += bend * rest;
-                });
+    visit_sections(a,
+                   [&](const Vector &step, const Section &other)
+                   {
+                     const double along = dot(own.normal, step);
+                     const double bend = (dot(step, step) - along * along) / 2;
+                     const double rest = other.distance - own.distance - along;
+                     ++count;
+                     q += bend;
+                     r += rest;
+                     qq += bend * bend;
+                     qr += bend * rest;
+                   });
     const double spread = count * qq - q * q;
     if(!(spread > 1e-9))
       return 0;
@@ -234,25 +246,25 @@ namespace meltfront::particles
    * is the mean of the neighbours': that of one particle would feed rows that melt in
    * turns, every other one ahead, and hold the front back.
    */
-  double FrontPlanes::beyond_line(std::size_t a) const
+  double FrontPlanes::beyond_section(std::size_t a) const
   {
-    const Line &own = lines[a];
-    if(own.length == 0)
+    const Section &own = sections[a];
+    if(own.size == 0)
       return 0;
     double count = 1, sum = own.curvature;
-    visit_lines(a,
-                [&](const Link &, const Line &other)
-                {
-                  ++count;
-                  sum += other.curvature;
-                });
-    return sum / count * own.length * own.length / 24;
+    visit_sections(a,
+                   [&](const Vector &, const Section &other)
+                   {
+                     ++count;
+                     sum += other.curvature;
+                   });
+    return sum / count * (dimension == 2 ? own.size * own.size / 24 : own.size / 12);
   }
 
   std::size_t FrontPlanes::bytes() const
   {
     return offsets.size() * sizeof(offsets[0]) + links.size() * sizeof(Link)
            + (fraction.size() + distances.size()) * sizeof(double)
-           + lines.size() * sizeof(Line) + images.size() * sizeof(Image);
+           + sections.size() * sizeof(Section) + images.size() * sizeof(Image);
   }
 } // namespace meltfront::particles

@@ -33,10 +33,8 @@ namespace meltfront::particles
     bool follows_lines(const Discretisation &dis, const SphParameters &p)
     {
       constexpr double to_nearest = 2 * (1 + 1e-9); // spacings; none at 2 themselves
-      return dis.dimension == 2
-             && dis.scene.domain.shape != cases::DomainShape::axisymmetric
-             && p.layout == LatticeLayout::cell_centred && p.jitter == 0
-             && p.arrangement < Arrangement::random
+      return dis.dimension >= 2 && p.layout == LatticeLayout::cell_centred
+             && p.jitter == 0 && p.arrangement < Arrangement::random
              && dis.kernel.support() <= to_nearest * dis.spacing
              && !is_implicit(p.time_scheme);
     }
@@ -54,9 +52,9 @@ namespace meltfront::particles
                              "melts over a range, sph needs front = sub_particle");
       if(p.front == FrontRule::plane && !lines)
         throw cases::Refusal(
-            "sph follows fronts as lines (front = plane) in two dimensions, not about an "
-            "axis, on a lattice (layout = cell, jitter = 0) whose kernel reaches the "
-            "nearest particles alone, and with explicit steps");
+            "sph follows fronts as lines or planes (front = plane) in two and three "
+            "dimensions, on a lattice (layout = cell, jitter = 0) whose kernel reaches "
+            "the nearest particles alone, and with explicit steps");
       return p.front;
     }
   } // namespace
@@ -252,7 +250,7 @@ namespace meltfront::particles
     if(front_exchange)
       result.push_back({"exchange at fronts",
                         front_rule == FrontRule::plane
-                            ? "front as a line through the particles about it"
+                            ? "front as a line or a plane through the particles about it"
                         : front_rule == FrontRule::sub_particle
                             ? "front within the melting particle"
                         : front_rule == FrontRule::partner

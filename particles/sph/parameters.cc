@@ -118,10 +118,11 @@ namespace meltfront::particles
     options.add("front", values.front,
                 "Exchange of heat at a front: with the front at its place within the "
                 "melting particle, as that particle's own solid fraction says "
-                "(sub_particle) or as a line through the particles about it (plane: two "
-                "dimensions, a lattice, explicit steps; automatic: where that is so), "
-                "with a melting particle conducting as its partner, or as the liquid "
-                "until it has frozen.",
+                "(sub_particle) or as a line or plane through the particles about it "
+                "(plane: two or three dimensions, a lattice whose kernel reaches the "
+                "nearest particles, explicit steps; automatic: where that is so), with a "
+                "melting particle conducting as its partner, or as the liquid until it "
+                "has frozen.",
                 {{"automatic", FrontRule::automatic},
                  {"sub_particle", FrontRule::sub_particle},
                  {"plane", FrontRule::plane},

@@ -17,8 +17,8 @@ namespace meltfront::particles
     automatic,    ///< plane where FrontPlanes finds fronts, else sub_particle
     sub_particle, ///< the front lies within the melting particle, where its solid
                   ///< fraction puts it
-    plane,        ///< in two dimensions and explicit steps: where the solid fraction of
-                  ///< the particles about it puts a straight front
+    plane,        ///< where the solid fraction of the particles about it puts a straight
+                  ///< front, on a lattice in the plane or in space
     partner,      ///< a melting particle has the conductivity of its partner
     liquid        ///< that of the liquid until it has frozen (Monaghan et al. 2005,
                   ///< section 3)

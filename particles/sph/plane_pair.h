@@ -50,7 +50,8 @@ namespace meltfront::particles
      * the middle between them, falling to none at either. */
     double share_between(std::size_t a, std::size_t b, std::size_t melting) const
     {
-      const double place = (distance[melting] - distance[a]) / (distance[b] - distance[a]);
+      const double place
+          = (distance[melting] - distance[a]) / (distance[b] - distance[a]);
       const double share = 1 - std::abs(2 * place - 1);
       return share > least_share ? share : 0.;
     }

@@ -1,4 +1,5 @@
 #include <particles/core/particle_operator.h>
+#include <particles/sph/cell_sections.h>
 #include <particles/sph/front_planes.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/tests/scenes.h>
@@ -42,54 +43,64 @@ namespace meltfront::particles
       EXPECT_DOUBLE_EQ(line_through_square(1, -0.6, 0.8), 0.7);
     }
 
-    /** Of a lattice, the distances from a disk of solid that FrontPlanes finds, held
-     * against the true ones near the front: the root mean square, in spacings. */
-    double error_on_disk(double radius_in_spacings)
+    /** What FrontPlanes finds of the distances from a disk or ball of solid, less the
+     * true ones, of particles near the front (spacings). */
+    struct DistanceError
     {
-      constexpr int n = 40, points = 24;
-      cases::Scene scene;
-      scene.domain.shape = cases::DomainShape::box;
-      scene.domain.dimension = 2;
-      scene.domain.lower = {-0.5, -0.5, 0};
-      scene.domain.upper = {0.5, 0.5, 0};
-      for(const cases::Side side : {cases::Side::x_min, cases::Side::x_max,
-                                    cases::Side::y_min, cases::Side::y_max})
-        scene.boundaries[static_cast<std::size_t>(side)] = cases::Boundary{};
+      double mean = 0, rms = 0;
+    };
+
+    DistanceError error_on_ball(int dimension, double radius_in_spacings)
+    {
+      const int n = dimension == 2 ? 40 : 24, points = dimension == 2 ? 24 : 10;
+      cases::Scene scene
+          = testing::unit_box(dimension, test_support::unit_material(1), 0, 1);
       SphParameters parameters;
       parameters.n = n;
-      parameters.dimension = 2;
+      parameters.dimension = dimension;
       const Discretisation dis(scene, parameters);
-      const double radius = radius_in_spacings / n;
+      const int points_along_z = dimension == 2 ? 1 : points;
       std::vector<double> enthalpy, exact;
       for(std::size_t a = 0; a < dis.particles.size(); ++a)
       {
         // Off the lattice's symmetry.
-        const double x = dis.particles.position[0][a] - 0.31 / n;
-        const double y = dis.particles.position[1][a] - 0.17 / n;
+        cases::Position place = dis.particles.point(a);
+        place[0] -= 0.31 / n;
+        place[1] -= 0.17 / n;
+        place[2] -= dimension == 2 ? 0 : 0.23 / n;
+        const auto depth = [&](double x, double y, double z)
+        {
+          return std::hypot(place[0] * n + x, place[1] * n + y, place[2] * n + z)
+                 - radius_in_spacings;
+        };
+        const auto offset = [](int i, int count) { return (i + 0.5) / count - 0.5; };
         int solid = 0;
         for(int i = 0; i < points; ++i)
           for(int j = 0; j < points; ++j)
-            solid += std::hypot(x + ((i + 0.5) / points - 0.5) / n,
-                                y + ((j + 0.5) / points - 0.5) / n)
-                     < radius;
-        enthalpy.push_back(1 - double(solid) / (points * points));
-        exact.push_back((std::hypot(x, y) - radius) * n);
+            for(int k = 0; k < points_along_z; ++k)
+              solid += depth(offset(i, points), offset(j, points),
+                             offset(k, points_along_z))
+                       < 0;
+        enthalpy.push_back(1 - double(solid) / (points * points * points_along_z));
+        exact.push_back(depth(0, 0, 0));
       }
       std::vector<std::uint32_t> slices((enthalpy.size() + ParticleOperator::lanes - 1)
                                         / ParticleOperator::lanes);
       std::iota(slices.begin(), slices.end(), 0);
       FrontPlanes planes(dis);
       planes.update(slices, enthalpy.data(), 1);
-      double squares = 0;
+      DistanceError error;
       int near = 0;
       for(std::size_t a = 0; a < exact.size(); ++a)
         if(std::abs(exact[a]) < 0.8)
         {
-          squares += std::pow(planes.distance()[a] - exact[a], 2);
+          const double off = planes.distance()[a] - exact[a];
+          error.mean += off;
+          error.rms += off * off;
           ++near;
         }
       EXPECT_GT(near, 10);
-      return std::sqrt(squares / near);
+      return {error.mean / near, std::sqrt(error.rms / near)};
     }
 
     // A line through three cells alone lies 9/(24 r) off the middle of an arc of radius
@@ -97,9 +108,57 @@ namespace meltfront::particles
     // normal's.
     TEST(FrontPlanes, DistanceFromADiskIsThatFromItsArc)
     {
-      EXPECT_LT(error_on_disk(4), 0.04);
-      EXPECT_LT(error_on_disk(8), 0.03);
-      EXPECT_LT(error_on_disk(16), 0.03);
+      EXPECT_LT(error_on_ball(2, 4).rms, 0.04);
+      EXPECT_LT(error_on_ball(2, 8).rms, 0.03);
+      EXPECT_LT(error_on_ball(2, 16).rms, 0.03);
+    }
+
+    // Twice the curvature's part, and normals from fewer cells on the front.
+    TEST(FrontPlanes, DistanceFromABallIsThatFromItsCap)
+    {
+      const DistanceError four = error_on_ball(3, 4), eight = error_on_ball(3, 8);
+      EXPECT_LT(std::abs(four.mean), 0.03);
+      EXPECT_LT(std::abs(eight.mean), 0.01);
+      EXPECT_LT(eight.rms, 0.05);
+    }
+
+    /** Part of the unit cube behind a plane, by points on a grid. */
+    double part_of_cube_behind(double distance, const std::array<double, 3> &normal)
+    {
+      constexpr int points = 60;
+      const auto place = [](int i) { return (i + 0.5) / points - 0.5; };
+      int behind = 0;
+      for(int i = 0; i < points; ++i)
+        for(int j = 0; j < points; ++j)
+          for(int k = 0; k < points; ++k)
+            behind += place(i) * normal[0] + place(j) * normal[1] + place(k) * normal[2]
+                      < distance;
+      return double(behind) / (points * points * points);
+    }
+
+    TEST(FrontPlanes, PlaneLeavesTheGivenPartOfACubeBehind)
+    {
+      const std::array<double, 3> normals[]
+          = {{0.6, -0.48, 0.64}, {2. / 3, 1. / 3, -2. / 3}, {0.995, 0.0705, 0.0706}};
+      for(const auto &normal : normals)
+        for(const double part : {0.003, 0.1, 0.3, 0.5, 0.8, 0.99})
+        {
+          const double distance = plane_through_cube(part, normal);
+          EXPECT_NEAR(part_of_cube_behind(distance, normal), part, 4e-3);
+          // The area is what the part grows by.
+          constexpr double step = 1e-4;
+          EXPECT_NEAR(area_in_cube(plane_through_cube(part, normal), normal),
+                      2 * step
+                          / (plane_through_cube(part + step, normal)
+                             - plane_through_cube(part - step, normal)),
+                      2e-3);
+        }
+      // Along the lattice, and tilted in one direction only.
+      EXPECT_DOUBLE_EQ(plane_through_cube(0.7, {0, 0, -1}), 0.2);
+      EXPECT_DOUBLE_EQ(plane_through_cube(0.2, {0.6, 0, 0.8}),
+                       line_through_square(0.2, 0.6, 0.8));
+      EXPECT_DOUBLE_EQ(plane_through_cube(0, {0.6, -0.48, 0.64}), -0.86);
+      EXPECT_DOUBLE_EQ(area_in_cube(0.9, {0.6, -0.48, 0.64}), 0);
     }
 
     // Along a lattice line both rules agree, beside walls too: those that the front sets
@@ -137,16 +196,16 @@ namespace meltfront::particles
                                              {1, 0.5, 0}, 1.2, 0.0568);
       testing::set_boundary(scene, cases::Side::x_min,
                             {cases::BoundaryKind::fixed_temperature,
-                             {"0.4 (1 + 0.7 sin 6y)",
-                              [](const cases::Position &x, double)
+                             {"0.4 (1 + 0.7 sin 6y)", [](const cases::Position &x, double)
                               { return 0.4 * (1 + 0.7 * std::sin(6 * x[1])); }}});
       testing::set_boundary(scene, cases::Side::x_max, testing::fixed_wall(1.2));
       for(const int n : {40, 60, 80})
       {
         const testing::Outcome end
             = testing::run(*make_sph(), {scene, nullptr}, n, {{"front", "plane"}});
-        const double solid = std::inner_product(
-            end.solid_fraction.begin(), end.solid_fraction.end(), end.weights.begin(), 0.);
+        const double solid
+            = std::inner_product(end.solid_fraction.begin(), end.solid_fraction.end(),
+                                 end.weights.begin(), 0.);
         EXPECT_NEAR(solid, 0.0861, 1.5e-4) << "n = " << n;
       }
     }
