@@ -1,11 +1,16 @@
 #include <particles/sph/front_exchange.h>
 #include <particles/sph/plane_pair.h>
 
+#include <boost/container/static_vector.hpp>
+
 namespace meltfront::particles
 {
   namespace
   {
     constexpr int solid_bit = 1, liquid_bit = 2, melting_bit = 4;
+
+    /** Of a particle on a lattice that FrontPlanes takes. */
+    constexpr std::size_t most_neighbours = 26;
   } // namespace
 
   FrontExchange::FrontExchange(const cases::Material &material, FrontRule rule,
@@ -109,13 +114,15 @@ namespace meltfront::particles
                              std::span<double> flow) const
   {
     const PlanePair pair{state, latent_heat, planes->distance()};
-    const auto visit_between = [&](std::size_t a, std::size_t b, const auto &visit)
+    boost::container::static_vector<std::pair<std::size_t, double>, 2 * most_neighbours>
+        between;
+    const auto find_between = [&](std::size_t a, std::size_t b)
     {
       const auto weigh = [&](std::size_t m, double coefficient)
       {
         if(state.u[m] == 0)
           if(const double share = pair.share_between(a, b, m); share > 0)
-            visit(m, coefficient * share);
+            between.emplace_back(m, coefficient * share);
       };
       rows.visit_row(a, weigh);
       rows.visit_row(b, weigh);
@@ -126,15 +133,16 @@ namespace meltfront::particles
         return;
       const double to_a = coefficient * pair(a, b), to_b = coefficient * pair(b, a);
       const std::size_t changing = std::abs(to_a) < std::abs(to_b) ? a : b;
-      double weight = 0;
+      between.clear();
       if(!pair.reached(changing))
-        visit_between(a, b, [&](std::size_t, double share) { weight += share; });
-      if(weight > 0)
-        visit_between(a, b,
-                      [&](std::size_t m, double share)
-                      { flow[m] -= (to_a + to_b) * share / weight; });
-      else
-        flow[changing] -= to_a + to_b;
+        find_between(a, b);
+      if(between.empty())
+        between.emplace_back(changing, 1);
+      double weight = 0;
+      for(const auto &[m, share] : between)
+        weight += share;
+      for(const auto &[m, share] : between)
+        flow[m] -= (to_a + to_b) * share / weight;
     };
     constexpr std::size_t lanes = ParticleOperator::lanes;
     for(const std::uint32_t slice : fronts)

@@ -142,7 +142,8 @@ namespace meltfront::verification
                      "Values at the end of the finest run of each method, with error "
                      "bars from its levels; where the time step was not refined with "
                      "them, also from a run at half the step. A distance above 1 bar "
-                     "contradicts the consensus.")
+                     "contradicts the consensus; bars are made to hold in nine of ten "
+                     "cases, so look at how many bars it is.")
            + table_markup(answers_table(answers));
   }
 } // namespace meltfront::verification
