@@ -99,7 +99,7 @@ namespace meltfront::particles
                                    std::span<double> flow)
   {
     planes->update(fronts, state.enthalpy, latent_heat);
-    const PlanePair pair{state, latent_heat, planes->distance()};
+    const PlanePair pair{state, latent_heat, planes->distance(), planes->trust()};
     rows.apply_to_slices(fronts, pair, flow);
     settle(rows, state, flow);
   }
@@ -113,7 +113,7 @@ namespace meltfront::particles
   void FrontExchange::settle(const ParticleOperator &rows, FrontState state,
                              std::span<double> flow) const
   {
-    const PlanePair pair{state, latent_heat, planes->distance()};
+    const PlanePair pair{state, latent_heat, planes->distance(), planes->trust()};
     boost::container::static_vector<std::pair<std::size_t, double>, 2 * most_neighbours>
         between;
     const auto find_between = [&](std::size_t a, std::size_t b)

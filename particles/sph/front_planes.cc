@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace meltfront::particles
 {
@@ -15,6 +17,10 @@ namespace meltfront::particles
 
     /** Cells along the side of the square (the cube) about a particle. */
     constexpr int side = 3;
+
+    /** Two fronts' gradients cancel: a single front is in doubt below the second, and
+     * excluded below the first part of the gradient of one along a lattice line. */
+    constexpr double least_gradient = 0.4, sure_gradient = 0.8;
 
     /** Largest curvature that a lattice shows, per spacing. */
     constexpr double most_curved = 0.5;
@@ -41,10 +47,14 @@ namespace meltfront::particles
         for(double z : {-1., 0., 1.})
         {
           const double length = dis.spacing * std::hypot(x, y, z);
-          steps.push_back(
-              {{x, y, z},
-               length > 0 ? -dis.kernel.radial_derivative_over_distance(length) : 0.});
+          steps.push_back({{x, y, z},
+                           length > 0 && z * z <= dimension - 2
+                               ? -dis.kernel.radial_derivative_over_distance(length)
+                               : 0.});
         }
+    steepest = std::transform_reduce(steps.begin(), steps.end(), 0., std::plus<>(),
+                                     [](const Step &step)
+                                     { return step.step[0] > 0 ? step.weight : 0.; });
     const NeighbourList neighbours(dis.particles, reach * dis.spacing, dis.periodicity);
     const std::size_t n = dis.particles.size();
     find_images(dis, neighbours);
@@ -81,6 +91,7 @@ namespace meltfront::particles
     fraction.resize(n + images.size());
     distances.resize((n + ParticleOperator::lanes - 1) / ParticleOperator::lanes
                      * ParticleOperator::lanes);
+    trusts.resize(distances.size());
   }
 
   /** Of the particles beside plane walls, in each wall and where walls meet. */
@@ -162,8 +173,12 @@ namespace meltfront::particles
     };
     visit([&](std::size_t a) { sections[a] = section_of(a); });
     visit([&](std::size_t a) { sections[a].curvature = curvature_of(a); });
-    visit([&](std::size_t a)
-          { distances[a] = sections[a].distance - beyond_section(a); });
+    visit(
+        [&](std::size_t a)
+        {
+          distances[a] = sections[a].distance - beyond_section(a);
+          trusts[a] = sections[a].trust;
+        });
   }
 
   FrontPlanes::Section FrontPlanes::section_of(std::size_t a) const
@@ -180,12 +195,9 @@ namespace meltfront::particles
     }
     const double mean = sum / double(1 + offsets[a + 1] - offsets[a]);
     const double size = std::sqrt(dot(gradient, gradient));
-    Section section{.update = updates};
-    if(size == 0)
-    {
-      section.distance = side * (0.5 - mean);
+    Section section{.trust = trust_in(a, mean, size), .update = updates};
+    if(section.trust == 0)
       return section;
-    }
     for(int d = 0; d < 3; ++d)
       section.normal[d] = gradient[d] / size;
     const auto &[x, y, z] = section.normal;
@@ -202,6 +214,18 @@ namespace meltfront::particles
       section.size = side * side * area_in_cube(from_centre, section.normal);
     }
     return section;
+  }
+
+  /** Along a lattice line the cells before and behind are full and empty unless the front
+   * lies in one of them: their difference is 1, or three times the rarer phase's part. */
+  double FrontPlanes::trust_in(std::size_t a, double mean, double gradient) const
+  {
+    const std::size_t cells = dimension == 2 ? side * side : side * side * side;
+    const double rarer = std::min(mean, 1 - mean);
+    if(1 + offsets[a + 1] - offsets[a] < cells || rarer <= 0)
+      return 0;
+    const double part = gradient / (steepest * std::min(1., side * rarer));
+    return std::clamp((part - least_gradient) / (sure_gradient - least_gradient), 0., 1.);
   }
 
   template <typename Visit>
@@ -222,23 +246,23 @@ namespace meltfront::particles
     const Section &own = sections[a];
     if(own.size == 0)
       return 0;
-    double count = 1, q = 0, r = 0, qq = 0, qr = 0;
+    double weight = own.trust, q = 0, r = 0, qq = 0, qr = 0;
     visit_sections(a,
                    [&](const Vector &step, const Section &other)
                    {
                      const double along = dot(own.normal, step);
                      const double bend = (dot(step, step) - along * along) / 2;
                      const double rest = other.distance - own.distance - along;
-                     ++count;
-                     q += bend;
-                     r += rest;
-                     qq += bend * bend;
-                     qr += bend * rest;
+                     weight += other.trust;
+                     q += other.trust * bend;
+                     r += other.trust * rest;
+                     qq += other.trust * bend * bend;
+                     qr += other.trust * bend * rest;
                    });
-    const double spread = count * qq - q * q;
+    const double spread = weight * qq - q * q;
     if(!(spread > 1e-9))
       return 0;
-    return std::clamp((count * qr - q * r) / spread, -most_curved, most_curved);
+    return std::clamp((weight * qr - q * r) / spread, -most_curved, most_curved);
   }
 
   /**
@@ -251,20 +275,20 @@ namespace meltfront::particles
     const Section &own = sections[a];
     if(own.size == 0)
       return 0;
-    double count = 1, sum = own.curvature;
+    double weight = own.trust, sum = own.trust * own.curvature;
     visit_sections(a,
                    [&](const Vector &, const Section &other)
                    {
-                     ++count;
-                     sum += other.curvature;
+                     weight += other.trust;
+                     sum += other.trust * other.curvature;
                    });
-    return sum / count * (dimension == 2 ? own.size * own.size / 24 : own.size / 12);
+    return sum / weight * (dimension == 2 ? own.size * own.size / 24 : own.size / 12);
   }
 
   std::size_t FrontPlanes::bytes() const
   {
     return offsets.size() * sizeof(offsets[0]) + links.size() * sizeof(Link)
-           + (fraction.size() + distances.size()) * sizeof(double)
+           + (fraction.size() + 2 * distances.size()) * sizeof(double)
            + sections.size() * sizeof(Section) + images.size() * sizeof(Image);
   }
 } // namespace meltfront::particles

@@ -41,6 +41,13 @@ namespace meltfront::particles
       return distances.data();
     }
 
+    /** How far the cells about a particle show a single front, 0 to 1: none between two
+     * fronts that all but touch, or where cells are beyond a wall that bends. */
+    const double *trust() const
+    {
+      return trusts.data();
+    }
+
     std::size_t bytes() const;
 
   private:
@@ -64,8 +71,9 @@ namespace meltfront::particles
     {
       Vector normal{};      ///< into the liquid
       double distance = 0;  ///< of the particle
-      double size = 0;      ///< length or area within the cells; 0: there is none
+      double size = 0;      ///< length or area within the cells; 0: no single front
       double curvature = 0; ///< of the front, per spacing
+      double trust = 0;     ///< in there being a single front
       long update = -1;     ///< at which it was found
     };
 
@@ -82,6 +90,7 @@ namespace meltfront::particles
                      const NeighbourList &neighbours);
     double fraction_of(const Image &image) const;
     Section section_of(std::size_t particle) const;
+    double trust_in(std::size_t particle, double mean, double gradient) const;
     double curvature_of(std::size_t particle) const;
     double beyond_section(std::size_t particle) const;
 
@@ -91,12 +100,13 @@ namespace meltfront::particles
 
     int dimension;
     std::vector<Step> steps;
+    double steepest; ///< gradient of a front along a lattice line
     std::vector<std::size_t> offsets;
     std::vector<Link> links;      ///< to the cells about a particle
     std::vector<Image> images;    ///< numbered after the particles
     std::vector<double> fraction; ///< of solid
     std::vector<Section> sections;
-    std::vector<double> distances;
+    std::vector<double> distances, trusts;
     long updates = 0;
   };
 } // namespace meltfront::particles

@@ -45,8 +45,11 @@ namespace meltfront::particles
     {
       const bool curves = bool(dis.scene.material.curves);
       const bool lines = follows_lines(dis, p) && !curves;
+      // Beside an outline's steps every particle would have to fall back on its own
+      // front.
+      const bool stepped = bool(dis.scene.domain.outline);
       if(p.front == FrontRule::automatic)
-        return lines ? FrontRule::plane : FrontRule::sub_particle;
+        return lines && !stepped ? FrontRule::plane : FrontRule::sub_particle;
       if(curves && p.front != FrontRule::sub_particle)
         throw cases::Refusal("where properties depend on temperature, or the material "
                              "melts over a range, sph needs front = sub_particle");

@@ -21,8 +21,10 @@ namespace meltfront::particles
     FrontState state;
     double latent_heat;
     const double *distance; ///< from the front, in spacings; negative in the solid
+    const double *trust;    ///< in there being a single front, 0 to 1
 
-    /** Written without branches, so that eight rows advance together. */
+    /** As far as a single front is not certain, what SubParticlePair gives. Written
+     * without branches, so that eight rows advance together. */
     double operator()(std::size_t a, std::size_t b) const
     {
       const double own = state.u[a], other = state.u[b];
@@ -36,7 +38,9 @@ namespace meltfront::particles
                                : own * other < 0
                                    ? -own * across(distance[a], distance[b]) - difference
                                    : difference * (factor - 1);
-      return difference + latent_share(a, b) * deviation;
+      const double by_line = difference + latent_share(a, b) * deviation;
+      const double by_fraction = SubParticlePair{state, latent_heat}(a, b);
+      return by_fraction + trust[a] * trust[b] * (by_line - by_fraction);
     }
 
     double latent_share(std::size_t a, std::size_t b) const
@@ -47,13 +51,13 @@ namespace meltfront::particles
     }
 
     /** Of what a solid and a liquid particle leave over, the share of a melting one: 1 in
-     * the middle between them, falling to none at either. */
+     * the middle between them, none at either nor beyond. */
     double share_between(std::size_t a, std::size_t b, std::size_t melting) const
     {
       const double place
           = (distance[melting] - distance[a]) / (distance[b] - distance[a]);
-      const double share = 1 - std::abs(2 * place - 1);
-      return share > least_share ? share : 0.;
+      const double share = 1 - std::abs(2 * place - 1) - beside;
+      return share > 0 ? share * trust[melting] : 0.;
     }
 
     /** Whether the front is so near to a solid or liquid particle that its phase changes
@@ -69,8 +73,8 @@ namespace meltfront::particles
      * add up to at most 1.5 times those of u_b - u_a. */
     static constexpr double nearest = 0.4;
 
-    /** Below it a melting particle lies beside one of the pair, not between the two. */
-    static constexpr double least_share = 0.2;
+    /** Below this share a melting particle lies beside one of the pair, not between. */
+    static constexpr double beside = 0.2;
 
     /** (d - d')/d of a particle of one phase at d to a melting one at d'; none where the
      * melting one lies deeper in the phase. */

@@ -161,6 +161,46 @@ namespace meltfront::particles
       EXPECT_DOUBLE_EQ(area_in_cube(0.9, {0.6, -0.48, 0.64}), 0);
     }
 
+    // Between two fronts that all but touch there is no line: their gradients cancel.
+    TEST(FrontPlanes, ASingleFrontIsTrustedAndTwoAreNot)
+    {
+      constexpr int n = 12;
+      cases::Scene scene = testing::unit_box(2, test_support::unit_material(1), 0, 1);
+      SphParameters parameters;
+      parameters.n = n;
+      parameters.dimension = 2;
+      const Discretisation dis(scene, parameters);
+      FrontPlanes planes(dis);
+      std::vector<std::uint32_t> slices(dis.particles.size() / ParticleOperator::lanes);
+      std::iota(slices.begin(), slices.end(), 0);
+      const auto trust_at = [&](int wanted, const auto &molten)
+      {
+        std::vector<double> enthalpy;
+        for(std::size_t a = 0; a < dis.particles.size(); ++a)
+          enthalpy.push_back(
+              molten(std::lround((dis.particles.position[0][a] + 0.5) * n - 0.5)));
+        planes.update(slices, enthalpy.data(), 1);
+        double least = 1, most = 0;
+        for(std::size_t a = 0; a < dis.particles.size(); ++a)
+          if(std::lround((dis.particles.position[0][a] + 0.5) * n - 0.5) == wanted)
+          {
+            least = std::min(least, planes.trust()[a]);
+            most = std::max(most, planes.trust()[a]);
+          }
+        EXPECT_DOUBLE_EQ(least, most) << "beside walls as elsewhere";
+        return least;
+      };
+      const auto one = [](long column) {
+        return column < 5 ? 0. : column == 5 ? 0.4 : 1.;
+      };
+      EXPECT_DOUBLE_EQ(trust_at(4, one), 1);
+      EXPECT_DOUBLE_EQ(trust_at(5, one), 1);
+      EXPECT_DOUBLE_EQ(trust_at(6, one), 1);
+      EXPECT_DOUBLE_EQ(trust_at(9, one), 0);
+      const auto gap = [](long column) { return column == 5 ? 0.7 : 0.; };
+      EXPECT_DOUBLE_EQ(trust_at(5, gap), 0);
+    }
+
     // Along a lattice line both rules agree, beside walls too: those that the front sets
     // out from and ends at, and those that it runs into at right angles.
     TEST(FrontPlanes, AFrontAlongAWallIsThatWithinParticles)
