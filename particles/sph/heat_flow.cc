@@ -1,3 +1,4 @@
+#include <cases/capabilities.h>
 #include <cases/error.h>
 #include <particles/sph/conduction_spectrum.h>
 #include <particles/sph/effective_conductivity.h>
@@ -39,17 +40,25 @@ namespace meltfront::particles
              && !is_implicit(p.time_scheme);
     }
 
+    /** Whether fronts are lines between a solid and a liquid: matter that is partly
+     * melted throughout shows none, nor do the steps of an outline. */
+    bool has_sharp_fronts(const cases::Scene &scene)
+    {
+      return !scene.domain.outline
+             && std::ranges::count(cases::front_origins(scene),
+                                   cases::FrontOrigin::partly_melted)
+                    == 0;
+    }
+
     /** The rule asked for, or the best that can be had.
      * @throws cases::Refusal for a rule that the scene or the particles do not allow */
     FrontRule resolve_front_rule(const Discretisation &dis, const SphParameters &p)
     {
       const bool curves = bool(dis.scene.material.curves);
       const bool lines = follows_lines(dis, p) && !curves;
-      // Beside an outline's steps every particle would have to fall back on its own
-      // front.
-      const bool stepped = bool(dis.scene.domain.outline);
       if(p.front == FrontRule::automatic)
-        return lines && !stepped ? FrontRule::plane : FrontRule::sub_particle;
+        return lines && has_sharp_fronts(dis.scene) ? FrontRule::plane
+                                                    : FrontRule::sub_particle;
       if(curves && p.front != FrontRule::sub_particle)
         throw cases::Refusal("where properties depend on temperature, or the material "
                              "melts over a range, sph needs front = sub_particle");
