@@ -33,7 +33,7 @@ namespace meltfront::particles
 
   double FrontExchange::largest_factor(FrontRule rule)
   {
-    return rule == FrontRule::sub_particle || rule == FrontRule::plane ? 2 : 1;
+    return lies_within_particles(rule) ? 2 : 1;
   }
 
   bool FrontExchange::update_phases(const double *u)

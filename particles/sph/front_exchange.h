@@ -58,9 +58,7 @@ namespace meltfront::particles
       const double deviation = own * other > 0   ? 0.
                                : own * other < 0 ? between
                                                  : at_melting;
-      return difference
-             + latent_share(sensible_heat(own_enthalpy) + sensible_heat(other_enthalpy))
-                   * deviation;
+      return difference + latent_share(a, b) * deviation;
     }
 
     /**
@@ -82,6 +80,13 @@ namespace meltfront::particles
       return difference
              + latent_share(sensible_heat(enthalpy))
                    * std::copysign(std::abs(std::abs(own) - std::abs(wall)), difference);
+    }
+
+    /** How much of the latent heat's deviations from u_b - u_a remains for a pair. */
+    double latent_share(std::size_t a, std::size_t b) const
+    {
+      return latent_share(sensible_heat(state.enthalpy[a])
+                          + sensible_heat(state.enthalpy[b]));
     }
 
   private:
@@ -162,7 +167,7 @@ namespace meltfront::particles
     template <typename Use>
     auto with_pair(FrontState state, const Use &use) const
     {
-      if(rule == FrontRule::sub_particle || rule == FrontRule::plane)
+      if(lies_within_particles(rule))
         return use(SubParticlePair{state, latent_heat});
       return use(
           HarmonicPair{state, solid_scale, liquid_scale, rule == FrontRule::liquid});

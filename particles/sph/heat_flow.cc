@@ -86,7 +86,7 @@ namespace meltfront::particles
     require_true_conductivity(dis, conduction.rows);
     const bool melts_gradually = sharp_latent_heat(material) > 0;
     // Without latent heat no particle melts gradually: fronts lie between particles.
-    if(front_rule == FrontRule::sub_particle || front_rule == FrontRule::plane)
+    if(lies_within_particles(front_rule))
     {
       if(effects.contains(Effect::phase_change) && melts_gradually)
         exchange_effect = Effect::phase_change;

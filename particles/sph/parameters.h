@@ -24,6 +24,12 @@ namespace meltfront::particles
                   ///< section 3)
   };
 
+  /** Whether the front lies within particles that melt, not between particles. */
+  inline bool lies_within_particles(FrontRule rule)
+  {
+    return rule == FrontRule::sub_particle || rule == FrontRule::plane;
+  }
+
   /** Where the particles are. */
   enum class Arrangement
   {

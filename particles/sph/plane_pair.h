@@ -38,16 +38,10 @@ namespace meltfront::particles
                                : own * other < 0
                                    ? -own * across(distance[a], distance[b]) - difference
                                    : difference * (factor - 1);
-      const double by_line = difference + latent_share(a, b) * deviation;
-      const double by_fraction = SubParticlePair{state, latent_heat}(a, b);
+      const SubParticlePair fraction{state, latent_heat};
+      const double by_line = difference + fraction.latent_share(a, b) * deviation;
+      const double by_fraction = fraction(a, b);
       return by_fraction + trust[a] * trust[b] * (by_line - by_fraction);
-    }
-
-    double latent_share(std::size_t a, std::size_t b) const
-    {
-      const double sensible
-          = sensible_heat(state.enthalpy[a]) + sensible_heat(state.enthalpy[b]);
-      return latent_heat / std::max(latent_heat, sensible);
     }
 
     /** Of what a solid and a liquid particle leave over, the share of a melting one: 1 in
@@ -88,12 +82,6 @@ namespace meltfront::particles
     static double across(double own, double other)
     {
       return std::abs(other - own) / std::max(std::abs(own), nearest);
-    }
-
-    /** |c (T - T_m)| */
-    double sensible_heat(double enthalpy) const
-    {
-      return std::max(-enthalpy, 0.) + std::max(enthalpy - latent_heat, 0.);
     }
   };
 } // namespace meltfront::particles
