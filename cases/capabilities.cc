@@ -37,6 +37,9 @@ namespace meltfront::cases
       if(capabilities.needs_symmetry && scene.symmetry == Symmetry::none
          && scene.domain.dimension > 1)
         return "needs a scene with a symmetry";
+      if(capabilities.needs_particle_solid && !scene.particle_solid)
+        return "needs matter that is made of particles: subsection 'Scene/Particle "
+               "solid'";
       const auto shape = std::ranges::find(capabilities.shapes, scene.domain.shape,
                                            &ShapeCapability::shape);
       if(shape == capabilities.shapes.end())

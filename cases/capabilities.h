@@ -67,6 +67,7 @@ namespace meltfront::cases
   {
     std::string form{}; ///< `along a line`; empty for a method that has one form only
     bool needs_symmetry = false; ///< simulates the one coordinate of a symmetry alone
+    bool needs_particle_solid = false; ///< as the matter of scenes that conduct heat
     std::vector<ProblemKind> problems{};
     std::vector<Effect> effects{};
     std::vector<ShapeCapability> shapes{};

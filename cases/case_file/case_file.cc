@@ -8,6 +8,7 @@
 #include <cases/case_file/exact_reader.h>
 #include <cases/case_file/material_reader.h>
 #include <cases/case_file/prm_library.h>
+#include <cases/case_file/prm_scan.h>
 #include <cases/case_file/scene_reader.h>
 #include <cases/options.h>
 
@@ -239,6 +240,18 @@ namespace meltfront::cases
   std::vector<std::string> library_names()
   {
     return library.names();
+  }
+
+  std::string library_title(const std::string &name)
+  {
+    const std::string path = library.path(name);
+    const PrmScan scan
+        = scan_prm(expand_includes(read_prm_text(path), path, MELTFRONT_CASE_LIBRARY));
+    std::string title;
+    for(const PrmAssignment &assignment : scan.assignments)
+      if(assignment.subsection.empty() && assignment.key == "title")
+        title = assignment.value;
+    return title;
   }
 
   std::string library_path(const std::string &name)

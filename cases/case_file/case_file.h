@@ -21,6 +21,9 @@ namespace meltfront::cases
   /** Names of the library's cases, sorted. */
   std::vector<std::string> library_names();
 
+  /** The title of a case of the library, without reading the rest of it. */
+  std::string library_title(const std::string &name);
+
   /** The library's file for a case, whether it exists or not. */
   std::string library_path(const std::string &name);
 

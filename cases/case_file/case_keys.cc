@@ -93,7 +93,8 @@ namespace meltfront::cases
       prm.declare(initial, word_key("kind", "temperature", {"temperature", "exact"},
                                     "Given as a temperature, or taken from the exact "
                                     "solution at the start time."));
-      prm.declare(initial, text_key("temperature", "Expression of x, y, z (K)."));
+      prm.declare(initial, expression_key("temperature", temperature_units,
+                                          "Expression of x, y, z."));
       prm.declare(initial,
                   text_key("front",
                            "Level set of the front, expression of x, y, z: negative "
@@ -117,10 +118,11 @@ namespace meltfront::cases
                      "temperature; heat transfer: a flux that the wall's difference "
                      "from the ambient temperature drives; radiation: the same with the "
                      "fourth powers of the absolute temperatures."));
-        prm.declare(wall, text_key("ambient temperature",
+        prm.declare(wall,
+                    expression_key("ambient temperature", temperature_units,
                                    "Temperature of the surroundings: expression of x, "
                                    "y, z, t; exact: that which makes the flux the exact "
-                                   "solution's (K)."));
+                                   "solution's."));
         prm.declare(wall,
                     number_key("heat transfer coefficient", "", "W/(m^2 K)",
                                "Heat flux per difference of temperature.", above_zero));
@@ -134,18 +136,20 @@ namespace meltfront::cases
         prm.declare(wall, number_key("absolute zero", "", "K",
                                      "Of a wall that radiates: on the scene's scale of "
                                      "temperature, -273.15 for degrees Celsius."));
-        prm.declare(wall, text_key("temperature", "Expression of x, y, z, t (K)."));
-        prm.declare(wall,
-                    text_key("flux", "Heat flux into the domain, expression of x, y, "
-                                     "z, t; exact: that of the exact solution (W/m^2)."));
+        prm.declare(wall, expression_key("temperature", temperature_units,
+                                         "Expression of x, y, z, t."));
+        prm.declare(wall, expression_key("flux", "W/m^2",
+                                         "Heat flux into the domain, expression of x, y, "
+                                         "z, t; exact: that of the exact solution."));
       }
       for(int i = 1; i <= most_sources; ++i)
       {
         const std::string source = fmt::format("Scene/Source {}", i);
-        prm.declare(source, text_key("position",
-                                     "Where the source is: as many coordinates as the "
-                                     "domain has dimensions, separated by commas; of "
-                                     "a source that moves, expressions of t (m)."));
+        prm.declare(source,
+                    expression_key("position", "m",
+                                   "Where the source is: as many coordinates as the "
+                                   "domain has dimensions, separated by commas; of "
+                                   "a source that moves, expressions of t."));
         prm.declare(
             source,
             number_key("radius", "", "m",
@@ -153,11 +157,11 @@ namespace meltfront::cases
                        "fall as exp(-(d/radius)^2) with the distance d. What lies "
                        "outside of the domain is not released.",
                        above_zero));
-        prm.declare(source,
-                    text_key("power",
-                             "Heat released per time, expression of t, negative for "
-                             "a sink; exact: that of the exact solution (W in 3D, "
-                             "W/m in 2D)."));
+        prm.declare(source, expression_key(
+                                "power", "W or W/m",
+                                "Heat released per time, expression of t, negative for "
+                                "a sink; exact: that of the exact solution (W/m in two "
+                                "dimensions)."));
       }
     }
 
@@ -282,7 +286,7 @@ namespace meltfront::cases
                            "Direction in which the temperature is compared with its "
                            "mirror image about the origin."));
       prm.declare(measure,
-                  number_key("absolute zero", "", "K or degrees Celsius",
+                  number_key("absolute zero", "", temperature_units,
                              "Absolute zero on the scene's scale of temperature, "
                              "-273.15 for degrees Celsius: the entropy is measured; "
                              "it is not where the key is not given."));

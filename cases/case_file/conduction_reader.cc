@@ -87,11 +87,11 @@ namespace meltfront::cases
                          "poisson: the steady temperature; interface advection: a front "
                          "that a given velocity carries along; particle solid: particles "
                          "that bind each other."));
-    prm.declare(release_keys,
-                text_key("power density",
-                         "Heat released throughout the domain, expression of x, "
-                         "y, z, t; exact: that of the exact solution `manufactured` "
-                         "(W/m^3)."));
+    prm.declare(
+        release_keys,
+        expression_key("power density", "W/m^3",
+                       "Heat released throughout the domain, expression of x, "
+                       "y, z, t; exact: that of the exact solution `manufactured`."));
     prm.declare(
         inclusion_keys,
         text_key("level set",

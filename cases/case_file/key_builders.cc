@@ -18,6 +18,14 @@ namespace meltfront::cases
             .description = description};
   }
 
+  PrmEntry expression_key(const std::string &key, const std::string &unit,
+                          const std::string &description)
+  {
+    PrmEntry entry = text_key(key, description);
+    entry.unit = unit;
+    return entry;
+  }
+
   PrmEntry word_key(const std::string &key, const std::string &default_value,
                     std::vector<std::string> choices, const std::string &description)
   {

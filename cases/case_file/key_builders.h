@@ -11,6 +11,9 @@ namespace meltfront::cases
   inline const std::string initial_keys = "Scene/Initial state";
   inline const std::string exact_keys = "Exact solution";
 
+  /** Unit of temperatures: each scene on the scale that it likes. */
+  inline constexpr const char *temperature_units = "K or degrees Celsius";
+
   /** Stands for a value that is the exact solution's. */
   inline constexpr const char *exact_value = "exact";
 
@@ -19,6 +22,10 @@ namespace meltfront::cases
 
   /** Keys of the kinds that case files have, each declared in one line. */
   PrmEntry text_key(const std::string &key, const std::string &description);
+
+  /** An expression, or several separated by commas. */
+  PrmEntry expression_key(const std::string &key, const std::string &unit,
+                          const std::string &description);
 
   PrmEntry word_key(const std::string &key, const std::string &default_value,
                     std::vector<std::string> choices, const std::string &description);

@@ -294,21 +294,19 @@ namespace meltfront::cases
   {
     prm.declare(material_keys,
                 number_key("latent heat", "", "J/kg", "Latent heat of melting.", 0));
-    prm.declare(material_keys,
-                number_key("melting temperature", "", "K or degrees Celsius",
-                           "Temperature at which the phases meet."));
+    prm.declare(material_keys, number_key("melting temperature", "", temperature_units,
+                                          "Temperature at which the phases meet."));
     prm.declare(material_keys,
                 number_key("Gibbs-Thomson coefficient", "0", "K m",
                            "By how much times its curvature the solid's convex surface "
                            "melts below the melting temperature.",
                            0));
     prm.declare(material_keys,
-                number_key("solidus temperature", "", "K or degrees Celsius",
+                number_key("solidus temperature", "", temperature_units,
                            "Of a material that melts over a range, in place of 'melting "
                            "temperature': where it begins to melt."));
-    prm.declare(material_keys,
-                number_key("liquidus temperature", "", "K or degrees Celsius",
-                           "Where such a material is all liquid."));
+    prm.declare(material_keys, number_key("liquidus temperature", "", temperature_units,
+                                          "Where such a material is all liquid."));
     prm.declare(
         material_keys,
         {.key = "solid fraction",
@@ -326,12 +324,12 @@ namespace meltfront::cases
                    "Of the solute between solid and liquid, for lever and Scheil.", 0,
                    1));
     prm.declare(material_keys,
-                number_key("solvent melting temperature", "", "K or degrees Celsius",
+                number_key("solvent melting temperature", "", temperature_units,
                            "Where liquidus and solidus meet, for lever and Scheil."));
     for(const char *which : {"lowest", "highest"})
       prm.declare(
           material_keys,
-          number_key(fmt::format("{} temperature", which), "", "K or degrees Celsius",
+          number_key(fmt::format("{} temperature", which), "", temperature_units,
                      fmt::format("The {} temperature at which properties that are "
                                  "expressions of T are known.",
                                  which)));
@@ -343,10 +341,10 @@ namespace meltfront::cases
       const std::string forms
           = " A number, an expression of the temperature T, or points "
             "of a table, T: value, T: value.";
-      prm.declare(here, text_key(conductivity_key,
-                                 "Thermal conductivity (W/(m K))." + forms + remark));
-      prm.declare(here, text_key(heat_capacity_key,
-                                 "Heat capacity per mass (J/(kg K))." + forms + remark));
+      prm.declare(here, expression_key(conductivity_key, "W/(m K)",
+                                       "Thermal conductivity." + forms + remark));
+      prm.declare(here, expression_key(heat_capacity_key, "J/(kg K)",
+                                       "Heat capacity per mass." + forms + remark));
       prm.declare(here,
                   number_key("density", "", "kg/m^3", "Density." + remark, above_zero));
     }

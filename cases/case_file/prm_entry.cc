@@ -71,7 +71,8 @@ namespace meltfront::cases
                          words.at(entry.most_values - 2));
     }
     default:
-      return "a text";
+      return entry.unit.empty() ? "a text"
+                                : fmt::format("an expression ({})", entry.unit);
     }
   }
 

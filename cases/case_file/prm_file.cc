@@ -1,5 +1,6 @@
 #include <cases/case_file/prm_entry.h>
 #include <cases/case_file/prm_file.h>
+#include <cases/case_file/value_units.h>
 #include <cases/options.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -108,9 +109,11 @@ namespace meltfront::cases
     comment_out_overridden();
     declare_opened();
     check_subsections();
-    for(const PrmAssignment &assignment : scan.assignments)
+    for(PrmAssignment &assignment : scan.assignments)
     {
-      check_assignment(assignment);
+      const PrmEntry &entry = entry_of(assignment);
+      take_units_off(entry, assignment);
+      check_assignment(entry, assignment);
       const InSubsection here(*handler, assignment.subsection);
       handler->set(assignment.key, assignment.value);
     }
@@ -191,7 +194,7 @@ namespace meltfront::cases
     throw error(assignment.subsection, assignment.key, "is unknown; " + advice);
   }
 
-  void PrmFile::check_assignment(const PrmAssignment &assignment) const
+  const PrmEntry &PrmFile::entry_of(const PrmAssignment &assignment) const
   {
     const auto found = std::find_if(keys.begin(), keys.end(),
                                     [&assignment](const Declared &key) {
@@ -200,7 +203,49 @@ namespace meltfront::cases
                                     });
     if(found == keys.end())
       fail_unknown_key(assignment);
-    const PrmEntry &entry = found->entry;
+    return found->entry;
+  }
+
+  void PrmFile::take_units_off(const PrmEntry &entry, PrmAssignment &assignment)
+  {
+    const bool numbers = entry.kind == PrmKind::number || entry.kind == PrmKind::numbers
+                         || (entry.kind == PrmKind::text && !entry.unit.empty());
+    if(!numbers)
+      return;
+    const auto fail = [&](const std::string &problem)
+    { return error(assignment.subsection, assignment.key, problem); };
+    PlainValue plain;
+    try
+    {
+      plain = in_units_of(assignment.value, entry.unit);
+    }
+    catch(const InputError &problem)
+    {
+      throw fail(problem.what());
+    }
+    if(plain.unit.empty())
+      return;
+    assignment.value = plain.text;
+    with_unit = fmt::format("{} ({})", name_of_key(assignment.subsection, assignment.key),
+                            plain.unit);
+    if(!is_temperature_scale(plain.unit))
+      return;
+    if(temperature_scale.empty())
+      temperature_scale = plain.unit;
+    if(temperature_scale != plain.unit)
+      throw fail(fmt::format("is in {}, and another temperature of this file is in {}: a "
+                             "scene has one scale",
+                             plain.unit, temperature_scale));
+  }
+
+  std::string PrmFile::key_with_unit() const
+  {
+    return with_unit;
+  }
+
+  void PrmFile::check_assignment(const PrmEntry &entry,
+                                 const PrmAssignment &assignment) const
+  {
     if(pattern(entry)->match(assignment.value))
       return;
     const std::string advice

@@ -33,8 +33,10 @@ namespace meltfront::cases
     std::string key;
     PrmKind kind = PrmKind::text;
     std::string default_value; ///< empty for a number: there is none, the key must be set
-    std::string unit;          ///< SI unit; empty for a pure number, a word or a text
-    std::string description;   ///< one sentence
+    /** SI unit, or two: `W or W/m`; empty for a pure number and a word. A text that has
+     * one is an expression, or such in a list. */
+    std::string unit;
+    std::string description; ///< one sentence
     double lower = -std::numeric_limits<double>::infinity();
     double upper = std::numeric_limits<double>::infinity();
     std::vector<std::string> choices{};
@@ -89,6 +91,10 @@ namespace meltfront::cases
 
     /** Whether the file sets the key. */
     bool given(const std::string &subsection, const std::string &key) const;
+
+    /** A key whose value has a unit in the file, as messages name it, with that unit;
+     * empty if none has. Values are in SI units whatever the file has. */
+    std::string key_with_unit() const;
 
     /** Whether the file opens the subsection. */
     bool opened(const std::string &subsection) const;
@@ -151,7 +157,9 @@ namespace meltfront::cases
     const PrmAssignment *assignment(const std::string &subsection,
                                     const std::string &key) const;
     void check_subsections() const;
-    void check_assignment(const PrmAssignment &assignment) const;
+    const PrmEntry &entry_of(const PrmAssignment &assignment) const;
+    void take_units_off(const PrmEntry &entry, PrmAssignment &assignment);
+    void check_assignment(const PrmEntry &entry, const PrmAssignment &assignment) const;
     [[noreturn]] void fail_unknown_key(const PrmAssignment &assignment) const;
     std::string value(const std::string &subsection, const std::string &key) const;
 
@@ -162,6 +170,8 @@ namespace meltfront::cases
     std::string library;
     PrmText source;
     PrmScan scan;
+    std::string with_unit;         ///< see key_with_unit()
+    std::string temperature_scale; ///< that a temperature has behind it; empty: none
   };
 } // namespace meltfront::cases
 

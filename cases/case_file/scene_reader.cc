@@ -299,6 +299,10 @@ namespace meltfront::cases
   {
     Scene scene;
     scene.units = prm.get_text("", "units");
+    if(scene.units != "SI" && !prm.key_with_unit().empty())
+      throw prm.error(
+          "", "units",
+          fmt::format("is '{}', but {} has a unit", scene.units, prm.key_with_unit()));
     scene.problem = read_problem(prm);
     scene.symmetry = scene.conducts_heat() ? read_symmetry(prm) : Symmetry::none;
     read_times(prm, scene);

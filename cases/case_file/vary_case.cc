@@ -22,6 +22,14 @@ namespace meltfront::cases
       return lines;
     }
 
+    std::string joined(const std::vector<std::string> &lines)
+    {
+      std::string text;
+      for(const std::string &line : lines)
+        text += line + "\n";
+      return text;
+    }
+
     bool goes_on(const std::string &line)
     {
       const std::string statement = trimmed(line.substr(0, line.find('#')));
@@ -75,10 +83,20 @@ namespace meltfront::cases
       else
         replace_statement(lines, static_cast<std::size_t>(found->line - 1), statement);
     }
-    std::string varied;
-    for(const std::string &line : lines)
-      varied += line + "\n";
-    return varied;
+    return joined(lines);
+  }
+
+  std::string text_without_figures(const std::string &text, const std::string &file)
+  {
+    const PrmScan scan = scan_prm(text, file);
+    std::vector<std::string> lines = lines_of(text);
+    for(const PrmAssignment &assignment : scan.assignments)
+      if(assignment.subsection == "Acceptance" || assignment.subsection == "Printed")
+      {
+        const auto first = static_cast<std::size_t>(assignment.line - 1);
+        replace_statement(lines, first, "#" + lines[first]);
+      }
+    return joined(lines);
   }
 
   Case read_varied_text(const std::string &text, const std::string &name)

@@ -23,6 +23,11 @@ namespace meltfront::cases
   std::string varied_text(const std::string &text, const std::string &file,
                           const CaseSettings &settings);
 
+  /** The text of a case file without its acceptance criteria and printed values, of which
+   * the first lines are left as comments: those are figures of the case as it is written.
+   */
+  std::string text_without_figures(const std::string &text, const std::string &file);
+
   /**
    * Read a case from a text that varied_text() gave, under a name of its own. Acceptance
    * criteria and printed values are those of the case as it is written, and are left out.

@@ -247,6 +247,7 @@ namespace meltfront::particles
                              Effect::point_heating},
                  .most_threads = cases::any_number_of_threads},
                 {.form = "as a bar that conducts heat",
+                 .needs_particle_solid = true,
                  .problems = {cases::ProblemKind::stefan},
                  .effects = {Effect::phase_change, Effect::phase_conductivity,
                              Effect::phase_heat_capacity, Effect::wall_temperature},

@@ -1,6 +1,7 @@
 #include <cases/case_file/case_file.h>
 #include <cases/error.h>
 #include <verification/app/answer_commands.h>
+#include <verification/app/case_settings.h>
 #include <verification/app/commands.h>
 #include <verification/app/methods.h>
 #include <verification/judge/answers.h>
@@ -154,13 +155,16 @@ namespace meltfront::verification
       /** @param arguments CompareArguments or AdviseArguments */
       template <typename Arguments>
       Inquiry(const Arguments &arguments, const std::string &command)
-        : asked(load_checked_case(arguments.case_name))
+        : case_name(
+            varied_case(arguments.case_name, settings_of_case(arguments.settings),
+                        [&](const std::string &name)
+                        { return directory_of(arguments.output, command + "-" + name); }))
+        , asked(load_checked_case(case_name))
         , title(command + "-" + asked.scene.name)
         , found(methods_for(asked))
-        , directory(arguments.output.empty() ? default_directory(title)
-                                             : arguments.output)
-        , growth(growth_of(arguments.case_name, asked, title, found, directory,
-                           arguments.jobs, arguments.memory, arguments.within))
+        , directory(directory_of(arguments.output, title))
+        , growth(growth_of(case_name, asked, title, found, directory, arguments.jobs,
+                           arguments.memory, arguments.within))
       {
       }
 
@@ -170,6 +174,12 @@ namespace meltfront::verification
       }
 
     private:
+      static std::string directory_of(const std::string &output, const std::string &title)
+      {
+        return output.empty() ? default_directory(title) : output;
+      }
+
+      std::string case_name;
       cases::Case asked;
       std::string title;
       CapableMethods found;

@@ -10,16 +10,18 @@ namespace meltfront::verification
   struct CompareArguments
   {
     std::string case_name;
-    double within = 60;           ///< seconds for all runs
-    std::vector<int> resolutions; ///< empty: as many as the time allows
-    std::string output;           ///< directory; empty: results/compare-CASE
-    int jobs = 0;                 ///< runs at once; 0: one per core
-    double memory = 0;            ///< GB that a run may take; 0: what the machine has
+    std::vector<std::string> settings; ///< of the case, SUBSECTION/KEY=VALUE
+    double within = 60;                ///< seconds for all runs
+    std::vector<int> resolutions;      ///< empty: as many as the time allows
+    std::string output;                ///< directory; empty: results/compare-CASE
+    int jobs = 0;                      ///< runs at once; 0: one per core
+    double memory = 0; ///< GB that a run may take; 0: what the machine has
   };
 
   struct AdviseArguments
   {
     std::string case_name;
+    std::vector<std::string> settings; ///< of the case, SUBSECTION/KEY=VALUE
     double front_error = 1e-3;
     double temperature_error = std::numeric_limits<double>::quiet_NaN(); ///< not asked
     double within = 60;

@@ -86,6 +86,7 @@ namespace meltfront::verification
       return {
           {"form", form.form},
           {"needs_symmetry", form.needs_symmetry},
+          {"needs_particle_solid", form.needs_particle_solid},
           {"problems", words_of(form.problems)},
           {"effects", words_of(form.effects)},
           {"shapes", shapes},

@@ -1,6 +1,7 @@
 #include <cases/case_file/case_file.h>
 #include <cases/error.h>
 #include <verification/app/capability_list.h>
+#include <verification/app/case_settings.h>
 #include <verification/app/commands.h>
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
@@ -16,6 +17,7 @@
 #include <verification/record/json_values.h>
 #include <verification/record/label.h>
 #include <verification/report/page/report.h>
+#include <verification/report/plots/plot_folder.h>
 #include <verification/run/child_process.h>
 #include <verification/run/memory_limit.h>
 #include <verification/run/run_one.h>
@@ -38,15 +40,6 @@ namespace meltfront::verification
   {
     const char *const program_version = MELTFRONT_VERSION;
     std::string command_line;
-
-    void make_directory(const std::string &directory)
-    {
-      std::error_code error;
-      std::filesystem::create_directories(directory, error);
-      if(error)
-        throw cases::OutputError(
-            fmt::format("cannot make the directory {}: {}", directory, error.message()));
-    }
 
     /** Bytes that a run may take. @param gigabytes that were asked for; 0: all there is
      */
@@ -127,7 +120,7 @@ namespace meltfront::verification
       return read_json(file).get<RunRecord>();
     }
 
-    /** Read METHOD.KEY=VALUE settings into options of a method. */
+    /** Read settings of a method (sort_settings()) into its options. */
     std::map<std::string, std::string>
     apply_settings(const std::vector<std::string> &settings, const cases::Method &method,
                    cases::Options &options)
@@ -136,9 +129,6 @@ namespace meltfront::verification
       for(const std::string &setting : settings)
       {
         const auto dot = setting.find('.'), equals = setting.find('=');
-        if(dot == std::string::npos || equals == std::string::npos || dot > equals)
-          throw cases::InputError(
-              fmt::format("--set needs METHOD.KEY=VALUE, not '{}'", setting));
         if(setting.substr(0, dot) != method.name())
           throw cases::InputError(
               fmt::format("--set {}: this run's method is '{}'", setting, method.name()));
@@ -232,17 +222,22 @@ namespace meltfront::verification
 
   int run(const RunArguments &arguments)
   {
-    const cases::Case c = cases::load_case(arguments.case_name);
     const cases::Method &method = method_named(arguments.method);
+    const Settings settings = sort_settings(arguments.settings);
+    const auto directory_of = [&](const std::string &case_name)
+    {
+      return !arguments.output.empty()
+                 ? arguments.output
+                 : default_directory(
+                     fmt::format("run-{}-{}-{}", case_name, method.name(), arguments.n));
+    };
+    const cases::Case c = cases::load_case(
+        varied_case(arguments.case_name, settings.of_case, directory_of));
     cases::Resolution resolution{
         arguments.n, cases::Options(method.option_declarations()), arguments.seed,
         arguments.threads, memory_limit(arguments.memory)};
-    const auto set = apply_settings(arguments.settings, method, resolution.options);
-    const std::string directory
-        = !arguments.output.empty()
-              ? arguments.output
-              : default_directory(
-                  fmt::format("run-{}-{}-{}", c.scene.name, method.name(), arguments.n));
+    const auto set = apply_settings(settings.of_method, method, resolution.options);
+    const std::string directory = directory_of(c.scene.name);
     make_directory(directory);
 
     const RunRecord record = run_alone(c, method, resolution,

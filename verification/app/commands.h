@@ -41,7 +41,7 @@ namespace meltfront::verification
     std::string method;
     int n = 40;
     std::string output;                ///< directory; empty: results/run-CASE-METHOD-N
-    std::vector<std::string> settings; ///< METHOD.KEY=VALUE
+    std::vector<std::string> settings; ///< METHOD.KEY=VALUE, SUBSECTION/KEY=VALUE
     unsigned long seed = 1;
     int threads = 1;
     int frames = 20;          ///< for ParaView

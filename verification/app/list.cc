@@ -18,10 +18,7 @@ namespace meltfront::verification
     {
       std::string text = "Cases (meltfront run CASE --method METHOD --n N):\n";
       for(const std::string &name : cases::library_names())
-      {
-        const cases::Case c = cases::load_case(name);
-        text += fmt::format("  {:26} {}\n", name, c.title);
-      }
+        text += fmt::format("  {:26} {}\n", name, cases::library_title(name));
       return text;
     }
 

@@ -6,6 +6,7 @@
 #include <verification/app/commands.h>
 #include <verification/app/crosscheck_command.h>
 #include <verification/app/list.h>
+#include <verification/app/new_case.h>
 #include <verification/app/study_commands.h>
 
 #include <CLI/CLI.hpp>
@@ -33,6 +34,7 @@ namespace
     CrosscheckArguments crosscheck_arguments;
     CalibrateArguments calibrate_arguments;
     StudyArguments study_arguments;
+    NewCaseArguments new_case_arguments;
     std::string report_directory, kept_directory;
     std::string list_what;
     bool list_as_json = false;
@@ -75,6 +77,14 @@ namespace
         sensitivity);
     declare_calibrate();
     declare_others();
+  }
+
+  void add_case_settings(CLI::App *command, std::vector<std::string> &settings)
+  {
+    command
+        ->add_option("--set", settings,
+                     "other value of a key of the case, SUBSECTION/KEY=VALUE")
+        ->take_all();
   }
 
   void add_memory_option(CLI::App *command, double &memory)
@@ -165,7 +175,10 @@ namespace
     command->add_option("--n", a.n, "particles or cells along the domain's side (40)")
         ->check(CLI::Range(2, 1000000));
     command->add_option("--out", a.output, "directory (results/run-CASE-METHOD-N)");
-    command->add_option("--set", a.settings, "option of the method, METHOD.KEY=VALUE")
+    command
+        ->add_option("--set", a.settings,
+                     "option of the method, METHOD.KEY=VALUE, or key of the case, "
+                     "SUBSECTION/KEY=VALUE")
         ->take_all();
     command->add_option("--seed", a.seed, "seed of random arrangements (1)");
     command->add_option("--threads", a.threads, "number of threads (1)")
@@ -187,6 +200,7 @@ namespace
     CompareArguments &a = compare_arguments;
     command->add_option("case", a.case_name, "case of the library, or a case file")
         ->required();
+    add_case_settings(command, a.settings);
     command->add_option("--within", a.within, "seconds for all runs (60)")
         ->check(CLI::PositiveNumber);
     command
@@ -208,6 +222,7 @@ namespace
     AdviseArguments &a = advise_arguments;
     command->add_option("case", a.case_name, "case of the library, or a case file")
         ->required();
+    add_case_settings(command, a.settings);
     command
         ->add_option("--front-error", a.front_error,
                      "wanted error of the front, root mean square over time, relative to "
@@ -259,6 +274,7 @@ namespace
     StudyArguments &a = study_arguments;
     command->add_option("case", a.case_name, "case of the library, or a case file")
         ->required();
+    add_case_settings(command, a.settings);
     command->add_option("--method", a.method, "method (the first that takes the case)");
     command->add_option("--n", a.n, "finest resolution (as the time allows)")
         ->check(CLI::Range(8, 1000000));
@@ -327,6 +343,16 @@ namespace
             return int(all_well);
           };
         });
+
+    auto *new_command
+        = app.add_subcommand("new", "write a case file to begin with, NAME.prm");
+    new_command->add_option("name", new_case_arguments.name, "name of the case, or path")
+        ->required();
+    new_command->add_option("--like", new_case_arguments.like,
+                            "case of the library, or case file, to begin with (a slab "
+                            "that explains its keys)");
+    new_command->callback([this]
+                          { action = [this] { return new_case(new_case_arguments); }; });
 
     auto *report_command = app.add_subcommand(
         "report", "write tables, plots and report anew from finished runs");

@@ -1,3 +1,4 @@
+#include <verification/app/case_settings.h>
 #include <verification/app/commands.h>
 #include <verification/app/methods.h>
 #include <verification/app/study_commands.h>
@@ -17,16 +18,20 @@ namespace meltfront::verification
     StudySettings settings_of(const StudyArguments &arguments, const char *command)
     {
       StudySettings settings;
-      settings.case_name = arguments.case_name;
+      const auto directory_of = [&](const std::string &case_name)
+      {
+        return !arguments.output.empty()
+                   ? arguments.output
+                   : default_directory(
+                       fmt::format("{}-{}", command, short_case_name(case_name)));
+      };
+      settings.case_name = varied_case(
+          arguments.case_name, settings_of_case(arguments.settings), directory_of);
       settings.method = arguments.method;
       settings.n = arguments.n;
       settings.within = arguments.within;
-      settings.runner = runner_options(
-          !arguments.output.empty()
-              ? arguments.output
-              : default_directory(
-                  fmt::format("{}-{}", command, short_case_name(arguments.case_name))),
-          arguments.jobs, arguments.memory);
+      settings.runner = runner_options(directory_of(settings.case_name), arguments.jobs,
+                                       arguments.memory);
       for(const auto &method : methods())
         settings.methods.push_back(method.get());
       settings.load_case = load_checked_case;

@@ -2,15 +2,17 @@
 #define meltfront_verification_app_study_commands_h
 
 #include <string>
+#include <vector>
 
 namespace meltfront::verification
 {
   struct StudyArguments
   {
     std::string case_name;
-    std::string method; ///< empty: the first that takes the case
-    int n = 0;          ///< finest resolution; 0: as `within` allows
-    double within = 60; ///< processor time of all runs, about (s)
+    std::vector<std::string> settings; ///< of the case, SUBSECTION/KEY=VALUE
+    std::string method;                ///< empty: the first that takes the case
+    int n = 0;                         ///< finest resolution; 0: as `within` allows
+    double within = 60;                ///< processor time of all runs, about (s)
     std::string output; ///< directory; empty: results/ablate-CASE, sensitivity-CASE
     int jobs = 0;       ///< runs at once; 0: one per core
     double memory = 0;  ///< GB that a run may take; 0: what the machine has

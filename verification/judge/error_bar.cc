@@ -174,6 +174,7 @@ namespace meltfront::verification
     if(run.method == "rkpm-tracked")
       constants.heat = {1.5, 1.5, true};
     constants.temperature = known.temperature;
+    constants.consistent = run.method != "sph-two-population-2005";
     constants.order_in_time
         = known.order_in_time > 0 ? known.order_in_time : scheme_order(run);
     return constants;
@@ -185,6 +186,7 @@ namespace meltfront::verification
     BarRecipe recipe{scale, trust.order, constants.order_in_time, trust.factor, in_time};
     recipe.all_pairs = trust.all_pairs;
     recipe.floor = constants.floor;
+    recipe.consistent = constants.consistent;
     return recipe;
   }
 
@@ -225,6 +227,13 @@ namespace meltfront::verification
     if(count == 1)
     {
       result.remark = "one level: no error bar";
+      return result;
+    }
+    if(!recipe.consistent)
+    {
+      result.levels = static_cast<int>(count);
+      result.remark
+          = "the method does not converge to the scene's solution: no error bar";
       return result;
     }
     const BarLevel &second = levels[count - 2];

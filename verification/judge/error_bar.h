@@ -27,6 +27,9 @@ namespace meltfront::verification
     /** Of a quantity's size, below which nothing is told: round-off, or what the method's
      * solver leaves. */
     double floor = 1e-12;
+    /** False of a method that is known to converge to something else than the scene's
+     * solution: its levels tell nothing of its error. */
+    bool consistent = true;
   };
 
   /** By the run's method, dimension and time scheme. */
@@ -72,7 +75,8 @@ namespace meltfront::verification
     /** The largest error of the finest value of which any two neighbouring levels tell,
      * instead of the finest two alone, which may agree by chance. */
     bool all_pairs = false;
-    double floor = 1e-12; ///< of S: differences and bars below it are not believed
+    double floor = 1e-12;   ///< of S: differences and bars below it are not believed
+    bool consistent = true; ///< else there is no bar
     /** Between neighbouring levels around the place (or time) of a value, where D is over
      * all places: the order is that of all, the width that of the place (of two levels
      * the larger). Empty: D. */
@@ -107,9 +111,10 @@ namespace meltfront::verification
    * the ratio r_t of steps; 1 where they were not. No bar is below the floor: differences
    * there have converged. Differences whose p is below 0.2 do not converge. Two levels
    * give p = min(1, p_s, cap) and F of at least 2; where they hardly differ and nothing
-   * else tells, at least 0.05 h. One level gives no bar. (The classical grid convergence
-   * index of single values covers 83 per cent of the true errors of this program's
-   * methods; see verification/judge/README.md.)
+   * else tells, at least 0.05 h. One level gives no bar, and no levels of a method that
+   * is not consistent do. (The classical grid convergence index of single values covers
+   * 83 per cent of the true errors of this program's methods; see
+   * verification/judge/README.md.)
    *
    * @param coarse_to_fine of falling spacing
    * @param differences D between neighbouring levels, one fewer than levels; NaN where

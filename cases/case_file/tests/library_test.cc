@@ -323,6 +323,7 @@ TEST(Library, TheFrontTurnsBackWhereItIsSaidTo)
   }
 }
 
+/** A substance that no case has is there for users: it makes a scene by itself. */
 TEST(Library, MaterialsAreIncludedAndAreNoCases)
 {
   namespace fs = std::filesystem;
@@ -335,9 +336,28 @@ TEST(Library, MaterialsAreIncludedAndAreNoCases)
   {
     const std::string name = entry.path().filename().string();
     EXPECT_TRUE(read_prm_text(entry.path().string()).starts_with("# ")) << name;
-    EXPECT_NE(texts.find(name + "\n"), std::string::npos) << name << " has no use";
+    if(texts.find(name + "\n") == std::string::npos)
+    {
+      const Case c = read_case_text(
+          "set title = A slab\nsubsection Scene\n  set end time = 1\n"
+          "  set symmetry = planar\n"
+          "  subsection Domain\n    set shape = slab\n    set length = 1\n  end\n"
+          "  subsection Material\n    include materials/"
+              + name
+              + "\n  end\n  subsection Initial state\n    set temperature = -50\n"
+                "  end\nend\n",
+          "slab.prm");
+      EXPECT_GT(c.scene.material.latent_heat, 0) << name;
+      EXPECT_GT(c.scene.material.solid.conductivity, 0) << name;
+    }
     EXPECT_FALSE(fs::exists(folder / name)) << name;
     ++materials;
   }
   EXPECT_GE(materials, 4);
+}
+
+TEST(Library, TitlesAreReadAlone)
+{
+  for(const char *name : {"plane-freezing", "line-sink-lambda-0.05", "casting-aluminium"})
+    EXPECT_EQ(library_title(name), library_case(name).title);
 }

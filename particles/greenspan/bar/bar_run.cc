@@ -260,10 +260,6 @@ namespace meltfront::particles::greenspan
                                            const cases::EffectSet &effects,
                                            const cases::Resolution &resolution)
   {
-    if(!scene.particle_solid || scene.domain.shape != cases::DomainShape::slab)
-      throw cases::Refusal(
-          "greenspan conducts heat only through a bar of particles, which "
-          "subsection 'Scene/Particle solid' of a slab describes");
     require_measured_material(scene);
     return std::make_unique<BarRun>(scene, effects, resolution);
   }

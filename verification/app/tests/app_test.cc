@@ -53,6 +53,70 @@ namespace
   }
 } // namespace
 
+/** What `new` writes is a case that runs, needs no other file and overwrites none. */
+TEST(App, WritesACaseToBeginWith)
+{
+  const TemporaryDirectory directory;
+  const std::string folder = directory.path().string();
+  for(const std::string like : {"", " --like corner-freezing"})
+  {
+    const std::string name = folder + (like.empty() ? "/mine" : "/corner");
+    const Outcome outcome = run_program("new " + name + like);
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    expect_text(outcome, "compare " + name + ".prm");
+    const Outcome run = run_program(
+        "run " + name + ".prm --method fem-enthalpy --n 16 --frames 2 --out " + folder
+        + "/run");
+    EXPECT_EQ(run.status, 0) << run.output;
+    const Outcome again = run_program("new " + name + ".prm" + like);
+    EXPECT_EQ(again.status, 2);
+    expect_text(again, "already");
+  }
+}
+
+/** A key of the case from the command line: another case, whose figures are its own. */
+TEST(App, KeysOfTheCaseAreSetOnTheCommandLine)
+{
+  const TemporaryDirectory directory;
+  const std::string out = directory.path().string() + "/run";
+  const Outcome outcome = run_program(
+      "run plane-freezing --method sph --n 20 --set 'Scene/Material/latent heat=2' --set "
+      "sph.step_factor=0.5 --out "
+      + out);
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+  const nlohmann::json record = read_json(out + "/run.json");
+  EXPECT_EQ(record["case"], "plane-freezing-Material-latent-heat-2");
+  const std::string file = out + "/plane-freezing-Material-latent-heat-2.prm";
+  ASSERT_TRUE(fs::exists(file));
+  // The file is a case like any other, without what holds of the library's.
+  const Outcome again = run_program(
+      "run " + file + " --method sph --n 20 --set sph.step_factor=0.5 --out "
+      + directory.path().string() + "/again");
+  EXPECT_EQ(again.status, 0) << again.output;
+  EXPECT_EQ(read_json(directory.path().string() + "/again/run.json")["series"],
+            record["series"]);
+}
+
+TEST(App, KeysOfTheCaseThatAreWrongAreNamed)
+{
+  const TemporaryDirectory directory;
+  const std::string out = " --out " + directory.path().string() + "/run";
+  const Outcome unknown = run_program(
+      "run plane-freezing --method sph --set 'Scene/Material/latent heet=2'" + out);
+  EXPECT_EQ(unknown.status, 2);
+  expect_text(unknown, "latent heet");
+  expect_text(unknown, "the nearest valid key is 'latent heat'");
+  const Outcome of_method
+      = run_program("compare plane-freezing --set sph.step_factor=0.5" + out);
+  EXPECT_EQ(of_method.status, 2);
+  expect_text(of_method, "this command chooses the methods' options itself");
+  const Outcome no_value
+      = run_program("run plane-freezing --method sph --set units" + out);
+  EXPECT_EQ(no_value.status, 2);
+  expect_text(no_value, "SUBSECTION/KEY=VALUE");
+  EXPECT_FALSE(fs::exists(directory.path().string() + "/run"));
+}
+
 TEST(App, ListNamesWhatThereIs)
 {
   const Outcome outcome = run_program("list");

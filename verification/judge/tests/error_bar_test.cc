@@ -211,3 +211,16 @@ TEST(ErrorBar, KnowsTheSchemeOfARun)
   run.method = "a method of tomorrow";
   EXPECT_EQ(bar_constants(run).front.factor, 2.5);
 }
+
+TEST(ErrorBar, NoLevelsTellTheErrorOfAMethodThatConvergesElsewhere)
+{
+  RunRecord run;
+  run.method = "sph-two-population-2005";
+  const BarConstants constants = bar_constants(run);
+  const std::vector<BarLevel> levels{{.4, 10, 1}, {.2, 20, .9}, {.1, 40, .85}};
+  const ErrorBar bar = error_bar(levels, std::vector<double>{.1, .05},
+                                 bar_recipe(constants, constants.front, 1));
+  EXPECT_TRUE(std::isnan(bar.bar));
+  EXPECT_FALSE(bar.converging);
+  EXPECT_EQ(bar.value, .85);
+}

@@ -135,6 +135,7 @@ summary{cursor:pointer;color:var(--muted);font-size:.87rem}
 summary:hover{color:var(--ink)}
 ul,ol{padding-left:1.25rem;max-width:82ch} li{margin:.22rem 0}
 .tags{font-size:.84rem;color:var(--muted)}
+.hash{overflow-wrap:anywhere}
 .off{color:var(--muted)}
 @media screen and (max-width:760px){
  body{font-size:15px}

@@ -1,4 +1,5 @@
 #include <cases/case_file/prm_scan.h>
+#include <cases/case_file/value_units.h>
 #include <cases/effect_bounds.h>
 #include <cases/scene_heat.h>
 #include <verification/studies/sensitivity/scene_data.h>
@@ -142,7 +143,8 @@ namespace meltfront::verification
                               { return assignment.subsection.starts_with(part); })
          || among(constants, assignment.key) || switched_off(effects, path))
         continue;
-      Datum datum{path, path.substr(std::string("Scene/").size()), assignment.value};
+      Datum datum{path, path.substr(std::string("Scene/").size()),
+                  cases::without_units(assignment.value).text};
       if(const auto number = number_of(datum.value))
       {
         set_scale(c, assignment.key, *number, datum);
