@@ -157,6 +157,7 @@ namespace meltfront::reference_fem
       catch(const dealii::SolverControl::NoConvergence &)
       {
       }
+      linear_iterations += control.last_step();
       entries_touched
           += static_cast<long>(control.last_step() + 1) * passes * conduction.entries();
       return control.last_step();

@@ -6,13 +6,11 @@
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/grid_tools_cache.h>
-#include <deal.II/lac/affine_constraints.h>
 
 #include <fmt/format.h>
 
@@ -57,8 +55,9 @@ namespace meltfront::reference_fem
           const std::function<double(const Position &)> &function) const override;
 
     private:
-      void join_periodic_sides(const cases::Scene &scene);
+      bool periodic(int direction) const;
       void number_nodes();
+      void number_along_lattice();
 
       /** The measure of the scene at a point, per volume of the mesh. */
       double weight(const dealii::Point<dim> &point) const;
@@ -77,11 +76,11 @@ namespace meltfront::reference_fem
       ShapedTriangulation<dim> shape;
       dealii::FE_Q<dim> element{1};
       dealii::DoFHandler<dim> dof_handler;
-      dealii::AffineConstraints<double> periodicity;
       dealii::MappingQ<dim> mapping;
       std::optional<dealii::GridTools::Cache<dim>> finder;
       std::vector<unsigned int> node_of_site;
       unsigned int n_nodes = 0;
+      std::optional<Lattice> lattice; ///< of the nodes, where cells are boxes
     };
 
     template <int dim>
@@ -92,36 +91,29 @@ namespace meltfront::reference_fem
       , mapping(shape.curved ? 4 : 1)
     {
       dof_handler.distribute_dofs(element);
-      if(shape.cartesian)
-        join_periodic_sides(scene);
-      periodicity.close();
       number_nodes();
     }
 
+    /** Whether the ends of a direction are joined. */
     template <int dim>
-    void DealMesh<dim>::join_periodic_sides(const cases::Scene &scene)
+    bool DealMesh<dim>::periodic(int direction) const
     {
-      const bool strip = scene.domain.shape == DomainShape::slab;
-      for(int d = 0; d < dim; ++d)
-      {
-        const auto lower = static_cast<Side>(2 * d), upper = static_cast<Side>(2 * d + 1);
-        const auto periodic = [&](Side side) {
-          return strip && d > 0 ? true
-                                : scene.boundary(side).kind == BoundaryKind::periodic;
-        };
-        if(!periodic(lower) && !periodic(upper))
-          continue;
-        if(!periodic(lower) || !periodic(upper))
-          throw cases::InputError(
-              fmt::format("of the sides {} and {} only one is periodic",
-                          cases::to_string(lower), cases::to_string(upper)));
-        if constexpr(dim == 1)
-          throw cases::Refusal(
-              "fem-enthalpy does not simulate a periodic interval in one dimension");
-        else
-          dealii::DoFTools::make_periodicity_constraints(dof_handler, 2 * d, 2 * d + 1, d,
-                                                         periodicity);
-      }
+      if(!shape.cartesian)
+        return false;
+      if(scene.domain.shape == DomainShape::slab && direction > 0)
+        return true;
+      const auto lower = static_cast<Side>(2 * direction),
+                 upper = static_cast<Side>(2 * direction + 1);
+      const auto is_periodic = [&](Side side)
+      { return scene.boundary(side).kind == BoundaryKind::periodic; };
+      if(is_periodic(lower) != is_periodic(upper))
+        throw cases::InputError(fmt::format("of the sides {} and {} only one is periodic",
+                                            cases::to_string(lower),
+                                            cases::to_string(upper)));
+      if(dim == 1 && is_periodic(lower))
+        throw cases::Refusal(
+            "fem-enthalpy does not simulate a periodic interval in one dimension");
+      return is_periodic(lower);
     }
 
     template <int dim>
@@ -129,13 +121,43 @@ namespace meltfront::reference_fem
     {
       const auto n_sites = static_cast<unsigned int>(dof_handler.n_dofs());
       node_of_site.resize(n_sites);
+      if(shape.n_cells[0] > 0)
+      {
+        number_along_lattice();
+        return;
+      }
       for(unsigned int site = 0; site < n_sites; ++site)
-        if(!periodicity.is_constrained(site))
-          node_of_site[site] = n_nodes++;
-      for(unsigned int site = 0; site < n_sites; ++site)
-        if(periodicity.is_constrained(site))
-          node_of_site[site]
-              = node_of_site[(*periodicity.get_constraint_entries(site))[0].first];
+        node_of_site[site] = n_nodes++;
+    }
+
+    /** Along x first: what multigrid on lattices counts on. */
+    template <int dim>
+    void DealMesh<dim>::number_along_lattice()
+    {
+      lattice.emplace();
+      const auto &[lower, upper] = shape.corners;
+      for(int d = 0; d < dim; ++d)
+      {
+        lattice->periodic[d] = periodic(d);
+        lattice->nodes[d] = shape.n_cells[d] + (lattice->periodic[d] ? 0 : 1);
+      }
+      n_nodes = static_cast<unsigned int>(lattice->size());
+      for(const auto &cell : dof_handler.active_cell_iterators())
+      {
+        const auto corners = sites(cell);
+        for(std::size_t a = 0; a < corners.size(); ++a)
+        {
+          unsigned int node = 0;
+          for(int d = dim; d-- > 0;)
+          {
+            const double cells = (cell->vertex(a)[d] - lower[d]) / (upper[d] - lower[d])
+                                 * shape.n_cells[d];
+            node = node * lattice->nodes[d]
+                   + static_cast<unsigned int>(std::lround(cells)) % lattice->nodes[d];
+          }
+          node_of_site[corners[a]] = node;
+        }
+      }
     }
 
     template <int dim>
@@ -166,6 +188,7 @@ namespace meltfront::reference_fem
       result.spacing = shape.spacing;
       result.measure = shape.measure;
       result.node_of_site = node_of_site;
+      result.lattice = lattice;
       integrate_cells(result);
       integrate_walls(result);
       place_sites(result);
@@ -315,10 +338,11 @@ namespace meltfront::reference_fem
       }
       result.site_weights.assign(n_sites, 0);
       result.positions.resize(n_nodes);
+      std::vector<char> placed(n_nodes, 0);
       for(std::size_t site = 0; site < n_sites; ++site)
-        if(!periodicity.is_constrained(site))
+        if(const unsigned int node = node_of_site[site]; !placed[node])
         {
-          const unsigned int node = node_of_site[site];
+          placed[node] = 1;
           result.site_weights[site] = result.volume[node];
           for(int d = 0; d < dim; ++d)
             result.positions[node][d] = result.site_positions[d][site];

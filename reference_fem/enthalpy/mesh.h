@@ -3,10 +3,12 @@
 
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/conduction_matrix.h>
+#include <reference_fem/enthalpy/lattice.h>
 
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,6 +45,7 @@ namespace meltfront::reference_fem
     std::vector<cases::Position> positions; ///< by node
     std::vector<double> volume;             ///< by node: integral of the shape function
     ConductionMatrix conduction;
+    std::optional<Lattice> lattice; ///< of the nodes, where the mesh is Cartesian
     std::array<std::vector<WallNode>, cases::n_sides> walls;
   };
 
