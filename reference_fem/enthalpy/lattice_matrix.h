@@ -4,6 +4,7 @@
 #include <reference_fem/enthalpy/conduction_matrix.h>
 #include <reference_fem/enthalpy/lattice.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 

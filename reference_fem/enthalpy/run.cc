@@ -132,7 +132,8 @@ namespace meltfront::reference_fem
     const ConductionMatrix &conduction = alloy    ? alloy->conduction_matrix()
                                          : fronts ? fronts->matrix()
                                                   : mesh.conduction;
-    return {conduction, mesh.volume, free, exchange ? &*exchange : nullptr};
+    return {conduction, mesh.volume, free, exchange ? &*exchange : nullptr,
+            fronts || motion ? nullptr : levels.get()};
   }
 
   StepFormula EnthalpyRun::formula(double next) const

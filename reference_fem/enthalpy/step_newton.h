@@ -18,8 +18,9 @@ namespace meltfront::reference_fem
    * needed); `exchanges` (whether walls exchange heat); `excess(u)`, T - T_m (K);
    * `excess_at_enthalpy(i, H)`, the same by a node's enthalpy per volume (J/m^3);
    * `latent_temperature()`, L/c (K); `same_side(i, u, t)`, whether an unknown is in the
-   * region of its graph that a temperature excess tells; `relax(i, c, rhs, u)`, which
-   * solves one node's inclusion and tells whether it moved to another region;
+   * region of its graph that a temperature excess tells; `has_coarse_levels`, whether
+   * there is `correct_coarsely(c, u, heat)`, which moves fronts far; `relax(i, c, rhs,
+   * u)`, which solves one node's inclusion and tells whether it moved to another region;
    * `linearise(c, u, heat)`, which fills heat_capacity, active and residual and returns
    * the heat that changes a typical active node by one kelvin (J); `descend(c, u, heat)`,
    * which goes along the direction.
@@ -43,7 +44,6 @@ namespace meltfront::reference_fem
                         CompensatedVector &u, std::vector<double> &heat)
     {
       constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
-      constexpr int most_sweeps = 4;
       StepOutcome outcome;
       for(;; ++outcome.iterations)
       {
@@ -62,9 +62,15 @@ namespace meltfront::reference_fem
           if(!state.settled)
           {
             const cases::ScopedTimer timer(cost.seconds);
-            for(int sweeps = 0; sweeps < most_sweeps && sweep(c, rhs, u);)
-              ++sweeps;
+            const bool moves = sweep_while_moving(c, rhs, u);
             recover_heat(c, rhs, u, heat);
+            if constexpr(Solver::has_coarse_levels)
+              if(moves && problem.levels)
+              {
+                solver().correct_coarsely(c, u, heat);
+                sweep_while_moving(c, rhs, u);
+                recover_heat(c, rhs, u, heat);
+              }
           }
         const double heat_per_kelvin = solver().linearise(c, u, heat);
         linear_solver.solve({heat_capacity, c, active, residual,
@@ -146,6 +152,17 @@ namespace meltfront::reference_fem
       largest
           = std::max({largest, scale, round_off_share * solver().latent_temperature()});
       return {largest > 0 ? distance / largest : distance, largest, settled};
+    }
+
+    /** A few sweeps; true if the last one still moved nodes. */
+    bool sweep_while_moving(double c, const std::vector<double> &rhs,
+                            CompensatedVector &u)
+    {
+      constexpr int most_sweeps = 4;
+      bool moves = true;
+      for(int sweeps = 0; sweeps < most_sweeps && moves; ++sweeps)
+        moves = sweep(c, rhs, u);
+      return moves;
     }
 
     /** A symmetric sweep of nonlinear Gauss-Seidel; true if a node moved to another

@@ -35,6 +35,8 @@ namespace meltfront::reference_fem
     const std::vector<double> &volume; ///< by node, the lumped mass
     const std::vector<char> &free;     ///< 0 where a wall prescribes the temperature
     WallExchange *exchange = nullptr;  ///< null: walls exchange no heat
+    /** Of the nodes, where they lie on a lattice: coarse levels move fronts far. */
+    const std::vector<LatticeLevel> *levels = nullptr;
   };
 
   /**
