@@ -145,12 +145,27 @@ namespace meltfront::reference_fem
           sweep(l, k % 2 == 0);
         return;
       }
+      // Along a line two visits of each level by the one above would double its cost with
+      // every level.
+      const int visits = levels.front().rows() > 1 ? 2 : 1;
       State &state = states[l];
-      for(int k = 0; k < sweeps; ++k)
-        sweep(l, k % 2 == 0);
+      std::vector<double> work(state.u.size());
+      for(int visit = 0; visit < visits; ++visit)
+      {
+        for(int k = 0; k < sweeps; ++k)
+          sweep(l, k % 2 == 0);
+        correct_level(l, work);
+        for(int k = 0; k < sweeps; ++k)
+          sweep(l, k % 2 != 0);
+      }
+    }
+
+    void correct_level(std::size_t l, std::vector<double> &work)
+    {
+      State &state = states[l];
       state.heat = state.right_side;
       add_inflow(levels[l], matrices[l - 1], state.u, state.heat);
-      std::vector<double> on_graph(state.u.size());
+      std::vector<double> &on_graph = work, &direction = work;
       for(std::size_t i = 0; i < state.u.size(); ++i)
       {
         state.heat[i] -= transfer(state, i) * graph.temperature_excess(state.u[i]);
@@ -158,14 +173,11 @@ namespace meltfront::reference_fem
             = graph.heat_on_graph(state.u[i], state.volume[i] / factor, state.heat[i]);
       }
       solve_below(l, on_graph, state.heat, 1, nullptr);
-      std::vector<double> &direction = on_graph;
       std::fill(direction.begin(), direction.end(), 0);
       levels[l].add_interpolated(states[l + 1].start, nullptr, direction);
       const double length = search(l, direction);
       for(std::size_t i = 0; i < state.u.size(); ++i)
         state.u[i] += length * direction[i];
-      for(int k = 0; k < sweeps; ++k)
-        sweep(l, k % 2 != 0);
     }
 
     /** The share of a direction to go on a level. */

@@ -67,7 +67,7 @@ namespace meltfront::reference_fem
 
       static constexpr bool jumps = Graph::jumps || Graph::curved;
       static constexpr bool exchanges = with_exchange;
-      static constexpr bool has_coarse_levels = Graph::jumps && !Graph::curved;
+      static constexpr bool moves_fronts = Graph::jumps && !Graph::curved;
 
       double excess(double u) const
       {
@@ -105,6 +105,9 @@ namespace meltfront::reference_fem
       void descend(double c, CompensatedVector &u, const std::vector<double> &heat);
       bool project(const CompensatedVector &u);
       double line_search(double c, const CompensatedVector &u);
+      void add_slope_of_jump(const CompensatedVector &u, const std::vector<double> &heat);
+      void descend_over_jumps(double c, CompensatedVector &u,
+                              const std::vector<double> &heat);
       void correct_coarsely(double c, CompensatedVector &u,
                             const std::vector<double> &heat);
       double curved_line_search(double c, const CompensatedVector &u,
@@ -239,19 +242,45 @@ namespace meltfront::reference_fem
       return derivative.lowest();
     }
 
-    /** Correct from coarser lattices: fronts move by as many cells as it takes. */
+    /**
+     * Add to the slopes of the nodes at fronts what the jump is worth there, L delta(u),
+     * so that Newton's step knows that a front that moves takes latent heat: the delta
+     * function is a hat as wide as u changes from a node to its neighbours (Engquist,
+     * Tornberg and Tsai 2005).
+     */
     template <class Graph, bool with_exchange>
-    void TruncatedNewton<Graph, with_exchange>::correct_coarsely(
+    void TruncatedNewton<Graph, with_exchange>::add_slope_of_jump(
+        const CompensatedVector &u, const std::vector<double> &heat)
+    {
+      const ConductionMatrix &conduction = problem.conduction;
+      const double jump = graph.enthalpy(0);
+      for(std::size_t i = 0; i < u.size(); ++i)
+      {
+        if(!problem.free[i])
+          continue;
+        double width = 0;
+        for(std::size_t k = conduction.row_start[i]; k < conduction.row_start[i + 1]; ++k)
+          width += std::abs(u[conduction.column[k]] - u[i]) / 2;
+        const double size = std::abs(u[i]);
+        if(size >= width)
+          continue;
+        const double volume = problem.volume[i];
+        if(!active[i])
+        {
+          active[i] = 1;
+          heat_capacity[i] = 0;
+          residual[i] = heat[i] - graph.heat_on_graph(u[i], volume, heat[i]);
+        }
+        heat_capacity[i] += volume * jump * (1 - size / width) / width;
+      }
+      entries_touched += conduction.entries();
+    }
+
+    /** Go along the direction to the functional's minimum, over jumps as they come. */
+    template <class Graph, bool with_exchange>
+    void TruncatedNewton<Graph, with_exchange>::descend_over_jumps(
         double c, CompensatedVector &u, const std::vector<double> &heat)
     {
-      if(!coarse)
-        coarse.emplace(*problem.levels, problem, graph);
-      std::vector<double> &on_graph = residual;
-      for(std::size_t i = 0; i < u.size(); ++i)
-        on_graph[i] = graph.heat_on_graph(u[i], problem.volume[i], heat[i]);
-      std::fill(direction.begin(), direction.end(), 0);
-      coarse->correct(c, problem.free, on_graph, heat,
-                      exchanges ? &problem.exchange->transfer : nullptr, direction);
       KinkedDerivative derivative;
       for(std::size_t i = 0; i < u.size(); ++i)
       {
@@ -266,6 +295,23 @@ namespace meltfront::reference_fem
       const double length = derivative.lowest();
       for(std::size_t i = 0; i < u.size(); ++i)
         u.add(i, length * direction[i]);
+      entries_touched += problem.conduction.entries();
+    }
+
+    /** Correct from coarser lattices: fronts move by as many cells as it takes. */
+    template <class Graph, bool with_exchange>
+    void TruncatedNewton<Graph, with_exchange>::correct_coarsely(
+        double c, CompensatedVector &u, const std::vector<double> &heat)
+    {
+      if(!coarse)
+        coarse.emplace(*problem.levels, problem, graph);
+      std::vector<double> &on_graph = residual;
+      for(std::size_t i = 0; i < u.size(); ++i)
+        on_graph[i] = graph.heat_on_graph(u[i], problem.volume[i], heat[i]);
+      std::fill(direction.begin(), direction.end(), 0);
+      coarse->correct(c, problem.free, on_graph, heat,
+                      exchanges ? &problem.exchange->transfer : nullptr, direction);
+      descend_over_jumps(c, u, heat);
       // The levels together take a third more than the finest one.
       constexpr long passes = 8;
       entries_touched += passes * problem.conduction.entries();
