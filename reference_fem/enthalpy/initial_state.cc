@@ -27,9 +27,10 @@ namespace meltfront::reference_fem
       }
 
       /** Enthalpy per volume at a point. */
-      double operator()(const Position &p) const
+      Mesh::PhaseValue operator()(const Position &p) const
       {
-        return enthalpy(p, front(p, scene.start_time) < 0);
+        const bool solid = front(p, scene.start_time) < 0;
+        return {enthalpy(p, solid), solid};
       }
 
       /** Average between two coordinates on the axis of x with the measure of a symmetry,

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 namespace meltfront::reference_fem
@@ -38,6 +39,67 @@ namespace meltfront::reference_fem
       return result;
     }
 
+    /** The rows of a network under construction, each with room for some neighbours. */
+    class RowBuilder
+    {
+    public:
+      explicit RowBuilder(const std::vector<unsigned int> &room)
+        : first(room.size() + 1, 0)
+        , filled(room.size(), 0)
+      {
+        std::partial_sum(room.begin(), room.end(), first.begin() + 1,
+                         std::plus<std::size_t>());
+        column.resize(first.back());
+        conductance.resize(first.back());
+      }
+
+      void add(unsigned int i, unsigned int j, double value)
+      {
+        const std::size_t end = first[i] + filled[i];
+        std::size_t k = first[i];
+        while(k < end && column[k] != j)
+          ++k;
+        if(k == end)
+        {
+          column[k] = j;
+          conductance[k] = 0;
+          ++filled[i];
+        }
+        conductance[k] += value;
+      }
+
+      /** Sorts and closes up the rows; nothing is left here. */
+      void move_to(ConductionMatrix &matrix)
+      {
+        std::size_t end = 0;
+        std::vector<std::pair<unsigned int, double>> row;
+        for(std::size_t i = 0; i < filled.size(); ++i)
+        {
+          row.clear();
+          for(std::size_t k = first[i]; k < first[i] + filled[i]; ++k)
+            row.emplace_back(column[k], conductance[k]);
+          std::sort(row.begin(), row.end());
+          for(const auto &[j, value] : row)
+          {
+            column[end] = j;
+            conductance[end] = value;
+            matrix.diagonal[i] += value;
+            ++end;
+          }
+          matrix.row_start.push_back(end);
+        }
+        column.resize(end);
+        conductance.resize(end);
+        matrix.column = std::move(column);
+        matrix.conductance = std::move(conductance);
+      }
+
+    private:
+      std::vector<std::size_t> first;
+      std::vector<unsigned int> filled, column;
+      std::vector<double> conductance;
+    };
+
     template <int dim>
     class DealMesh : public Mesh
     {
@@ -52,7 +114,7 @@ namespace meltfront::reference_fem
         finder.emplace(shape.triangulation, mapping);
       }
       std::vector<double> node_averages(
-          const std::function<double(const Position &)> &function) const override;
+          const std::function<PhaseValue(const Position &)> &function) const override;
 
     private:
       bool periodic(int direction) const;
@@ -64,6 +126,7 @@ namespace meltfront::reference_fem
 
       std::vector<unsigned int>
       sites(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
+      std::vector<unsigned int> neighbours_at_most() const;
       void integrate_cells(Discretisation &result) const;
 
       /** Conductivity of a cell over that outside of the inclusion. */
@@ -210,6 +273,19 @@ namespace meltfront::reference_fem
       return 1 / (resistance * scene.material.solid.conductivity);
     }
 
+    /** How many neighbours each node may have. */
+    template <int dim>
+    std::vector<unsigned int> DealMesh<dim>::neighbours_at_most() const
+    {
+      if(lattice)
+        return std::vector<unsigned int>(n_nodes, 2 * dim);
+      std::vector<unsigned int> result(n_nodes, 0);
+      for(const auto &cell : dof_handler.active_cell_iterators())
+        for(const unsigned int site : sites(cell))
+          result[node_of_site[site]] += element.n_dofs_per_cell() - 1;
+      return result;
+    }
+
     template <int dim>
     void DealMesh<dim>::integrate_cells(Discretisation &result) const
     {
@@ -230,7 +306,7 @@ namespace meltfront::reference_fem
                              | dealii::update_quadrature_points);
       result.volume.assign(n_nodes, 0);
       result.conduction.diagonal.assign(n_nodes, 0);
-      std::vector<std::map<unsigned int, double>> rows(n_nodes);
+      RowBuilder rows(neighbours_at_most());
       for(const auto &cell : dof_handler.active_cell_iterators())
       {
         values.reinit(cell);
@@ -269,21 +345,11 @@ namespace meltfront::reference_fem
             const double entry = couple(a, b);
             // Diagonally opposite vertices couple by round-off only on Cartesian meshes.
             if(i != j && std::abs(entry) > 1e-13 * couple(0, 0))
-              rows[i][j] -= entry;
+              rows.add(i, j, -entry);
           }
         }
       }
-      ConductionMatrix &matrix = result.conduction;
-      for(unsigned int i = 0; i < n_nodes; ++i)
-      {
-        for(const auto &[j, conductance] : rows[i])
-        {
-          matrix.column.push_back(j);
-          matrix.conductance.push_back(conductance);
-          matrix.diagonal[i] += conductance;
-        }
-        matrix.row_start.push_back(matrix.column.size());
-      }
+      rows.move_to(result.conduction);
     }
 
     template <int dim>
@@ -405,26 +471,55 @@ namespace meltfront::reference_fem
 
     template <int dim>
     std::vector<double> DealMesh<dim>::node_averages(
-        const std::function<double(const Position &)> &function) const
+        const std::function<PhaseValue(const Position &)> &function) const
     {
-      const dealii::QIterated<dim> quadrature(dealii::QMidpoint<1>(), 8);
-      dealii::FEValues<dim> values(mapping, element, quadrature,
-                                   dealii::update_JxW_values
-                                       | dealii::update_quadrature_points);
+      // Where one phase is, two points of Gauss for each half of a cell do; where a front
+      // may pass, many.
+      const dealii::QIterated<dim> few(dealii::QGauss<1>(2), 2),
+          many(dealii::QMidpoint<1>(), 8);
+      const auto flags = dealii::update_JxW_values | dealii::update_quadrature_points;
+      dealii::FEValues<dim> in_phase(mapping, element, few, flags),
+          at_front(mapping, element, many, flags);
       std::vector<double> sum(n_nodes), measure_of(n_nodes);
+      std::vector<PhaseValue> samples;
       for(const auto &cell : dof_handler.active_cell_iterators())
       {
-        values.reinit(cell);
         const auto corners = sites(cell);
-        for(const unsigned int q : values.quadrature_point_indices())
+        const auto sample = [&](dealii::FEValues<dim> &values)
         {
-          unsigned int nearest = 0;
-          for(int d = 0; d < dim; ++d)
-            nearest |= (quadrature.point(q)[d] > 0.5 ? 1u : 0u) << d;
-          const unsigned int i = node_of_site[corners[nearest]];
-          const double measure = values.JxW(q) * weight(values.quadrature_point(q));
-          sum[i] += measure * function(position<dim>(values.quadrature_point(q)));
-          measure_of[i] += measure;
+          values.reinit(cell);
+          samples.clear();
+          for(const unsigned int q : values.quadrature_point_indices())
+            samples.push_back(function(position<dim>(values.quadrature_point(q))));
+        };
+        const auto add = [&](const dealii::FEValues<dim> &values)
+        {
+          const dealii::Quadrature<dim> &quadrature = values.get_quadrature();
+          for(const unsigned int q : values.quadrature_point_indices())
+          {
+            unsigned int nearest = 0;
+            for(int d = 0; d < dim; ++d)
+              nearest |= (quadrature.point(q)[d] > 0.5 ? 1u : 0u) << d;
+            const unsigned int i = node_of_site[corners[nearest]];
+            const double measure = values.JxW(q) * weight(values.quadrature_point(q));
+            sum[i] += measure * samples[q].value;
+            measure_of[i] += measure;
+          }
+        };
+        sample(in_phase);
+        bool one_phase = true;
+        for(const PhaseValue &point : samples)
+          one_phase = one_phase && point.solid == samples.front().solid;
+        for(const unsigned int vertex : cell->vertex_indices())
+          one_phase = one_phase
+                      && function(position<dim>(cell->vertex(vertex))).solid
+                             == samples.front().solid;
+        if(one_phase)
+          add(in_phase);
+        else
+        {
+          sample(at_front);
+          add(at_front);
         }
       }
       for(unsigned int i = 0; i < n_nodes; ++i)

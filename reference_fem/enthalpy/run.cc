@@ -62,9 +62,15 @@ namespace meltfront::reference_fem
     if(effects.contains(Effect::robin_wall) || effects.contains(Effect::radiating_wall))
       exchange.emplace(scene, mesh, free);
 
+    if(!holds_solute(scene, effects))
+      enthalpy = initial_enthalpy(scene, *geometry, mesh, free);
+    // The mesh itself is large: it makes room for the solver where it is not needed.
+    if(sources && sources->move())
+      mesh_of_moving_sources = std::move(geometry);
+    geometry.reset();
     make_solver();
-    enthalpy = alloy ? alloy->initial_enthalpy()
-                     : initial_enthalpy(scene, *geometry, mesh, free);
+    if(alloy)
+      enthalpy = alloy->initial_enthalpy();
     enthalpy_before = enthalpy;
     if(motion)
     {
@@ -78,8 +84,6 @@ namespace meltfront::reference_fem
     rhs.resize(n);
     heat.resize(n);
     initial_heat = total_heat();
-    if(sources && sources->move())
-      mesh_of_moving_sources = std::move(geometry);
   }
 
   void EnthalpyRun::make_solver()
