@@ -86,7 +86,10 @@ namespace meltfront::reference_fem
         for(std::size_t i = 0; i < n; ++i)
           direction[i] = preconditioned[i] + share * direction[i];
         multigrid.multiply(direction, image);
-        const double length = now / scalar_product(direction, image);
+        const double curvature = scalar_product(direction, image);
+        if(!(curvature > 0))
+          return;
+        const double length = now / curvature;
         for(std::size_t i = 0; i < n; ++i)
         {
           x[i] += length * direction[i];
@@ -95,8 +98,7 @@ namespace meltfront::reference_fem
         ++linear_iterations;
         entries_touched += passes * conduction.entries();
         const double left = std::sqrt(scalar_product(residual, residual));
-        // Neither where round-off leaves nothing to go along.
-        if(left <= enough || !std::isfinite(left))
+        if(left <= enough)
           return;
       }
     }

@@ -113,8 +113,9 @@ namespace meltfront::reference_fem
       {
         finder.emplace(shape.triangulation, mapping);
       }
-      std::vector<double> node_averages(
-          const std::function<PhaseValue(const Position &)> &function) const override;
+      std::vector<double>
+      node_averages(const std::function<double(const Position &)> &function,
+                    const std::function<bool(const Position &)> &solid) const override;
 
     private:
       bool periodic(int direction) const;
@@ -470,56 +471,48 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    std::vector<double> DealMesh<dim>::node_averages(
-        const std::function<PhaseValue(const Position &)> &function) const
+    std::vector<double>
+    DealMesh<dim>::node_averages(const std::function<double(const Position &)> &function,
+                                 const std::function<bool(const Position &)> &solid) const
     {
-      // Where one phase is, two points of Gauss for each half of a cell do; where a front
-      // may pass, many.
       const dealii::QIterated<dim> few(dealii::QGauss<1>(2), 2),
           many(dealii::QMidpoint<1>(), 8);
       const auto flags = dealii::update_JxW_values | dealii::update_quadrature_points;
       dealii::FEValues<dim> in_phase(mapping, element, few, flags),
           at_front(mapping, element, many, flags);
+      // The phases of the cells around a node: a front that cuts off a cell's corner is
+      // seen in the cells beside it.
+      constexpr char is_solid = 1, is_liquid = 2;
+      std::vector<char> phases(n_nodes, 0);
+      for(const auto &cell : dof_handler.active_cell_iterators())
+      {
+        in_phase.reinit(cell);
+        char found = 0;
+        for(const unsigned int q : in_phase.quadrature_point_indices())
+          found |= solid(position<dim>(in_phase.quadrature_point(q))) ? is_solid
+                                                                      : is_liquid;
+        for(const unsigned int site : sites(cell))
+          phases[node_of_site[site]] |= found;
+      }
       std::vector<double> sum(n_nodes), measure_of(n_nodes);
-      std::vector<PhaseValue> samples;
       for(const auto &cell : dof_handler.active_cell_iterators())
       {
         const auto corners = sites(cell);
-        const auto sample = [&](dealii::FEValues<dim> &values)
+        char found = 0;
+        for(const unsigned int site : corners)
+          found |= phases[node_of_site[site]];
+        dealii::FEValues<dim> &values
+            = found == (is_solid | is_liquid) ? at_front : in_phase;
+        values.reinit(cell);
+        for(const unsigned int q : values.quadrature_point_indices())
         {
-          values.reinit(cell);
-          samples.clear();
-          for(const unsigned int q : values.quadrature_point_indices())
-            samples.push_back(function(position<dim>(values.quadrature_point(q))));
-        };
-        const auto add = [&](const dealii::FEValues<dim> &values)
-        {
-          const dealii::Quadrature<dim> &quadrature = values.get_quadrature();
-          for(const unsigned int q : values.quadrature_point_indices())
-          {
-            unsigned int nearest = 0;
-            for(int d = 0; d < dim; ++d)
-              nearest |= (quadrature.point(q)[d] > 0.5 ? 1u : 0u) << d;
-            const unsigned int i = node_of_site[corners[nearest]];
-            const double measure = values.JxW(q) * weight(values.quadrature_point(q));
-            sum[i] += measure * samples[q].value;
-            measure_of[i] += measure;
-          }
-        };
-        sample(in_phase);
-        bool one_phase = true;
-        for(const PhaseValue &point : samples)
-          one_phase = one_phase && point.solid == samples.front().solid;
-        for(const unsigned int vertex : cell->vertex_indices())
-          one_phase = one_phase
-                      && function(position<dim>(cell->vertex(vertex))).solid
-                             == samples.front().solid;
-        if(one_phase)
-          add(in_phase);
-        else
-        {
-          sample(at_front);
-          add(at_front);
+          unsigned int nearest = 0;
+          for(int d = 0; d < dim; ++d)
+            nearest |= (values.get_quadrature().point(q)[d] > 0.5 ? 1u : 0u) << d;
+          const unsigned int i = node_of_site[corners[nearest]];
+          const double measure = values.JxW(q) * weight(values.quadrature_point(q));
+          sum[i] += measure * function(position<dim>(values.quadrature_point(q)));
+          measure_of[i] += measure;
         }
       }
       for(unsigned int i = 0; i < n_nodes; ++i)

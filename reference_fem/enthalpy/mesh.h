@@ -68,21 +68,16 @@ namespace meltfront::reference_fem
     /** Make shares() faster where it is called many times. */
     virtual void expect_many_points() = 0;
 
-    /** A quantity and the phase at a point. */
-    struct PhaseValue
-    {
-      double value;
-      bool solid;
-    };
-
     /**
      * Averages of a function over the part of each cell nearest to a node: by a midpoint
-     * rule of 8 points per cell and direction in cells where both phases are found, by
-     * Gauss' of 4 elsewhere. A pocket of the other phase that lies between those points
-     * and the cell's vertices is not seen.
+     * rule of 8 points per cell and direction in cells that hold both phases or are
+     * beside such, by Gauss' rule of 4 elsewhere. A pocket of the other phase between
+     * those points is not seen.
+     * @param solid the phase at a point
      */
-    virtual std::vector<double> node_averages(
-        const std::function<PhaseValue(const cases::Position &)> &function) const = 0;
+    virtual std::vector<double>
+    node_averages(const std::function<double(const cases::Position &)> &function,
+                  const std::function<bool(const cases::Position &)> &solid) const = 0;
   };
 
   /** The dimensions in which a scene can be meshed, the lowest first. */

@@ -66,7 +66,7 @@ namespace meltfront::reference_fem
             sweep_while_moving(c, rhs, u);
             recover_heat(c, rhs, u, heat);
             if constexpr(Solver::moves_fronts)
-              if(problem.levels && outcome.iterations > 0)
+              if(problem.levels && problem.levels->size() > 1 && outcome.iterations > 0)
               {
                 solver().correct_coarsely(c, u, heat);
                 sweep_while_moving(c, rhs, u);
