@@ -67,6 +67,14 @@ namespace meltfront::reference_fem
       return slope(u) * u;
     }
 
+    /** volume H(u); at the jump the heat in it that is nearest to the one given. */
+    double heat_on_graph(double u, double volume, double heat) const
+    {
+      if(latent && u == 0)
+        return std::clamp(heat, 0., volume * volumetric_latent_heat);
+      return volume * enthalpy(u);
+    }
+
     /** The root u of the inclusion volume H(u) + transfer (T - T_m) + stiffness u = heat,
      * all factors >= 0. */
     double resolve(double heat, double volume, double stiffness,

@@ -29,7 +29,12 @@ namespace meltfront::reference_fem
       /** Enthalpy per volume at a point. */
       double operator()(const Position &p) const
       {
-        return enthalpy(p, front(p, scene.start_time) < 0);
+        return enthalpy(p, solid(p));
+      }
+
+      bool solid(const Position &p) const
+      {
+        return front(p, scene.start_time) < 0;
       }
 
       /** Average between two coordinates on the axis of x with the measure of a symmetry,
@@ -139,7 +144,8 @@ namespace meltfront::reference_fem
       const Symmetry measure = discretisation.measure;
       const double half = discretisation.spacing / 2;
       if(measure == Symmetry::none && scene.domain.shape != cases::DomainShape::slab)
-        return mesh.node_averages(start);
+        return mesh.node_averages(start,
+                                  [&](const Position &p) { return start.solid(p); });
       std::vector<double> result(n);
       double lower = scene.domain.inner_radius;
       double volume = cases::volume_between(measure, 0, lower);

@@ -11,6 +11,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace meltfront::reference_fem
@@ -157,17 +158,26 @@ namespace meltfront::reference_fem
       catch(const dealii::SolverControl::NoConvergence &)
       {
       }
+      linear_iterations += control.last_step();
       entries_touched
           += static_cast<long>(control.last_step() + 1) * passes * conduction.entries();
       return control.last_step();
     }
 
-    /** The hierarchy is kept from step to step: the matrix changes at the front only. It
-     * is built anew when the step changes or the iterations grow by a half. */
+    /**
+     * The hierarchy is kept from step to step: the matrix changes at the front only. It
+     * is built anew when the iterations grow by a half or the step changes by a tenth:
+     * with that of a step r times as long they grow by the root of r, a twentieth, and
+     * steps that are to be equal differ by round-off.
+     */
     void KrylovSolver::iterate_with_multigrid(const NewtonSystem &system,
                                               double reduction)
     {
-      const bool fresh = !multigrid || multigrid_step_factor != system.step_factor;
+      constexpr double same_step = 0.1;
+      constexpr long passes_of_set_up = 10;
+      const bool fresh
+          = !multigrid
+            || std::abs(system.step_factor / multigrid_step_factor - 1) > same_step;
       if(fresh)
       {
         start_mpi();
@@ -175,6 +185,7 @@ namespace meltfront::reference_fem
         multigrid->initialize(matrix);
         multigrid_step_factor = system.step_factor;
         multigrid_iterations = 0;
+        entries_touched += passes_of_set_up * conduction.entries();
       }
       // A product and a cycle, counted as five passes over the finest matrix.
       const unsigned int iterations = iterate(*multigrid, system, reduction, 6);

@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_enthalpy_linear_solver_h
 
 #include <reference_fem/enthalpy/conduction_matrix.h>
+#include <reference_fem/enthalpy/lattice.h>
 
 #include <memory>
 #include <string>
@@ -44,8 +45,15 @@ namespace meltfront::reference_fem
       return entries_touched;
     }
 
+    /** Iterations since the start; none of direct solvers. */
+    long iterations() const
+    {
+      return linear_iterations;
+    }
+
   protected:
     long entries_touched = 0;
+    long linear_iterations = 0;
   };
 
   /** Elimination for chains of nodes (one dimension), nodes numbered along the chain. */
@@ -54,7 +62,7 @@ namespace meltfront::reference_fem
   /** How conjugate gradients are preconditioned. */
   enum class Preconditioner
   {
-    automatic, ///< by the number of unknowns and the Fourier number
+    automatic, ///< multigrid on lattices, else by unknowns and Fourier number
     ssor,
     amg ///< smoothed aggregation of Trilinos ML
   };
@@ -62,6 +70,11 @@ namespace meltfront::reference_fem
   /** Conjugate gradients for two and three dimensions, on one thread. */
   std::unique_ptr<LinearSolver> make_krylov_solver(const ConductionMatrix &matrix,
                                                    Preconditioner preconditioner);
+
+  /** The same, preconditioned by LatticeMultigrid. @param levels of the nodes */
+  std::unique_ptr<LinearSolver>
+  make_lattice_solver(const ConductionMatrix &matrix,
+                      std::shared_ptr<const std::vector<LatticeLevel>> levels);
 } // namespace meltfront::reference_fem
 
 #endif

@@ -6,13 +6,11 @@
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/grid_tools_cache.h>
-#include <deal.II/lac/affine_constraints.h>
 
 #include <fmt/format.h>
 
@@ -20,6 +18,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 namespace meltfront::reference_fem
@@ -40,6 +39,67 @@ namespace meltfront::reference_fem
       return result;
     }
 
+    /** The rows of a network under construction, each with room for some neighbours. */
+    class RowBuilder
+    {
+    public:
+      explicit RowBuilder(const std::vector<unsigned int> &room)
+        : first(room.size() + 1, 0)
+        , filled(room.size(), 0)
+      {
+        std::partial_sum(room.begin(), room.end(), first.begin() + 1,
+                         std::plus<std::size_t>());
+        column.resize(first.back());
+        conductance.resize(first.back());
+      }
+
+      void add(unsigned int i, unsigned int j, double value)
+      {
+        const std::size_t end = first[i] + filled[i];
+        std::size_t k = first[i];
+        while(k < end && column[k] != j)
+          ++k;
+        if(k == end)
+        {
+          column[k] = j;
+          conductance[k] = 0;
+          ++filled[i];
+        }
+        conductance[k] += value;
+      }
+
+      /** Sorts and closes up the rows; nothing is left here. */
+      void move_to(ConductionMatrix &matrix)
+      {
+        std::size_t end = 0;
+        std::vector<std::pair<unsigned int, double>> row;
+        for(std::size_t i = 0; i < filled.size(); ++i)
+        {
+          row.clear();
+          for(std::size_t k = first[i]; k < first[i] + filled[i]; ++k)
+            row.emplace_back(column[k], conductance[k]);
+          std::sort(row.begin(), row.end());
+          for(const auto &[j, value] : row)
+          {
+            column[end] = j;
+            conductance[end] = value;
+            matrix.diagonal[i] += value;
+            ++end;
+          }
+          matrix.row_start.push_back(end);
+        }
+        column.resize(end);
+        conductance.resize(end);
+        matrix.column = std::move(column);
+        matrix.conductance = std::move(conductance);
+      }
+
+    private:
+      std::vector<std::size_t> first;
+      std::vector<unsigned int> filled, column;
+      std::vector<double> conductance;
+    };
+
     template <int dim>
     class DealMesh : public Mesh
     {
@@ -53,18 +113,21 @@ namespace meltfront::reference_fem
       {
         finder.emplace(shape.triangulation, mapping);
       }
-      std::vector<double> node_averages(
-          const std::function<double(const Position &)> &function) const override;
+      std::vector<double>
+      node_averages(const std::function<double(const Position &)> &function,
+                    const std::function<bool(const Position &)> &solid) const override;
 
     private:
-      void join_periodic_sides(const cases::Scene &scene);
+      bool periodic(int direction) const;
       void number_nodes();
+      void number_along_lattice();
 
       /** The measure of the scene at a point, per volume of the mesh. */
       double weight(const dealii::Point<dim> &point) const;
 
       std::vector<unsigned int>
       sites(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
+      std::vector<unsigned int> neighbours_at_most() const;
       void integrate_cells(Discretisation &result) const;
 
       /** Conductivity of a cell over that outside of the inclusion. */
@@ -77,11 +140,11 @@ namespace meltfront::reference_fem
       ShapedTriangulation<dim> shape;
       dealii::FE_Q<dim> element{1};
       dealii::DoFHandler<dim> dof_handler;
-      dealii::AffineConstraints<double> periodicity;
       dealii::MappingQ<dim> mapping;
       std::optional<dealii::GridTools::Cache<dim>> finder;
       std::vector<unsigned int> node_of_site;
       unsigned int n_nodes = 0;
+      std::optional<Lattice> lattice; ///< of the nodes, where cells are boxes
     };
 
     template <int dim>
@@ -92,36 +155,29 @@ namespace meltfront::reference_fem
       , mapping(shape.curved ? 4 : 1)
     {
       dof_handler.distribute_dofs(element);
-      if(shape.cartesian)
-        join_periodic_sides(scene);
-      periodicity.close();
       number_nodes();
     }
 
+    /** Whether the ends of a direction are joined. */
     template <int dim>
-    void DealMesh<dim>::join_periodic_sides(const cases::Scene &scene)
+    bool DealMesh<dim>::periodic(int direction) const
     {
-      const bool strip = scene.domain.shape == DomainShape::slab;
-      for(int d = 0; d < dim; ++d)
-      {
-        const auto lower = static_cast<Side>(2 * d), upper = static_cast<Side>(2 * d + 1);
-        const auto periodic = [&](Side side) {
-          return strip && d > 0 ? true
-                                : scene.boundary(side).kind == BoundaryKind::periodic;
-        };
-        if(!periodic(lower) && !periodic(upper))
-          continue;
-        if(!periodic(lower) || !periodic(upper))
-          throw cases::InputError(
-              fmt::format("of the sides {} and {} only one is periodic",
-                          cases::to_string(lower), cases::to_string(upper)));
-        if constexpr(dim == 1)
-          throw cases::Refusal(
-              "fem-enthalpy does not simulate a periodic interval in one dimension");
-        else
-          dealii::DoFTools::make_periodicity_constraints(dof_handler, 2 * d, 2 * d + 1, d,
-                                                         periodicity);
-      }
+      if(!shape.cartesian)
+        return false;
+      if(scene.domain.shape == DomainShape::slab && direction > 0)
+        return true;
+      const auto lower = static_cast<Side>(2 * direction),
+                 upper = static_cast<Side>(2 * direction + 1);
+      const auto is_periodic = [&](Side side)
+      { return scene.boundary(side).kind == BoundaryKind::periodic; };
+      if(is_periodic(lower) != is_periodic(upper))
+        throw cases::InputError(fmt::format("of the sides {} and {} only one is periodic",
+                                            cases::to_string(lower),
+                                            cases::to_string(upper)));
+      if(dim == 1 && is_periodic(lower))
+        throw cases::Refusal(
+            "fem-enthalpy does not simulate a periodic interval in one dimension");
+      return is_periodic(lower);
     }
 
     template <int dim>
@@ -129,13 +185,43 @@ namespace meltfront::reference_fem
     {
       const auto n_sites = static_cast<unsigned int>(dof_handler.n_dofs());
       node_of_site.resize(n_sites);
+      if(shape.n_cells[0] > 0)
+      {
+        number_along_lattice();
+        return;
+      }
       for(unsigned int site = 0; site < n_sites; ++site)
-        if(!periodicity.is_constrained(site))
-          node_of_site[site] = n_nodes++;
-      for(unsigned int site = 0; site < n_sites; ++site)
-        if(periodicity.is_constrained(site))
-          node_of_site[site]
-              = node_of_site[(*periodicity.get_constraint_entries(site))[0].first];
+        node_of_site[site] = n_nodes++;
+    }
+
+    /** Along x first: what multigrid on lattices counts on. */
+    template <int dim>
+    void DealMesh<dim>::number_along_lattice()
+    {
+      lattice.emplace();
+      const auto &[lower, upper] = shape.corners;
+      for(int d = 0; d < dim; ++d)
+      {
+        lattice->periodic[d] = periodic(d);
+        lattice->nodes[d] = shape.n_cells[d] + (lattice->periodic[d] ? 0 : 1);
+      }
+      n_nodes = static_cast<unsigned int>(lattice->size());
+      for(const auto &cell : dof_handler.active_cell_iterators())
+      {
+        const auto corners = sites(cell);
+        for(std::size_t a = 0; a < corners.size(); ++a)
+        {
+          unsigned int node = 0;
+          for(int d = dim; d-- > 0;)
+          {
+            const double cells = (cell->vertex(a)[d] - lower[d]) / (upper[d] - lower[d])
+                                 * shape.n_cells[d];
+            node = node * lattice->nodes[d]
+                   + static_cast<unsigned int>(std::lround(cells)) % lattice->nodes[d];
+          }
+          node_of_site[corners[a]] = node;
+        }
+      }
     }
 
     template <int dim>
@@ -166,6 +252,7 @@ namespace meltfront::reference_fem
       result.spacing = shape.spacing;
       result.measure = shape.measure;
       result.node_of_site = node_of_site;
+      result.lattice = lattice;
       integrate_cells(result);
       integrate_walls(result);
       place_sites(result);
@@ -185,6 +272,19 @@ namespace meltfront::reference_fem
                       / scene.conductivity_at(position(
                           mapping.transform_unit_to_real_cell(cell, samples.point(q))));
       return 1 / (resistance * scene.material.solid.conductivity);
+    }
+
+    /** How many neighbours each node may have. */
+    template <int dim>
+    std::vector<unsigned int> DealMesh<dim>::neighbours_at_most() const
+    {
+      if(lattice)
+        return std::vector<unsigned int>(n_nodes, 2 * dim);
+      std::vector<unsigned int> result(n_nodes, 0);
+      for(const auto &cell : dof_handler.active_cell_iterators())
+        for(const unsigned int site : sites(cell))
+          result[node_of_site[site]] += element.n_dofs_per_cell() - 1;
+      return result;
     }
 
     template <int dim>
@@ -207,7 +307,7 @@ namespace meltfront::reference_fem
                              | dealii::update_quadrature_points);
       result.volume.assign(n_nodes, 0);
       result.conduction.diagonal.assign(n_nodes, 0);
-      std::vector<std::map<unsigned int, double>> rows(n_nodes);
+      RowBuilder rows(neighbours_at_most());
       for(const auto &cell : dof_handler.active_cell_iterators())
       {
         values.reinit(cell);
@@ -246,21 +346,11 @@ namespace meltfront::reference_fem
             const double entry = couple(a, b);
             // Diagonally opposite vertices couple by round-off only on Cartesian meshes.
             if(i != j && std::abs(entry) > 1e-13 * couple(0, 0))
-              rows[i][j] -= entry;
+              rows.add(i, j, -entry);
           }
         }
       }
-      ConductionMatrix &matrix = result.conduction;
-      for(unsigned int i = 0; i < n_nodes; ++i)
-      {
-        for(const auto &[j, conductance] : rows[i])
-        {
-          matrix.column.push_back(j);
-          matrix.conductance.push_back(conductance);
-          matrix.diagonal[i] += conductance;
-        }
-        matrix.row_start.push_back(matrix.column.size());
-      }
+      rows.move_to(result.conduction);
     }
 
     template <int dim>
@@ -315,10 +405,11 @@ namespace meltfront::reference_fem
       }
       result.site_weights.assign(n_sites, 0);
       result.positions.resize(n_nodes);
+      std::vector<char> placed(n_nodes, 0);
       for(std::size_t site = 0; site < n_sites; ++site)
-        if(!periodicity.is_constrained(site))
+        if(const unsigned int node = node_of_site[site]; !placed[node])
         {
-          const unsigned int node = node_of_site[site];
+          placed[node] = 1;
           result.site_weights[site] = result.volume[node];
           for(int d = 0; d < dim; ++d)
             result.positions[node][d] = result.site_positions[d][site];
@@ -380,23 +471,44 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    std::vector<double> DealMesh<dim>::node_averages(
-        const std::function<double(const Position &)> &function) const
+    std::vector<double>
+    DealMesh<dim>::node_averages(const std::function<double(const Position &)> &function,
+                                 const std::function<bool(const Position &)> &solid) const
     {
-      const dealii::QIterated<dim> quadrature(dealii::QMidpoint<1>(), 8);
-      dealii::FEValues<dim> values(mapping, element, quadrature,
-                                   dealii::update_JxW_values
-                                       | dealii::update_quadrature_points);
+      const dealii::QIterated<dim> few(dealii::QGauss<1>(2), 2),
+          many(dealii::QMidpoint<1>(), 8);
+      const auto flags = dealii::update_JxW_values | dealii::update_quadrature_points;
+      dealii::FEValues<dim> in_phase(mapping, element, few, flags),
+          at_front(mapping, element, many, flags);
+      // The phases of the cells around a node: a front that cuts off a cell's corner is
+      // seen in the cells beside it.
+      constexpr char is_solid = 1, is_liquid = 2;
+      std::vector<char> phases(n_nodes, 0);
+      for(const auto &cell : dof_handler.active_cell_iterators())
+      {
+        in_phase.reinit(cell);
+        char found = 0;
+        for(const unsigned int q : in_phase.quadrature_point_indices())
+          found |= solid(position<dim>(in_phase.quadrature_point(q))) ? is_solid
+                                                                      : is_liquid;
+        for(const unsigned int site : sites(cell))
+          phases[node_of_site[site]] |= found;
+      }
       std::vector<double> sum(n_nodes), measure_of(n_nodes);
       for(const auto &cell : dof_handler.active_cell_iterators())
       {
-        values.reinit(cell);
         const auto corners = sites(cell);
+        char found = 0;
+        for(const unsigned int site : corners)
+          found |= phases[node_of_site[site]];
+        dealii::FEValues<dim> &values
+            = found == (is_solid | is_liquid) ? at_front : in_phase;
+        values.reinit(cell);
         for(const unsigned int q : values.quadrature_point_indices())
         {
           unsigned int nearest = 0;
           for(int d = 0; d < dim; ++d)
-            nearest |= (quadrature.point(q)[d] > 0.5 ? 1u : 0u) << d;
+            nearest |= (values.get_quadrature().point(q)[d] > 0.5 ? 1u : 0u) << d;
           const unsigned int i = node_of_site[corners[nearest]];
           const double measure = values.JxW(q) * weight(values.quadrature_point(q));
           sum[i] += measure * function(position<dim>(values.quadrature_point(q)));

@@ -3,10 +3,12 @@
 
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/conduction_matrix.h>
+#include <reference_fem/enthalpy/lattice.h>
 
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,6 +45,7 @@ namespace meltfront::reference_fem
     std::vector<cases::Position> positions; ///< by node
     std::vector<double> volume;             ///< by node: integral of the shape function
     ConductionMatrix conduction;
+    std::optional<Lattice> lattice; ///< of the nodes, where the mesh is Cartesian
     std::array<std::vector<WallNode>, cases::n_sides> walls;
   };
 
@@ -66,11 +69,15 @@ namespace meltfront::reference_fem
     virtual void expect_many_points() = 0;
 
     /**
-     * Averages of a function over the part of each cell nearest to a node, by a midpoint
-     * rule of 8 points per cell and direction.
+     * Averages of a function over the part of each cell nearest to a node: by a midpoint
+     * rule of 8 points per cell and direction in cells that hold both phases or are
+     * beside such, by Gauss' rule of 4 elsewhere. A pocket of the other phase between
+     * those points is not seen.
+     * @param solid the phase at a point
      */
-    virtual std::vector<double> node_averages(
-        const std::function<double(const cases::Position &)> &function) const = 0;
+    virtual std::vector<double>
+    node_averages(const std::function<double(const cases::Position &)> &function,
+                  const std::function<bool(const cases::Position &)> &solid) const = 0;
   };
 
   /** The dimensions in which a scene can be meshed, the lowest first. */

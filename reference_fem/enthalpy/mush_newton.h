@@ -82,6 +82,7 @@ namespace meltfront::reference_fem
     using Base::residual;
     static constexpr bool jumps = true;
     static constexpr bool exchanges = with_exchange;
+    static constexpr bool moves_fronts = false;
 
     double excess(double u) const
     {

@@ -62,9 +62,15 @@ namespace meltfront::reference_fem
     if(effects.contains(Effect::robin_wall) || effects.contains(Effect::radiating_wall))
       exchange.emplace(scene, mesh, free);
 
+    if(!holds_solute(scene, effects))
+      enthalpy = initial_enthalpy(scene, *geometry, mesh, free);
+    // The mesh itself is large: it makes room for the solver where it is not needed.
+    if(sources && sources->move())
+      mesh_of_moving_sources = std::move(geometry);
+    geometry.reset();
     make_solver();
-    enthalpy = alloy ? alloy->initial_enthalpy()
-                     : initial_enthalpy(scene, *geometry, mesh, free);
+    if(alloy)
+      enthalpy = alloy->initial_enthalpy();
     enthalpy_before = enthalpy;
     if(motion)
     {
@@ -78,16 +84,18 @@ namespace meltfront::reference_fem
     rhs.resize(n);
     heat.resize(n);
     initial_heat = total_heat();
-    if(sources && sources->move())
-      mesh_of_moving_sources = std::move(geometry);
   }
 
   void EnthalpyRun::make_solver()
   {
+    if(mesh.lattice)
+      levels = std::make_shared<const std::vector<LatticeLevel>>(
+          lattice_levels(*mesh.lattice));
     const auto make_linear_solver = [this](const ConductionMatrix &matrix)
     {
-      auto result = options.dimension == 1
-                        ? make_tridiagonal_solver(matrix)
+      auto result = options.dimension == 1 ? make_tridiagonal_solver(matrix)
+                    : levels && options.preconditioner == Preconditioner::automatic
+                        ? make_lattice_solver(matrix, levels)
                         : make_krylov_solver(matrix, options.preconditioner);
       linear_solver_in_words = result->description();
       return result;
@@ -128,7 +136,8 @@ namespace meltfront::reference_fem
     const ConductionMatrix &conduction = alloy    ? alloy->conduction_matrix()
                                          : fronts ? fronts->matrix()
                                                   : mesh.conduction;
-    return {conduction, mesh.volume, free, exchange ? &*exchange : nullptr};
+    return {conduction, mesh.volume, free, exchange ? &*exchange : nullptr,
+            fronts || motion ? nullptr : levels.get()};
   }
 
   StepFormula EnthalpyRun::formula(double next) const

@@ -133,6 +133,11 @@ namespace meltfront::reference_fem
            {"largest defect of a step's heat balance", statistics.balance_defect},
            {"steps halved", double(statistics.halvings)},
            {"steps left to backward Euler", double(statistics.euler_steps)}};
+    if(step_number > 0)
+      cost.evidence["iterations_per_step"] = double(cost.solver_iterations) / step_number;
+    if(linear_solver && linear_solver->iterations() > 0)
+      cost.evidence["linear iterations per iteration"]
+          = double(linear_solver->iterations()) / iterations;
     return cost;
   }
 

@@ -13,8 +13,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace meltfront::reference_fem
@@ -28,9 +30,11 @@ namespace meltfront::reference_fem
     ShapedTriangulation(const cases::Scene &scene, int n);
 
     dealii::Triangulation<dim> triangulation;
-    bool cartesian;           ///< cells are boxes along the axes
-    bool curved;              ///< the wall is a circle or a sphere
-    double spacing = 0;       ///< cell size along the domain's side (m)
+    bool cartesian;                        ///< cells are boxes along the axes
+    bool curved;                           ///< the wall is a circle or a sphere
+    double spacing = 0;                    ///< cell size along the domain's side (m)
+    std::array<unsigned int, 3> n_cells{}; ///< where they are boxes, by direction
+    std::pair<dealii::Point<dim>, dealii::Point<dim>> corners; ///< there
     double strip_section = 1; ///< volume over the slab's measure (1, m or m^2)
     cases::Symmetry measure = cases::Symmetry::none; ///< of a radial mesh
     std::vector<cases::Side> sides;                  ///< that the boundary numbers name
@@ -83,6 +87,8 @@ namespace meltfront::reference_fem
         cells[d]
             = std::max(1, static_cast<int>(std::lround((upper[d] - lower[d]) / spacing)));
     }
+    std::copy(cells.begin(), cells.end(), n_cells.begin());
+    corners = {lower, upper};
     dealii::GridGenerator::subdivided_hyper_rectangle(triangulation, cells, lower, upper,
                                                       true);
     // deal.II numbers the sides of a block in the order of cases::Side.
@@ -101,6 +107,8 @@ namespace meltfront::reference_fem
       dealii::GridGenerator::subdivided_hyper_rectangle(
           triangulation, std::vector<unsigned int>{cells}, dealii::Point<1>(inner),
           dealii::Point<1>(scene.domain.radius));
+      n_cells[0] = cells;
+      corners = {dealii::Point<1>(inner), dealii::Point<1>(scene.domain.radius)};
       spacing = length / cells;
       measure = scene.domain.dimension == 2 ? cases::Symmetry::cylindrical
                                             : cases::Symmetry::spherical;

@@ -18,8 +18,10 @@ namespace meltfront::reference_fem
    * needed); `exchanges` (whether walls exchange heat); `excess(u)`, T - T_m (K);
    * `excess_at_enthalpy(i, H)`, the same by a node's enthalpy per volume (J/m^3);
    * `latent_temperature()`, L/c (K); `same_side(i, u, t)`, whether an unknown is in the
-   * region of its graph that a temperature excess tells; `relax(i, c, rhs, u)`, which
-   * solves one node's inclusion and tells whether it moved to another region;
+   * region of its graph that a temperature excess tells; `moves_fronts`, whether there
+   * are `correct_coarsely(c, u, heat)`, `add_slope_of_jump(u, heat)` and
+   * `descend_over_jumps(c, u, heat)`, which move fronts far; `relax(i, c, rhs,
+   * u)`, which solves one node's inclusion and tells whether it moved to another region;
    * `linearise(c, u, heat)`, which fills heat_capacity, active and residual and returns
    * the heat that changes a typical active node by one kelvin (J); `descend(c, u, heat)`,
    * which goes along the direction.
@@ -43,7 +45,6 @@ namespace meltfront::reference_fem
                         CompensatedVector &u, std::vector<double> &heat)
     {
       constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
-      constexpr int most_sweeps = 4;
       StepOutcome outcome;
       for(;; ++outcome.iterations)
       {
@@ -62,15 +63,33 @@ namespace meltfront::reference_fem
           if(!state.settled)
           {
             const cases::ScopedTimer timer(cost.seconds);
-            for(int sweeps = 0; sweeps < most_sweeps && sweep(c, rhs, u);)
-              ++sweeps;
+            sweep_while_moving(c, rhs, u);
             recover_heat(c, rhs, u, heat);
+            if constexpr(Solver::moves_fronts)
+              if(problem.levels && problem.levels->size() > 1 && outcome.iterations > 0)
+              {
+                solver().correct_coarsely(c, u, heat);
+                sweep_while_moving(c, rhs, u);
+                recover_heat(c, rhs, u, heat);
+              }
           }
+        // A front within a few cells of its place gets there by itself, and exactly.
+        const bool front_moves
+            = Solver::moves_fronts && !state.settled && outcome.iterations % 2 == 1;
         const double heat_per_kelvin = solver().linearise(c, u, heat);
+        if constexpr(Solver::moves_fronts)
+          if(front_moves)
+            solver().add_slope_of_jump(u, heat);
         linear_solver.solve({heat_capacity, c, active, residual,
                              safety * NonlinearSolver::target_inconsistency * state.scale
                                  * heat_per_kelvin},
                             state.settled ? tight : loose, direction);
+        if constexpr(Solver::moves_fronts)
+          if(front_moves)
+          {
+            solver().descend_over_jumps(c, u, heat);
+            continue;
+          }
         solver().descend(c, u, heat);
       }
       if(!outcome.converged)
@@ -146,6 +165,14 @@ namespace meltfront::reference_fem
       largest
           = std::max({largest, scale, round_off_share * solver().latent_temperature()});
       return {largest > 0 ? distance / largest : distance, largest, settled};
+    }
+
+    void sweep_while_moving(double c, const std::vector<double> &rhs,
+                            CompensatedVector &u)
+    {
+      constexpr int most_sweeps = 4;
+      for(int sweeps = 0; sweeps < most_sweeps && sweep(c, rhs, u);)
+        ++sweeps;
     }
 
     /** A symmetric sweep of nonlinear Gauss-Seidel; true if a node moved to another

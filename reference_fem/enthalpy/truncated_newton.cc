@@ -1,3 +1,4 @@
+#include <reference_fem/enthalpy/coarse_correction.h>
 #include <reference_fem/enthalpy/curved_graph.h>
 #include <reference_fem/enthalpy/graph.h>
 #include <reference_fem/enthalpy/line_search.h>
@@ -5,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace meltfront::reference_fem
 {
@@ -65,6 +67,7 @@ namespace meltfront::reference_fem
 
       static constexpr bool jumps = Graph::jumps || Graph::curved;
       static constexpr bool exchanges = with_exchange;
+      static constexpr bool moves_fronts = Graph::jumps && !Graph::curved;
 
       double excess(double u) const
       {
@@ -102,11 +105,17 @@ namespace meltfront::reference_fem
       void descend(double c, CompensatedVector &u, const std::vector<double> &heat);
       bool project(const CompensatedVector &u);
       double line_search(double c, const CompensatedVector &u);
+      void add_slope_of_jump(const CompensatedVector &u, const std::vector<double> &heat);
+      void descend_over_jumps(double c, CompensatedVector &u,
+                              const std::vector<double> &heat);
+      void correct_coarsely(double c, CompensatedVector &u,
+                            const std::vector<double> &heat);
       double curved_line_search(double c, const CompensatedVector &u,
                                 const std::vector<double> &heat);
       void advance(double length, CompensatedVector &u) const;
 
       Graph graph;
+      std::optional<CoarseCorrection<Graph>> coarse; ///< once a front has gone far
       std::unique_ptr<LinearSolver> owned_solver;
     };
 
@@ -209,19 +218,14 @@ namespace meltfront::reference_fem
     double TruncatedNewton<Graph, with_exchange>::line_search(double c,
                                                               const CompensatedVector &u)
     {
-      struct Kink
-      {
-        double length, change; ///< of the derivative's slope
-      };
-      std::vector<Kink> kinks;
-      double derivative = 0, slope = 0;
+      KinkedDerivative derivative;
       for(std::size_t i = 0; i < u.size(); ++i)
       {
         const double d = direction[i];
         if(d == 0)
           continue;
-        derivative -= residual[i] * d;
-        slope
+        derivative.start -= residual[i] * d;
+        derivative.slope
             += d * (heat_capacity[i] * d + c * problem.conduction.product(i, direction));
         if constexpr(!Graph::jumps)
         {
@@ -231,25 +235,86 @@ namespace meltfront::reference_fem
           double change = problem.volume[i] * (graph.slope(-u[i]) - graph.slope(u[i]));
           if constexpr(exchanges)
             change += exchange_slope(i, c, -u[i]) - exchange_slope(i, c, u[i]);
-          kinks.push_back({length, d * d * change});
+          derivative.kinks.push_back({length, 0, d * d * change});
         }
       }
       entries_touched += problem.conduction.entries();
-      std::sort(kinks.begin(), kinks.end(),
-                [](const Kink &a, const Kink &b) { return a.length < b.length; });
-      double length = 0;
-      for(const Kink &kink : kinks)
+      return derivative.lowest();
+    }
+
+    /**
+     * Add to the slopes of the nodes at fronts what the jump is worth there, L delta(u),
+     * so that Newton's step knows that a front that moves takes latent heat: the delta
+     * function is a hat as wide as u changes from a node to its neighbours (Engquist,
+     * Tornberg and Tsai 2005).
+     */
+    template <class Graph, bool with_exchange>
+    void TruncatedNewton<Graph, with_exchange>::add_slope_of_jump(
+        const CompensatedVector &u, const std::vector<double> &heat)
+    {
+      const ConductionMatrix &conduction = problem.conduction;
+      const double jump = graph.enthalpy(0);
+      for(std::size_t i = 0; i < u.size(); ++i)
       {
-        const double at_kink = derivative + slope * (kink.length - length);
-        if(at_kink >= 0)
-          break;
-        derivative = at_kink;
-        length = kink.length;
-        slope += kink.change;
+        if(!problem.free[i])
+          continue;
+        double width = 0;
+        for(std::size_t k = conduction.row_start[i]; k < conduction.row_start[i + 1]; ++k)
+          width += std::abs(u[conduction.column[k]] - u[i]) / 2;
+        const double size = std::abs(u[i]);
+        if(size >= width)
+          continue;
+        const double volume = problem.volume[i];
+        if(!active[i])
+        {
+          active[i] = 1;
+          heat_capacity[i] = 0;
+          residual[i] = heat[i] - graph.heat_on_graph(u[i], volume, heat[i]);
+        }
+        heat_capacity[i] += volume * jump * (1 - size / width) / width;
       }
-      if(derivative >= 0)
-        return length;
-      return slope > 0 ? std::min(1., length - derivative / slope) : 1.;
+      entries_touched += conduction.entries();
+    }
+
+    /** Go along the direction to the functional's minimum, over jumps as they come. */
+    template <class Graph, bool with_exchange>
+    void TruncatedNewton<Graph, with_exchange>::descend_over_jumps(
+        double c, CompensatedVector &u, const std::vector<double> &heat)
+    {
+      KinkedDerivative derivative;
+      for(std::size_t i = 0; i < u.size(); ++i)
+      {
+        if(direction[i] == 0)
+          continue;
+        double transfer = 0;
+        if constexpr(exchanges)
+          transfer = c * problem.exchange->transfer[i];
+        derivative.add_node(graph, u[i], direction[i], problem.volume[i], transfer,
+                            heat[i], c * problem.conduction.product(i, direction));
+      }
+      const double length = derivative.lowest();
+      for(std::size_t i = 0; i < u.size(); ++i)
+        u.add(i, length * direction[i]);
+      entries_touched += problem.conduction.entries();
+    }
+
+    /** Correct from coarser lattices: fronts move by as many cells as it takes. */
+    template <class Graph, bool with_exchange>
+    void TruncatedNewton<Graph, with_exchange>::correct_coarsely(
+        double c, CompensatedVector &u, const std::vector<double> &heat)
+    {
+      if(!coarse)
+        coarse.emplace(*problem.levels, problem, graph);
+      std::vector<double> &on_graph = residual;
+      for(std::size_t i = 0; i < u.size(); ++i)
+        on_graph[i] = graph.heat_on_graph(u[i], problem.volume[i], heat[i]);
+      std::fill(direction.begin(), direction.end(), 0);
+      coarse->correct(c, problem.free, on_graph, heat,
+                      exchanges ? &problem.exchange->transfer : nullptr, direction);
+      descend_over_jumps(c, u, heat);
+      // The levels together take a third more than the finest one.
+      constexpr long passes = 8;
+      entries_touched += passes * problem.conduction.entries();
     }
 
     template <class Graph, bool with_exchange>

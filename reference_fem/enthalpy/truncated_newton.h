@@ -35,6 +35,8 @@ namespace meltfront::reference_fem
     const std::vector<double> &volume; ///< by node, the lumped mass
     const std::vector<char> &free;     ///< 0 where a wall prescribes the temperature
     WallExchange *exchange = nullptr;  ///< null: walls exchange no heat
+    /** Of the nodes, where they lie on a lattice: coarse levels move fronts far. */
+    const std::vector<LatticeLevel> *levels = nullptr;
   };
 
   /**
@@ -45,12 +47,15 @@ namespace meltfront::reference_fem
    * with H the enthalpy graph: the minimum of the convex functional
    * J(u) = sum volume_i Psi(u_i) + c/2 u'Ku - rhs'u, Psi' = H.
    *
-   * Method: truncated nonsmooth Newton multigrid without the coarse levels (Graeser and
-   * Kornhuber 2009). Each iteration makes a nonlinear Gauss-Seidel sweep, which moves
-   * nodes on and off the jump; a Newton step for the nodes off the jump (u != 0); a
-   * projection, so that no node passes the jump; and an exact line search on J. Plain
-   * semismooth Newton cycles once the front crosses several cells in a step. Without a
-   * jump J is smooth, and Newton's method with the line search needs neither sweep nor
+   * Method: truncated nonsmooth Newton multigrid (Graeser and Kornhuber 2009). Each
+   * iteration makes nonlinear Gauss-Seidel sweeps, which move nodes on and off the jump;
+   * a Newton step for the nodes off the jump (u != 0); a projection, so that no node
+   * passes the jump; and an exact line search on J. Plain semismooth Newton cycles once
+   * the front crosses several cells in a step, and this iteration moves a front by some
+   * cells only. So from the second iteration on, while nodes are not in the region of
+   * their heat, a CoarseCorrection moves it first, and every other Newton step counts the
+   * latent heat that a moving front takes as a slope of the graph's jump. Without a jump
+   * J is smooth, and Newton's method with the line search needs neither sweep nor
    * projection.
    *
    * The enthalpy is then volume_i H_i = rhs_i - c (K u)_i, so heat is conserved whatever

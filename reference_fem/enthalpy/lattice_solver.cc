@@ -1,0 +1,113 @@
+#include <reference_fem/enthalpy/lattice_multigrid.h>
+#include <reference_fem/enthalpy/linear_solver.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::reference_fem
+{
+  namespace
+  {
+    double scalar_product(const std::vector<double> &x, const std::vector<double> &y)
+    {
+      // Four sums, since one waits for its own last addition.
+      std::array<double, 4> sums{};
+      std::size_t i = 0;
+      for(; i + 4 <= x.size(); i += 4)
+        for(std::size_t k = 0; k < 4; ++k)
+          sums[k] += x[i + k] * y[i + k];
+      for(; i < x.size(); ++i)
+        sums[0] += x[i] * y[i];
+      return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    }
+
+    /** Conjugate gradients for (D/c + K) x = r/c. */
+    class LatticeSolver : public LinearSolver
+    {
+    public:
+      LatticeSolver(const ConductionMatrix &conduction,
+                    std::shared_ptr<const std::vector<LatticeLevel>> levels)
+        : conduction(conduction)
+        , levels(std::move(levels))
+        , multigrid(*this->levels, conduction)
+        , residual(conduction.size())
+        , preconditioned(conduction.size())
+        , direction(conduction.size())
+        , image(conduction.size())
+      {
+      }
+
+      std::string description() const override
+      {
+        return "conjugate gradients, truncated multigrid on lattices";
+      }
+
+      void conductances_changed() override
+      {
+        multigrid.take(conduction);
+      }
+
+      void solve(const NewtonSystem &system, double reduction,
+                 std::vector<double> &x) override;
+
+    private:
+      const ConductionMatrix &conduction;
+      std::shared_ptr<const std::vector<LatticeLevel>> levels;
+      LatticeMultigrid multigrid;
+      std::vector<double> residual, preconditioned, direction, image;
+    };
+
+    void LatticeSolver::solve(const NewtonSystem &system, double reduction,
+                              std::vector<double> &x)
+    {
+      // Stopping early is safe: the outer iteration goes on until the graph holds.
+      constexpr int most_iterations = 200;
+      // Of a product and a cycle over all levels, and of setting them up.
+      constexpr long passes = 7, passes_of_set_up = 5;
+      const double scale = 1 / system.step_factor;
+      const std::size_t n = x.size();
+      for(std::size_t i = 0; i < n; ++i)
+        residual[i] = system.active[i] ? system.residual[i] * scale : 0;
+      std::fill(x.begin(), x.end(), 0);
+      const double start = std::sqrt(scalar_product(residual, residual));
+      const double enough
+          = std::max(reduction * start, system.sufficient_residual * scale);
+      if(start <= enough)
+        return;
+      multigrid.set_up(system.heat_capacity, scale, system.active);
+      entries_touched += passes_of_set_up * conduction.entries();
+      double before = 0;
+      for(int iteration = 0; iteration < most_iterations; ++iteration)
+      {
+        multigrid.precondition(residual, preconditioned);
+        const double now = scalar_product(residual, preconditioned);
+        const double share = iteration > 0 ? now / before : 0;
+        before = now;
+        for(std::size_t i = 0; i < n; ++i)
+          direction[i] = preconditioned[i] + share * direction[i];
+        multigrid.multiply(direction, image);
+        const double curvature = scalar_product(direction, image);
+        if(!(curvature > 0))
+          return;
+        const double length = now / curvature;
+        for(std::size_t i = 0; i < n; ++i)
+        {
+          x[i] += length * direction[i];
+          residual[i] -= length * image[i];
+        }
+        ++linear_iterations;
+        entries_touched += passes * conduction.entries();
+        const double left = std::sqrt(scalar_product(residual, residual));
+        if(left <= enough)
+          return;
+      }
+    }
+  } // namespace
+
+  std::unique_ptr<LinearSolver>
+  make_lattice_solver(const ConductionMatrix &matrix,
+                      std::shared_ptr<const std::vector<LatticeLevel>> levels)
+  {
+    return std::make_unique<LatticeSolver>(matrix, std::move(levels));
+  }
+} // namespace meltfront::reference_fem
