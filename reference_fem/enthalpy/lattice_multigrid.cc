@@ -33,21 +33,31 @@ namespace meltfront::reference_fem
   }
 
   void LatticeMultigrid::set_up(const std::vector<double> &heat_capacity, double scale,
-                                const std::vector<char> &active_nodes)
+                                const std::vector<char> &active_nodes,
+                                bool with_coarse_levels)
   {
     active = &active_nodes;
+    coarse = with_coarse_levels;
     for(std::size_t i = 0; i < diagonal.size(); ++i)
+    {
       diagonal[i]
           = active_nodes[i] ? heat_capacity[i] * scale + matrices[0].diagonal[i] : 0;
+      work[0].inverse_diagonal[i] = diagonal[i] > 0 ? 1 / diagonal[i] : 0;
+    }
+    if(coarse)
+      set_up_below();
+  }
+
+  void LatticeMultigrid::set_up_below()
+  {
     for(std::size_t l = 1; l < levels.size(); ++l)
+    {
       matrices[l].restrict_from(matrices[l - 1],
                                 l == 1 ? diagonal : matrices[l - 1].diagonal,
-                                l == 1 ? active_nodes.data() : nullptr);
-    for(std::size_t l = 0; l < levels.size(); ++l)
-    {
-      const std::vector<double> &of_level = l == 0 ? diagonal : matrices[l].diagonal;
-      for(std::size_t i = 0; i < of_level.size(); ++i)
-        work[l].inverse_diagonal[i] = of_level[i] > 0 ? 1 / of_level[i] : 0;
+                                l == 1 ? active->data() : nullptr);
+      for(std::size_t i = 0; i < levels[l].size(); ++i)
+        work[l].inverse_diagonal[i]
+            = matrices[l].diagonal[i] > 0 ? 1 / matrices[l].diagonal[i] : 0;
     }
     factorise_coarsest();
   }
@@ -143,18 +153,26 @@ namespace meltfront::reference_fem
   void LatticeMultigrid::cycle(std::size_t l, const std::vector<double> &right_side,
                                std::vector<double> &x)
   {
-    if(l + 1 == levels.size())
+    if(coarse && l + 1 == levels.size())
     {
       solve_coarsest(right_side, x);
       return;
     }
-    const LatticeMatrix &matrix = matrices[l];
-    const LatticeLevel &level = levels[l];
     const std::vector<double> &inverse = work[l].inverse_diagonal;
     const auto relax = [&](std::size_t i, double b) { return inverse[i] * b; };
     std::fill(x.begin(), x.end(), 0);
-    matrix.sweep(true, right_side, x, relax);
+    matrices[l].sweep(true, right_side, x, relax);
+    if(coarse)
+      correct_coarsely(l, right_side, x);
+    matrices[l].sweep(false, right_side, x, relax);
+  }
 
+  void LatticeMultigrid::correct_coarsely(std::size_t l,
+                                          const std::vector<double> &right_side,
+                                          std::vector<double> &x)
+  {
+    const LatticeMatrix &matrix = matrices[l];
+    const LatticeLevel &level = levels[l];
     Work &below = work[l + 1];
     std::fill(below.right_side.begin(), below.right_side.end(), 0);
     const auto n = static_cast<std::size_t>(level.row_length());
@@ -172,6 +190,5 @@ namespace meltfront::reference_fem
       }
     cycle(l + 1, below.right_side, below.x);
     level.add_interpolated(below.x, l == 0 ? active->data() : nullptr, x);
-    matrix.sweep(false, right_side, x, relax);
   }
 } // namespace meltfront::reference_fem

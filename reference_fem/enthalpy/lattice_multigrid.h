@@ -26,9 +26,10 @@ namespace meltfront::reference_fem
     /** The conductances of the network have changed. */
     void take(const ConductionMatrix &network);
 
-    /** Take A = scale D + K on the active nodes, which live as long as A is used. */
+    /** Take A = scale D + K on the active nodes, which live as long as A is used.
+     * @param with_coarse_levels else a cycle is a sweep there and back */
     void set_up(const std::vector<double> &heat_capacity, double scale,
-                const std::vector<char> &active);
+                const std::vector<char> &active, bool with_coarse_levels);
 
     /** y = A x, zero where inactive; x is to be zero there. */
     void multiply(const std::vector<double> &x, std::vector<double> &y) const;
@@ -44,9 +45,12 @@ namespace meltfront::reference_fem
       std::vector<double> right_side, x;    ///< below the finest level
     };
 
+    void set_up_below();
     void factorise_coarsest();
     void solve_coarsest(const std::vector<double> &right_side,
                         std::vector<double> &x) const;
+    void correct_coarsely(std::size_t l, const std::vector<double> &right_side,
+                          std::vector<double> &x);
     void cycle(std::size_t l, const std::vector<double> &right_side,
                std::vector<double> &x);
 
@@ -55,6 +59,7 @@ namespace meltfront::reference_fem
     std::vector<Work> work;
     std::vector<double> diagonal; ///< of the finest A
     const std::vector<char> *active = nullptr;
+    bool coarse = true;         ///< levels below the finest are in use
     std::vector<double> factor; ///< Cholesky's, of the coarsest level, by rows
     std::vector<double> row, coarse_row;
   };

@@ -45,6 +45,8 @@ namespace meltfront::reference_fem
                         CompensatedVector &u, std::vector<double> &heat)
     {
       constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
+      // A front within a cell or two of its place gets there by itself, and exactly.
+      constexpr int by_itself = 2;
       StepOutcome outcome;
       for(;; ++outcome.iterations)
       {
@@ -66,16 +68,17 @@ namespace meltfront::reference_fem
             sweep_while_moving(c, rhs, u);
             recover_heat(c, rhs, u, heat);
             if constexpr(Solver::moves_fronts)
-              if(problem.levels && problem.levels->size() > 1 && outcome.iterations > 0)
+              if(problem.levels && problem.levels->size() > 1
+                 && outcome.iterations >= by_itself)
               {
                 solver().correct_coarsely(c, u, heat);
                 sweep_while_moving(c, rhs, u);
                 recover_heat(c, rhs, u, heat);
               }
           }
-        // A front within a few cells of its place gets there by itself, and exactly.
-        const bool front_moves
-            = Solver::moves_fronts && !state.settled && outcome.iterations % 2 == 1;
+        const bool front_moves = Solver::moves_fronts && !state.settled
+                                 && outcome.iterations >= by_itself
+                                 && (outcome.iterations - by_itself) % 2 == 0;
         const double heat_per_kelvin = solver().linearise(c, u, heat);
         if constexpr(Solver::moves_fronts)
           if(front_moves)

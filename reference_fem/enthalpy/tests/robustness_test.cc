@@ -97,7 +97,7 @@ namespace meltfront::reference_fem::tests
       const RunRecord coarse
           = run(scene, 1024, {{"steps", "10"}, {"start_halvings", "0"}});
       const RunRecord capped
-          = run(scene, 1024, {{"steps", "60"}, {"iteration_limit", "12"}});
+          = run(scene, 1024, {{"steps", "10"}, {"iteration_limit", "3"}});
       EXPECT_EQ(fine.cost.capped_steps, 0);
       EXPECT_GT(capped.cost.capped_steps, 0);
       EXPECT_GT(capped.statistics.halvings, 0);
