@@ -115,8 +115,20 @@ namespace meltfront::verification
       return result;
     }
 
+    /** Whether sph took fronts for lines or planes within particles. */
+    bool has_plane_fronts(const RunRecord &run)
+    {
+      return std::ranges::any_of(run.description.parameters,
+                                 [](const cases::Parameter &parameter)
+                                 {
+                                   return parameter.name == "exchange at fronts"
+                                          && parameter.value.starts_with(
+                                              "front as a line or a plane");
+                                 });
+    }
+
     /** Of methods whose front stands in cells or particles: of first order in space,
-     * along a line nearly of second. */
+     * along a line nearly of second, and of sph where fronts are lines or planes. */
     BarConstants constants_in_cells(const RunRecord &run)
     {
       const bool line = run.description.dimension == 1;
@@ -128,6 +140,12 @@ namespace meltfront::verification
         constants.front = constants.volume = trust;
         constants.heat = {trust.order, trust.factor, true};
         constants.temperature = line ? BarTrust{1.5, 1.5} : BarTrust{1, 1, true};
+        if(!line && has_plane_fronts(run))
+        {
+          constants.front = constants.volume = {2, 1.5, true};
+          constants.heat = {1.5, 1.25, true};
+          constants.temperature = {1.5, 1, true};
+        }
         return constants;
       }
       constants.front = line ? BarTrust{1.5, 1.25} : BarTrust{1, 1.25};

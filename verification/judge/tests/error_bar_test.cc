@@ -224,3 +224,18 @@ TEST(ErrorBar, NoLevelsTellTheErrorOfAMethodThatConvergesElsewhere)
   EXPECT_FALSE(bar.converging);
   EXPECT_EQ(bar.value, .85);
 }
+
+/** In the plane sph is of second order where fronts are lines, else of first. */
+TEST(ErrorBar, TrustsWhatTheFrontsOfARunAre)
+{
+  RunRecord run;
+  run.method = "sph";
+  run.description.dimension = 2;
+  EXPECT_EQ(bar_constants(run).front.order, 1);
+  run.description.parameters.push_back(
+      {"exchange at fronts", "front as a line or a plane through the particles about it",
+       ""});
+  EXPECT_EQ(bar_constants(run).front.order, 2);
+  run.description.dimension = 1;
+  EXPECT_EQ(bar_constants(run).front.order, 1.5);
+}
