@@ -27,12 +27,12 @@ namespace meltfront::verification
      * step. */
     constexpr double share_of_levels = 0.75;
 
-    CapableMethods methods_for(const cases::Case &c)
+    CapableMethods methods_for(const cases::Case &c, const MethodSettings &settings)
     {
       std::vector<const cases::Method *> all;
       for(const auto &method : methods())
         all.push_back(method.get());
-      CapableMethods found = capable_methods(c, all);
+      CapableMethods found = capable_methods(c, all, settings);
       if(found.capable.empty())
         throw cases::InputError(fmt::format("no method takes the case {}: {}",
                                             c.scene.name,
@@ -43,13 +43,13 @@ namespace meltfront::verification
     LadderGrowth growth_of(const std::string &case_name, const cases::Case &c,
                            const std::string &title, const CapableMethods &found,
                            const std::string &directory, int jobs, double memory,
-                           double within)
+                           double within, const MethodSettings &settings)
     {
       RunnerOptions options = runner_options(directory, jobs, memory);
       options.repeats = few_repeats;
       return LadderGrowth(
           case_name, c.scene.domain, title, found.capable, options,
-          [&c](const std::string &) { return c; }, method_named, within);
+          [&c](const std::string &) { return c; }, method_named, within, settings);
     }
 
     /** What a reader must know of the levels: where they end and who is not there. */
@@ -139,6 +139,20 @@ namespace meltfront::verification
       return answers;
     }
 
+    /** @throws cases::InputError for a method or an option that there is not, or a value
+     * that it does not take */
+    MethodSettings settings_of(const std::vector<std::string> &texts)
+    {
+      MethodSettings settings;
+      for(const std::string &text : texts)
+      {
+        const Setting one = parse_setting(text);
+        settings[one.method][one.key] = one.value;
+        options_with(settings, method_named(one.method));
+      }
+      return settings;
+    }
+
     bool contradictory(const std::vector<Answer> &answers)
     {
       return std::ranges::any_of(
@@ -153,14 +167,15 @@ namespace meltfront::verification
     public:
       /** @param arguments CompareArguments or AdviseArguments */
       template <typename Arguments>
-      Inquiry(const Arguments &arguments, const std::string &command)
+      Inquiry(const Arguments &arguments, const std::string &command,
+              const MethodSettings &settings = {})
         : asked(load_checked_case(arguments.case_name))
         , title(command + "-" + asked.scene.name)
-        , found(methods_for(asked))
+        , found(methods_for(asked, settings))
         , directory(arguments.output.empty() ? default_directory(title)
                                              : arguments.output)
         , growth(growth_of(arguments.case_name, asked, title, found, directory,
-                           arguments.jobs, arguments.memory, arguments.within))
+                           arguments.jobs, arguments.memory, arguments.within, settings))
       {
       }
 
@@ -182,7 +197,7 @@ namespace meltfront::verification
 
   int compare(const CompareArguments &arguments)
   {
-    Inquiry inquiry(arguments, "compare");
+    Inquiry inquiry(arguments, "compare", settings_of(arguments.settings));
     if(arguments.resolutions.empty())
       while(inquiry.growth.grow(share_of_levels))
         ;

@@ -10,11 +10,12 @@ namespace meltfront::verification
   struct CompareArguments
   {
     std::string case_name;
-    double within = 60;           ///< seconds for all runs
-    std::vector<int> resolutions; ///< empty: as many as the time allows
-    std::string output;           ///< directory; empty: results/compare-CASE
-    int jobs = 0;                 ///< runs at once; 0: one per core
-    double memory = 0;            ///< GB that a run may take; 0: what the machine has
+    double within = 60;                ///< seconds for all runs
+    std::vector<int> resolutions;      ///< empty: as many as the time allows
+    std::vector<std::string> settings; ///< METHOD.KEY=VALUE
+    std::string output;                ///< directory; empty: results/compare-CASE
+    int jobs = 0;                      ///< runs at once; 0: one per core
+    double memory = 0; ///< GB that a run may take; 0: what the machine has
   };
 
   struct AdviseArguments

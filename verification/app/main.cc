@@ -194,6 +194,8 @@ namespace
                      "resolutions of all methods, instead of those that time allows")
         ->delimiter(',')
         ->check(CLI::Range(2, 1000000));
+    command->add_option("--set", a.settings, "option of a method, METHOD.KEY=VALUE")
+        ->take_all();
     command->add_option("--out", a.output, "directory (results/compare-CASE)");
     command->add_option("--jobs", a.jobs, "number of concurrent runs (one per core)")
         ->check(CLI::Range(0, 1024));
