@@ -10,7 +10,7 @@ namespace meltfront::cases
   Cost Method::solve(const Scene &scene, const EffectSet &effects,
                      const Resolution &resolution, Observer &observer) const
   {
-    require_capable(*this, scene, effects, resolution.threads);
+    require_capable(*this, scene, effects, resolution.threads, resolution.options);
     Resolution complete = resolution;
     if(complete.options.declarations().empty())
       complete.options = Options(option_declarations());
@@ -26,11 +26,12 @@ namespace meltfront::cases
   }
 
   Capabilities require_capable(const Method &method, const Scene &scene,
-                               const EffectSet &effects, int threads)
+                               const EffectSet &effects, int threads,
+                               const Options &options)
   {
     std::string reasons, first;
     bool alike = true;
-    for(const Capabilities &form : method.capabilities())
+    for(const Capabilities &form : method.capabilities_with(options))
     {
       const std::string reason = reason_unsupported(form, scene, effects, threads);
       if(reason.empty())

@@ -79,6 +79,14 @@ namespace meltfront::cases
      */
     virtual bool wants(long step, double time) = 0;
 
+    /** The times of which snapshots are wanted whatever the steps are (s), ascending, the
+     * start and the end among them: for a method that has to name its times beforehand.
+     * Empty: of the start and the end. */
+    virtual std::vector<double> wanted_times() const
+    {
+      return {};
+    }
+
     virtual void observe(const Snapshot &snapshot) = 0;
 
     /** Something that happened between snapshots, at its own time (s): a phase appeared
@@ -159,7 +167,27 @@ namespace meltfront::cases
      * that takes a scene is meant. All else is refused. */
     virtual std::vector<Capabilities> capabilities() const = 0;
 
+    /**
+     * The same of a method whose options tell what it takes; capabilities() are then
+     * none.
+     * @param options all of the method's, or none at all: the defaults
+     */
+    virtual std::vector<Capabilities> capabilities_with(const Options &options) const
+    {
+      static_cast<void>(options);
+      return capabilities();
+    }
+
     virtual std::vector<OptionDeclaration> option_declarations() const = 0;
+
+    /** What a run depends on beside the program, the scene and the options themselves, by
+     * a name: the hash of a file that an option names. */
+    virtual std::map<std::string, std::string>
+    further_provenance(const Options &options) const
+    {
+      static_cast<void>(options);
+      return {};
+    }
 
     /**
      * Solve a scene from its start to its end time, handing snapshots to the observer:
@@ -200,9 +228,11 @@ namespace meltfront::cases
   };
 
   /** The capabilities of the form of a method that takes a scene.
+   * @param options of the method; none at all: the defaults
    * @throws Refusal in one sentence if none does. */
   Capabilities require_capable(const Method &method, const Scene &scene,
-                               const EffectSet &effects, int threads);
+                               const EffectSet &effects, int threads,
+                               const Options &options = {});
 
   /** @throws Refusal with the estimate if a run takes more than it may. */
   void require_affordable(const Method &method, const Demand &demand,

@@ -4,6 +4,9 @@
 #include <cases/method.h>
 #include <cases/stopwatch.h>
 
+#include <functional>
+#include <vector>
+
 namespace meltfront::cases
 {
   /**
@@ -43,6 +46,13 @@ namespace meltfront::cases
      */
     void reached(long step, double time);
 
+    /** As Observer::wanted_times(); the start and the end where none are told. */
+    std::vector<double> wanted_times() const;
+
+    /** Wait for what another process does. What that says it spent counts as stepping,
+     * and the time of this process does not. */
+    void work_elsewhere(const std::function<Stopwatch::Seconds()> &work);
+
     /** As Observer::note. */
     void note(double time, const std::string &event);
 
@@ -52,9 +62,9 @@ namespace meltfront::cases
   private:
     Observer *observer = nullptr;
     bool begun = false;
-    double end_time = 0;
+    double start_time = 0, end_time = 0;
     Stopwatch watch;
-    Stopwatch::Seconds setup;
+    Stopwatch::Seconds setup, elsewhere;
   };
 } // namespace meltfront::cases
 

@@ -28,12 +28,12 @@ namespace meltfront::verification
      * step. */
     constexpr double share_of_levels = 0.75;
 
-    CapableMethods methods_for(const cases::Case &c)
+    CapableMethods methods_for(const cases::Case &c, const MethodSettings &settings)
     {
       std::vector<const cases::Method *> all;
       for(const auto &method : methods())
         all.push_back(method.get());
-      CapableMethods found = capable_methods(c, all);
+      CapableMethods found = capable_methods(c, all, settings);
       if(found.capable.empty())
         throw cases::InputError(fmt::format("no method takes the case {}: {}",
                                             c.scene.name,
@@ -44,13 +44,13 @@ namespace meltfront::verification
     LadderGrowth growth_of(const std::string &case_name, const cases::Case &c,
                            const std::string &title, const CapableMethods &found,
                            const std::string &directory, int jobs, double memory,
-                           double within)
+                           double within, const MethodSettings &settings)
     {
       RunnerOptions options = runner_options(directory, jobs, memory);
       options.repeats = few_repeats;
       return LadderGrowth(
           case_name, c.scene.domain, title, found.capable, options,
-          [&c](const std::string &) { return c; }, method_named, within);
+          [&c](const std::string &) { return c; }, method_named, within, settings);
     }
 
     /** What a reader must know of the levels: where they end and who is not there. */
@@ -140,6 +140,20 @@ namespace meltfront::verification
       return answers;
     }
 
+    /** @throws cases::InputError for a method or an option that there is not, or a value
+     * that it does not take */
+    MethodSettings settings_of(const std::vector<std::string> &texts)
+    {
+      MethodSettings settings;
+      for(const std::string &text : texts)
+      {
+        const Setting one = parse_setting(text);
+        settings[one.method][one.key] = one.value;
+        options_with(settings, method_named(one.method));
+      }
+      return settings;
+    }
+
     bool contradictory(const std::vector<Answer> &answers)
     {
       return std::ranges::any_of(
@@ -154,17 +168,19 @@ namespace meltfront::verification
     public:
       /** @param arguments CompareArguments or AdviseArguments */
       template <typename Arguments>
-      Inquiry(const Arguments &arguments, const std::string &command)
+      Inquiry(const Arguments &arguments, const std::string &command,
+              const Settings &settings)
         : case_name(
-            varied_case(arguments.case_name, settings_of_case(arguments.settings),
+            varied_case(arguments.case_name, settings.of_case,
                         [&](const std::string &name)
                         { return directory_of(arguments.output, command + "-" + name); }))
         , asked(load_checked_case(case_name))
         , title(command + "-" + asked.scene.name)
-        , found(methods_for(asked))
+        , of_methods(settings_of(settings.of_method))
+        , found(methods_for(asked, of_methods))
         , directory(directory_of(arguments.output, title))
         , growth(growth_of(case_name, asked, title, found, directory, arguments.jobs,
-                           arguments.memory, arguments.within))
+                           arguments.memory, arguments.within, of_methods))
       {
       }
 
@@ -182,6 +198,7 @@ namespace meltfront::verification
       std::string case_name;
       cases::Case asked;
       std::string title;
+      MethodSettings of_methods;
       CapableMethods found;
 
     public:
@@ -192,7 +209,7 @@ namespace meltfront::verification
 
   int compare(const CompareArguments &arguments)
   {
-    Inquiry inquiry(arguments, "compare");
+    Inquiry inquiry(arguments, "compare", sort_settings(arguments.settings));
     if(arguments.resolutions.empty())
       while(inquiry.growth.grow(share_of_levels))
         ;
@@ -214,7 +231,7 @@ namespace meltfront::verification
 
   int advise(const AdviseArguments &arguments)
   {
-    Inquiry inquiry(arguments, "advise");
+    Inquiry inquiry(arguments, "advise", {{}, settings_of_case(arguments.settings)});
     const Advice advice
         = advise(inquiry.growth, {arguments.front_error, arguments.temperature_error});
     inquiry.growth.conclude(inquiry.remarks(), [&](MatrixResult &result)

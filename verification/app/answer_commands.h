@@ -10,7 +10,7 @@ namespace meltfront::verification
   struct CompareArguments
   {
     std::string case_name;
-    std::vector<std::string> settings; ///< of the case, SUBSECTION/KEY=VALUE
+    std::vector<std::string> settings; ///< METHOD.KEY=VALUE, SUBSECTION/KEY=VALUE
     double within = 60;                ///< seconds for all runs
     std::vector<int> resolutions;      ///< empty: as many as the time allows
     std::string output;                ///< directory; empty: results/compare-CASE

@@ -105,8 +105,13 @@ namespace meltfront::verification
         = "What each method takes; all else is refused. Effects (x: simulated):\n"
           + effect_table() + "\nDomains, walls and fronts:\n";
     for(const auto &method : methods())
-      for(const cases::Capabilities &form : method->capabilities())
+    {
+      const auto forms = method->capabilities();
+      if(forms.empty())
+        text += fmt::format("  {}\n      what its options say\n", method->name());
+      for(const cases::Capabilities &form : forms)
         text += form_text(*method, form);
+    }
     return text;
   }
 

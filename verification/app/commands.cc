@@ -128,13 +128,12 @@ namespace meltfront::verification
       std::map<std::string, std::string> set;
       for(const std::string &setting : settings)
       {
-        const auto dot = setting.find('.'), equals = setting.find('=');
-        if(setting.substr(0, dot) != method.name())
+        const Setting one = parse_setting(setting);
+        if(one.method != method.name())
           throw cases::InputError(
               fmt::format("--set {}: this run's method is '{}'", setting, method.name()));
-        const std::string key = setting.substr(dot + 1, equals - dot - 1);
-        set[key] = setting.substr(equals + 1);
-        options.set(key, set[key]);
+        set[one.key] = one.value;
+        options.set(one.key, one.value);
       }
       return set;
     }
@@ -145,6 +144,16 @@ namespace meltfront::verification
     command_line = "meltfront";
     for(int i = 1; i < argc; ++i)
       command_line += fmt::format(" {}", argv[i]);
+  }
+
+  Setting parse_setting(const std::string &text)
+  {
+    const auto dot = text.find('.'), equals = text.find('=');
+    if(dot == std::string::npos || equals == std::string::npos || dot > equals)
+      throw cases::InputError(
+          fmt::format("--set needs METHOD.KEY=VALUE, not '{}'", text));
+    return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1),
+            text.substr(equals + 1)};
   }
 
   std::string default_directory(const std::string &name)

@@ -49,6 +49,15 @@ namespace meltfront::verification
     double time_limit = 3600; ///< s; 0: none
   };
 
+  /** The value of a method's option. */
+  struct Setting
+  {
+    std::string method, key, value;
+  };
+
+  /** METHOD.KEY=VALUE. @throws cases::InputError for another form */
+  Setting parse_setting(const std::string &text);
+
   /** The command line as it was typed, for provenance. */
   void set_command_line(int argc, char **argv);
 

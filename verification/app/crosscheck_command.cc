@@ -16,12 +16,13 @@ namespace meltfront::verification
 {
   namespace
   {
-    /** A form as published is there to repeat what is printed, faults included. */
+    /** A form as published is there to repeat what is printed, faults included; what a
+     * method takes that its options tell, none does by default. */
     std::vector<const cases::Method *> all_but_published_forms()
     {
       std::vector<const cases::Method *> list;
       for(const auto &method : methods())
-        if(method->corrected_form().empty())
+        if(method->corrected_form().empty() && !method->capabilities().empty())
           list.push_back(method.get());
       return list;
     }

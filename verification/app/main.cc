@@ -79,6 +79,15 @@ namespace
     declare_others();
   }
 
+  void add_settings(CLI::App *command, std::vector<std::string> &settings)
+  {
+    command
+        ->add_option("--set", settings,
+                     "option of a method, METHOD.KEY=VALUE, or key of the case, "
+                     "SUBSECTION/KEY=VALUE")
+        ->take_all();
+  }
+
   void add_case_settings(CLI::App *command, std::vector<std::string> &settings)
   {
     command
@@ -175,11 +184,7 @@ namespace
     command->add_option("--n", a.n, "particles or cells along the domain's side (40)")
         ->check(CLI::Range(2, 1000000));
     command->add_option("--out", a.output, "directory (results/run-CASE-METHOD-N)");
-    command
-        ->add_option("--set", a.settings,
-                     "option of the method, METHOD.KEY=VALUE, or key of the case, "
-                     "SUBSECTION/KEY=VALUE")
-        ->take_all();
+    add_settings(command, a.settings);
     command->add_option("--seed", a.seed, "seed of random arrangements (1)");
     command->add_option("--threads", a.threads, "number of threads (1)")
         ->check(CLI::Range(1, 1024));
@@ -200,7 +205,7 @@ namespace
     CompareArguments &a = compare_arguments;
     command->add_option("case", a.case_name, "case of the library, or a case file")
         ->required();
-    add_case_settings(command, a.settings);
+    add_settings(command, a.settings);
     command->add_option("--within", a.within, "seconds for all runs (60)")
         ->check(CLI::PositiveNumber);
     command

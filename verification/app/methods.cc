@@ -12,6 +12,7 @@
 #include <reference_fem/enthalpy/enthalpy.h>
 #include <reference_fem/fitted/fitted.h>
 #include <verification/app/methods.h>
+#include <verification/external/external.h>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,7 @@ namespace meltfront::verification
       list.push_back(reference_fem::make_fem_enthalpy());
       list.push_back(reference_fem::make_fem_fitted());
       list.push_back(reference_fem::make_fem_cut());
+      list.push_back(make_external());
       return list;
     }();
     return registry;

@@ -37,15 +37,17 @@ namespace meltfront::verification
     std::string shared_path(const Job &job, const RunnerOptions &options)
     {
       const RunRecord record = record_without_result(job, options);
-      const nlohmann::json identity{record.case_name,
-                                    record.provenance.at("case_hash"),
-                                    record.method,
-                                    record.options,
-                                    record.n,
-                                    record.seed,
-                                    record.threads,
-                                    options.program_version,
-                                    options.program_hash};
+      const nlohmann::json identity{
+          record.case_name,
+          record.provenance.at("case_hash"),
+          record.method,
+          record.options,
+          record.n,
+          record.seed,
+          record.threads,
+          job.method->further_provenance(job.run.resolution.options),
+          options.program_version,
+          options.program_hash};
       return fmt::format("{}/{}.json", options.shared, sha256(identity.dump()));
     }
   } // namespace
@@ -77,10 +79,12 @@ namespace meltfront::verification
   {
     RunRecord expected = record_without_result(job, options);
     auto was = record.provenance;
-    const bool same_provenance
-        = was["case_hash"] == expected.provenance["case_hash"]
-          && was["program_version"] == expected.provenance["program_version"]
-          && was["program_hash"] == expected.provenance["program_hash"];
+    bool same_provenance = true;
+    for(const char *key : {"case_hash", "program_version", "program_hash"})
+      same_provenance = same_provenance && was[key] == expected.provenance[key];
+    for(const auto &[key, value] :
+        job.method->further_provenance(job.run.resolution.options))
+      same_provenance = same_provenance && was[key] == value;
     return same_provenance && record.method == expected.method
            && record.case_name == expected.case_name && record.label == expected.label
            && record.options == expected.options && record.n == expected.n

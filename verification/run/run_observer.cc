@@ -73,6 +73,29 @@ namespace meltfront::verification
                                   { return measure->wants_every_step(); });
   }
 
+  std::vector<double> RunObserver::wanted_times() const
+  {
+    const bool roots = the_case.measurement.square_root_clock;
+    const double start = roots ? std::sqrt(scene.start_time) : scene.start_time;
+    const double end = roots ? std::sqrt(scene.end_time) : scene.end_time;
+    std::vector<double> times;
+    for(int k = 0; k <= samples; ++k)
+    {
+      const double reading = start + k * (end - start) / samples;
+      times.push_back(roots ? reading * reading : reading);
+    }
+    for(const double time : the_case.measurement.intermediate_times)
+      if(time > scene.start_time && time < scene.end_time)
+        times.push_back(time);
+    std::ranges::sort(times);
+    const auto same
+        = [this](double one, double other) { return other - one <= tolerance; };
+    times.erase(std::unique(times.begin(), times.end(), same), times.end());
+    times.front() = scene.start_time;
+    times.back() = scene.end_time;
+    return times;
+  }
+
   void RunObserver::observe(const cases::Snapshot &snapshot)
   {
     if(snapshot.step == last_step)

@@ -25,6 +25,7 @@ namespace meltfront::verification
   public:
     void begin(const cases::RunDescription &description) override;
     bool wants(long step, double time) override;
+    std::vector<double> wanted_times() const override;
     void observe(const cases::Snapshot &snapshot) override;
     void note(double time, const std::string &event) override;
 

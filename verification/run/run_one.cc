@@ -12,6 +12,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 
@@ -19,11 +20,13 @@ namespace meltfront::verification
 {
   namespace
   {
+    /** Of this process, or of one that it started and that took more. */
     double peak_memory_mb()
     {
-      rusage usage;
-      getrusage(RUSAGE_SELF, &usage);
-      return static_cast<double>(usage.ru_maxrss) / 1024;
+      rusage own, of_children;
+      getrusage(RUSAGE_SELF, &own);
+      getrusage(RUSAGE_CHILDREN, &of_children);
+      return static_cast<double>(std::max(own.ru_maxrss, of_children.ru_maxrss)) / 1024;
     }
 
     double seconds_since(std::chrono::steady_clock::time_point start)
@@ -76,8 +79,8 @@ namespace meltfront::verification
       const cases::EffectSet effects = cases::effects_within(c.scene, c.effect_tolerance);
       record.effects = effects.decisions();
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
-      const cases::Capabilities capabilities
-          = cases::require_capable(method, scene, effects, resolution.threads);
+      const cases::Capabilities capabilities = cases::require_capable(
+          method, scene, effects, resolution.threads, resolution.options);
       require_affordable(method, scene, effects, resolution, record);
       const auto observer
           = observer_of(c, scene, method, capabilities, second, resolution.seed == 1);
@@ -132,6 +135,8 @@ namespace meltfront::verification
     record.threads = resolution.threads;
     record.options = resolution.options.values();
     record.provenance = build_provenance();
+    for(const auto &[key, value] : method.further_provenance(resolution.options))
+      record.provenance[key] = value;
     for(const auto &[key, value] : provenance)
       record.provenance[key] = value;
     record.provenance["case_text"] = c.text;

@@ -36,8 +36,8 @@ namespace meltfront::verification
    * status `refused`, any other exception one of status `failed`, with the reason;
    * nothing is thrown. A short run is repeated and the least of each time kept.
    *
-   * Peak memory is that of the calling process (getrusage), so that it is the run's own
-   * where the process was started for it.
+   * Peak memory is that of the calling process (getrusage), or of one that it started and
+   * that took more, so that it is the run's own where the process was started for it.
    *
    * @param label as run_label() gives it
    * @param provenance is copied to the record and completed by the case's text and hash,

@@ -107,7 +107,7 @@ TEST(App, KeysOfTheCaseThatAreWrongAreNamed)
   expect_text(unknown, "latent heet");
   expect_text(unknown, "the nearest valid key is 'latent heat'");
   const Outcome of_method
-      = run_program("compare plane-freezing --set sph.step_factor=0.5" + out);
+      = run_program("advise plane-freezing --set sph.step_factor=0.5" + out);
   EXPECT_EQ(of_method.status, 2);
   expect_text(of_method, "this command chooses the methods' options itself");
   const Outcome no_value
@@ -405,7 +405,8 @@ TEST(App, CapabilitiesAreListedAsATableAndAsJson)
 {
   const Outcome table = run_program("list capabilities");
   EXPECT_EQ(table.status, 0);
-  for(const char *words : {"rkpm-tracked in the plane", "phase_change", "threads:  1"})
+  for(const char *words : {"rkpm-tracked in the plane", "phase_change", "threads:  1",
+                           "external\n      what its options say"})
     expect_text(table, words);
   const Outcome json = run_program("list capabilities --json");
   ASSERT_EQ(json.status, 0);
@@ -418,6 +419,34 @@ TEST(App, CapabilitiesAreListedAsATableAndAsJson)
       EXPECT_GE(form.at("most_threads").get<int>(), 1) << method.at("name");
     }
   EXPECT_EQ(run_program("list methods --json").status, 2);
+}
+
+TEST(App, ExternalProgramsAreRefusedOrFailWithASentence)
+{
+  const TemporaryDirectory directory;
+  const std::string out = " --out " + directory.path("out").string(),
+                    manifest = directory.path("mine.json").string(),
+                    run = "run plane-freezing --method external --n 20" + out;
+  const Outcome without = run_program(run);
+  EXPECT_EQ(without.status, 2);
+  expect_text(without, "takes nothing without a manifest");
+  const std::string with = " --set external.manifest=" + manifest;
+  EXPECT_EQ(run_program(run + with).status, 2); // there is no such file
+  std::ofstream(manifest) << R"({"protocol": 1, "name": "mine",
+    "command": ["sh", "-c", "echo cannot find it >&2; exit 5"],
+    "effects": ["phase_change", "wall_temperature"], "front_origins": ["wall"],
+    "shapes": [{"shape": "slab", "dimensions": [1], "walls": ["fixed temperature"]}]})";
+  const Outcome failed = run_program(run + with);
+  EXPECT_EQ(failed.status, 3);
+  expect_text(failed, "external (mine) ended with status 5; it said: cannot find it");
+  const Outcome late = run_program(run + with + " --time-limit 0.5 --set "
+                                   + "'external.command=sh -c \"sleep 100; true\"'");
+  EXPECT_EQ(late.status, 3);
+  expect_text(late, "external took longer than its time limit of 0.5 s");
+  const Outcome unknown
+      = run_program("compare plane-freezing --set extrenal.manifest=x" + out);
+  EXPECT_EQ(unknown.status, 2);
+  expect_text(unknown, "external");
 }
 
 TEST(App, CrosscheckRunsRandomScenesAndTakesUpWhereItStopped)

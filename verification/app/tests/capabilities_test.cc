@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 namespace meltfront::verification
@@ -13,10 +14,21 @@ namespace meltfront::verification
   {
     using Pair = std::pair<std::string, std::string>;
 
-    /** Cases and methods that the matrices of the library bring together. */
-    std::set<Pair> pairs_of_the_library()
+    /** Of a method in a block of a matrix, each with the first of its values. */
+    cases::Options options_of(const MatrixBlock &block, const std::string &method)
     {
-      std::set<Pair> pairs;
+      cases::Options options(method_named(method).option_declarations());
+      for(const OptionAxis &axis : block.options)
+        if(axis.method == method)
+          options.set(axis.key, axis.values.front());
+      return options;
+    }
+
+    /** Cases and methods that the matrices of the library bring together, with options.
+     */
+    std::map<Pair, cases::Options> pairs_of_the_library()
+    {
+      std::map<Pair, cases::Options> pairs;
       for(const std::string &name : matrix_names())
       {
         const Matrix matrix = load_matrix(name);
@@ -26,18 +38,19 @@ namespace meltfront::verification
         for(const MatrixBlock &block : matrix.blocks)
           for(const std::string &case_name : block.cases)
             for(const std::string &method : block.methods)
-              pairs.emplace(case_name, method);
+              pairs.emplace(Pair(case_name, method), options_of(block, method));
       }
       return pairs;
     }
 
-    std::string refusal(const cases::Case &c, const cases::Method &method)
+    std::string refusal(const cases::Case &c, const cases::Method &method,
+                        const cases::Options &options)
     {
       const cases::EffectSet effects = cases::effects_called_for(c.scene);
       try
       {
         cases::require_capable(method, cases::simulated_scene(c.scene, effects), effects,
-                               1);
+                               1, options);
       }
       catch(const cases::Refusal &error)
       {
@@ -53,11 +66,13 @@ namespace meltfront::verification
   {
     const std::set<Pair> refused{};
     std::map<std::string, cases::Case> library;
-    for(const auto &[case_name, method] : pairs_of_the_library())
+    for(const auto &[pair, options] : pairs_of_the_library())
     {
+      const auto &[case_name, method] = pair;
       if(!library.contains(case_name))
         library.emplace(case_name, cases::load_case(case_name));
-      const std::string reason = refusal(library.at(case_name), method_named(method));
+      const std::string reason
+          = refusal(library.at(case_name), method_named(method), options);
       EXPECT_EQ(!reason.empty(), refused.contains({case_name, method}))
           << case_name << ", " << method << ": " << reason;
     }

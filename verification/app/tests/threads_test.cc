@@ -205,7 +205,8 @@ namespace meltfront::verification
     {
       std::vector<std::string> names;
       for(const auto &method : methods())
-        names.push_back(method->name());
+        if(!method->capabilities().empty()) // else its options tell
+          names.push_back(method->name());
       return names;
     }
 

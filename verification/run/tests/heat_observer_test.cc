@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 namespace meltfront::verification
@@ -151,6 +152,27 @@ namespace meltfront::verification
       ASSERT_EQ(roots.series().time.size(), 51u);
       for(int i = 0; i <= 50; ++i)
         EXPECT_NEAR(std::sqrt(roots.series().time[i]), i / 50., 1e-3);
+    }
+
+    TEST(HeatObserver, TellsBeforehandTheTimesThatItWants)
+    {
+      cases::Case c = tests::slab_case("slab");
+      c.measurement.intermediate_times = {0.333, 0.5, 1};
+      c.measurement.samples = 50;
+      for(const bool roots : {false, true})
+      {
+        c.measurement.square_root_clock = roots;
+        const auto times
+            = HeatObserver(c, c.scene, "fake", tests::fake_capabilities()).wanted_times();
+        // One of the intermediate times is a sample on the clock of t, and the last the
+        // end.
+        ASSERT_EQ(times.size(), roots ? 53u : 52u);
+        EXPECT_TRUE(std::ranges::is_sorted(times));
+        EXPECT_EQ(times.front(), 0);
+        EXPECT_EQ(times.back(), 1);
+        EXPECT_NE(std::ranges::find(times, 0.333), times.end());
+        EXPECT_DOUBLE_EQ(times[1], roots ? 1. / 2500 : 0.02);
+      }
     }
 
     TEST(HeatObserver, TakesEveryStepThereIsWhenTheyAreFew)

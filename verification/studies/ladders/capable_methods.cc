@@ -26,8 +26,18 @@ namespace meltfront::verification
     }
   } // namespace
 
+  cases::Options options_with(const MethodSettings &settings, const cases::Method &method)
+  {
+    cases::Options options(method.option_declarations());
+    if(const auto own = settings.find(method.name()); own != settings.end())
+      for(const auto &[key, value] : own->second)
+        options.set(key, value);
+    return options;
+  }
+
   CapableMethods capable_methods(const cases::Case &c,
-                                 const std::vector<const cases::Method *> &all)
+                                 const std::vector<const cases::Method *> &all,
+                                 const MethodSettings &settings)
   {
     const cases::EffectSet effects = cases::effects_within(c.scene, c.effect_tolerance);
     const cases::Scene scene = cases::simulated_scene(c.scene, effects);
@@ -36,7 +46,8 @@ namespace meltfront::verification
     for(const cases::Method *method : all)
       try
       {
-        cases::require_capable(*method, scene, effects, 1);
+        cases::require_capable(*method, scene, effects, 1,
+                               options_with(settings, *method));
         found.capable.push_back(method);
       }
       catch(const cases::Refusal &refusal)

@@ -48,7 +48,8 @@ namespace meltfront::verification
                              const std::string &title,
                              const std::vector<const cases::Method *> &methods,
                              const RunnerOptions &options, CaseLoader load_case,
-                             MethodLookup lookup, double within)
+                             MethodLookup lookup, double within,
+                             MethodSettings of_methods)
     : case_name(case_name)
     , coarsest(domain.dimension == 3 ? coarsest_in_space : coarsest_level)
     , whole_cells(cases::fewest_whole_cells(domain))
@@ -57,10 +58,12 @@ namespace meltfront::verification
     , load_case(std::move(load_case))
     , lookup(std::move(lookup))
     , within(within)
+    , settings(std::move(of_methods))
     , start(std::chrono::steady_clock::now())
   {
     for(const cases::Method *method : methods)
-      growing.push_back({method, {}});
+      growing.push_back(
+          {method, run_label(method->name(), settings[method->name()], 1), {}});
   }
 
   int LadderGrowth::fitting(const cases::Method &method, int n) const
@@ -106,13 +109,15 @@ namespace meltfront::verification
         block.cases = {case_name};
         block.methods = {ladder.method->name()};
         block.resolutions = ladder.resolutions;
+        for(const auto &[key, value] : settings.at(ladder.method->name()))
+          block.options.push_back({ladder.method->name(), key, {value}});
         matrix.blocks.push_back(block);
         if(ladder.checked == 0)
           continue;
         block.resolutions = {ladder.checked};
-        block.options = {{ladder.method->name(),
-                          steps_option_of(*ladder.method),
-                          {std::to_string(ladder.checked_steps)}}};
+        block.options.push_back({ladder.method->name(),
+                                 steps_option_of(*ladder.method),
+                                 {std::to_string(ladder.checked_steps)}});
         matrix.blocks.push_back(std::move(block));
       }
     return matrix;
@@ -148,6 +153,13 @@ namespace meltfront::verification
     return seconds_of(*known) * std::pow(static_cast<double>(n) / known->n, growth);
   }
 
+  std::filesystem::path LadderGrowth::folder_of(const RunRecord &run) const
+  {
+    const PlannedRun planned{
+        short_case_name(case_name), run.method, run.label, {run.n, {}}};
+    return std::filesystem::path(options.directory + "/" + planned.file()).parent_path();
+  }
+
   /** A level that did not finish ends its ladder. */
   void LadderGrowth::drop_ended(GrowingLadder &ladder)
   {
@@ -169,8 +181,7 @@ namespace meltfront::verification
           = fmt::format("{} at n = {}: {}", to_string(run->status), n, run->message);
     if(out_of_time)
     {
-      std::filesystem::remove_all(fmt::format("{}/runs/{}/{}/n={}", options.directory,
-                                              short_case_name(case_name), run->label, n));
+      std::filesystem::remove_all(folder_of(*run));
       ladder.resolutions.pop_back();
     }
   }
@@ -242,8 +253,9 @@ namespace meltfront::verification
     for(const Ladder &known : ladders_of(made))
       for(GrowingLadder &ladder : growing)
       {
-        if(ladder.method->name() != known.label || !hides_time_error(known)
-           || steps_option_of(*ladder.method).empty())
+        const std::string steps = steps_option_of(*ladder.method);
+        if(ladder.label != known.label || !hides_time_error(known) || steps.empty()
+           || settings.at(ladder.method->name()).contains(steps))
           continue;
         for(std::size_t back = 1; back <= 2 && ladder.checked == 0; ++back)
         {
@@ -269,11 +281,9 @@ namespace meltfront::verification
     for(GrowingLadder &ladder : growing)
       for(const RunRecord &run : made.runs)
         if(run.method == ladder.method->name() && run.n == ladder.checked
-           && run.label != run.method && run.status != RunStatus::finished)
+           && run.label != ladder.label && run.status != RunStatus::finished)
         {
-          std::filesystem::remove_all(fmt::format("{}/runs/{}/{}/n={}", options.directory,
-                                                  short_case_name(case_name), run.label,
-                                                  run.n));
+          std::filesystem::remove_all(folder_of(run));
           ladder.checked = 0;
           break;
         }

@@ -4,8 +4,10 @@
 #include <cases/method.h>
 #include <verification/judge/matrix_result.h>
 #include <verification/matrix/runner.h>
+#include <verification/studies/ladders/capable_methods.h>
 
 #include <chrono>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,7 @@ namespace meltfront::verification
   struct GrowingLadder
   {
     const cases::Method *method;
+    std::string label; ///< of its runs, as run_label() gives it
     std::vector<int> resolutions;
     std::string stopped{}; ///< why no finer one follows; empty while one may
     int checked = 0;       ///< level that is made at half its step, too; 0: none
@@ -39,12 +42,13 @@ namespace meltfront::verification
      * @param domain of the case: levels are those whose lattices fill it
      * @param load_case is called at every stage
      * @param within seconds by the clock for all
+     * @param settings of the methods' options
      */
     LadderGrowth(const std::string &case_name, const cases::Domain &domain,
                  const std::string &title,
                  const std::vector<const cases::Method *> &methods,
                  const RunnerOptions &options, CaseLoader load_case, MethodLookup lookup,
-                 double within);
+                 double within, MethodSettings settings = {});
 
     /** Make the next level of every ladder that has time for it.
      * @param share of the time left that it may take
@@ -91,6 +95,7 @@ namespace meltfront::verification
     void run(const std::function<void(MatrixResult &)> &what);
     void drop_ended(GrowingLadder &ladder);
     void drop_checks_that_ended();
+    std::filesystem::path folder_of(const RunRecord &run) const;
 
     std::string case_name;
     int coarsest;    ///< level of every ladder, if its lattice fills the domain
@@ -102,6 +107,7 @@ namespace meltfront::verification
     CaseLoader load_case;
     MethodLookup lookup;
     double within;
+    MethodSettings settings;
     std::chrono::steady_clock::time_point start;
     MatrixResult made;
   };

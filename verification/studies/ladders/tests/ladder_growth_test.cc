@@ -42,7 +42,7 @@ namespace meltfront::verification
         methods.emplace(name, std::make_unique<FakeMethod>(name, act, 0.1, order, cheat));
       }
 
-      LadderGrowth growth(double within)
+      LadderGrowth growth(double within, const MethodSettings &settings = {})
       {
         std::vector<const cases::Method *> all;
         for(const auto &[name, method] : methods)
@@ -52,7 +52,7 @@ namespace meltfront::verification
             [](const std::string &name) { return tests::slab_case(name); },
             [this](const std::string &name) -> const cases::Method &
             { return *methods.at(name); },
-            within);
+            within, settings);
       }
 
       static const Answer &answer(const std::vector<Answer> &answers,
@@ -102,6 +102,26 @@ namespace meltfront::verification
       ASSERT_NE(cheapest_level(errors, 1e-2), nullptr);
       EXPECT_LE(cheapest_level(errors, 1e-2)->error, 1e-2);
       EXPECT_EQ(cheapest_level(errors, 1e-12), nullptr);
+    }
+
+    TEST_F(LadderTest, RunsMethodsWithTheOptionsThatAreAskedFor)
+    {
+      add("one", 1);
+      add("two", 2);
+      const MethodSettings settings{
+          {"two", {{"step_factor", "1.5"}, {"scheme", "rkl2"}}}};
+      LadderGrowth levels = growth(600, settings);
+      levels.make_all({20, 40});
+      ASSERT_EQ(levels.result().runs.size(), 4u);
+      for(const RunRecord &run : levels.result().runs)
+      {
+        EXPECT_EQ(run.status, RunStatus::finished);
+        EXPECT_EQ(run.options.at("step_factor"), run.method == "two" ? "1.5" : "0.5");
+        EXPECT_EQ(run.label,
+                  run.method == "two" ? "two[scheme=rkl2,step_factor=1.5]" : "one");
+      }
+      EXPECT_THROW(options_with({{"two", {{"step_factor", "7"}}}}, *methods.at("two")),
+                   cases::InputError);
     }
 
     TEST_F(LadderTest, EndsWhatTakesLongerThanThereIsTime)
