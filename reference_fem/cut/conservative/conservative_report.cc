@@ -70,18 +70,33 @@ namespace meltfront::reference_fem::cut::conservative
            * (Front(mesh, state.level_set).area(Phase::liquid) - sum(state.debt));
   }
 
-  void ConservativeRun::add_site(const Point &point, double weight, double temperature,
-                                 bool solid)
+  /** A point of the domain's own outline for one of the polygon's that lies beyond it. */
+  Point ConservativeRun::in_domain(const Point &point) const
   {
-    Point place = point;
-    if(const double radius = point.norm(); scene.domain.round() && radius > 0)
-      place
-          *= std::clamp(radius, scene.domain.inner_radius, scene.domain.radius) / radius;
+    const double radius = point.norm();
+    if(!scene.domain.round() || !(radius > 0))
+      return point;
+    return Point(std::clamp(radius, scene.domain.inner_radius, scene.domain.radius)
+                 / radius * point);
+  }
+
+  Phase ConservativeRun::phase_at(unsigned int triangle, const Point &point) const
+  {
+    return mesh.triangles[triangle].value(state.level_set, point) < 0 ? Phase::solid
+                                                                      : Phase::liquid;
+  }
+
+  void ConservativeRun::add_site(unsigned int triangle, const Point &point, double weight,
+                                 Phase phase)
+  {
+    const Point place = in_domain(point);
     for(int d = 0; d < dim; ++d)
       site_positions[d].push_back(place[d]);
     weights.push_back(weight);
-    site_temperatures.push_back(scene.material.melting_temperature + temperature);
-    solid_fractions.push_back(solid ? 1 : 0);
+    site_temperatures.push_back(
+        scene.material.melting_temperature
+        + assembly.temperature(phase, triangle, place, temperatures, powers));
+    solid_fractions.push_back(phase == Phase::solid ? 1 : 0);
   }
 
   void ConservativeRun::collect_sites()
@@ -98,13 +113,8 @@ namespace meltfront::reference_fem::cut::conservative
     site_cells.clear();
     for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
       for(const Phase phase : phases)
-        integrate(front.part(t, phase),
-                  [&](const Point &point, double weight)
-                  {
-                    add_site(point, weight,
-                             assembly.temperature(phase, t, point, temperatures, powers),
-                             phase == Phase::solid);
-                  });
+        integrate(front.part(t, phase), [&](const Point &point, double weight)
+                  { add_site(t, point, weight, phase); });
     constexpr unsigned int none = static_cast<unsigned int>(-1);
     std::vector<unsigned int> site_of_node(mesh.nodes.size(), none);
     for(unsigned int s = 0; s < mesh.squares.size(); ++s)
@@ -116,11 +126,8 @@ namespace meltfront::reference_fem::cut::conservative
         if(site_of_node[node] == none)
         {
           site_of_node[node] = static_cast<unsigned int>(weights.size());
-          const Phase phase = state.level_set[node] < 0 ? Phase::solid : Phase::liquid;
-          double value = temperatures[index(phase)][node];
-          if(phase == Phase::solid && !powers.empty())
-            value += sources.value(mesh.nodes[node], powers);
-          add_site(mesh.nodes[node], 0, value, phase == Phase::solid);
+          const unsigned int t = mesh.triangle_at(in_domain(mesh.nodes[node]));
+          add_site(t, mesh.nodes[node], 0, phase_at(t, in_domain(mesh.nodes[node])));
         }
         site_cells.push_back(site_of_node[node]);
       }

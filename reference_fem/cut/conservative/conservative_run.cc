@@ -3,6 +3,7 @@
 #include <cases/error.h>
 #include <cases/exact/front_start.h>
 #include <cases/time_integral.h>
+#include <reference_fem/cut/conservative/initial_front.h>
 #include <reference_fem/cut/run.h>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace meltfront::reference_fem::cut::conservative
 {
@@ -28,15 +30,19 @@ namespace meltfront::reference_fem::cut::conservative
     constexpr double farthest_move = 0.9;
     constexpr int most_halvings = 8;
 
-    /** Squares of the spacing: a smaller body is turned into the other phase. */
-    constexpr double least_area = 2;
+    /** Squares of the spacing: a smaller body is turned into the other phase. Its latent
+     * heat goes to the hats about it, which are forty times as large or more: what that
+     * undercools or superheats them by is what elements of this size overshoot by anyway.
+     */
+    constexpr double least_area = 0.1;
 
     /** Spacings from the front up to which the level set is a distance. */
     constexpr double reach_of_distance = 6;
 
-    /** Spacings: what there is of a phase at the start is not resolved where it is
-     * nowhere deeper. */
-    constexpr double least_depth = 2.5;
+    /** Spacings: what there is of a phase at the start is resolved if it is 2.5 deep;
+     * some node is then deeper than this. */
+    constexpr double least_depth = 2.5,
+                     least_depth_of_node = 2.5 - 1 / std::numbers::sqrt2;
 
     /** Of the run: shorter steps are not made. */
     constexpr double shortest_step = 1e-8;
@@ -96,15 +102,9 @@ namespace meltfront::reference_fem::cut::conservative
           "fem-cut: scheme = conservative starts from a front that is "
           "there, not from liquid about sinks (scheme = extension does)");
     start_in_words = found.description;
-    Values level_set;
-    for(const Point &node : mesh.nodes)
-      level_set.push_back(found.level_set(position(node)));
-    // Of any level set the zeros only matter: distances to them.
-    level_set = without_zeros(std::move(level_set), mesh.spacing);
-    state.level_set = with_distances(mesh, Front(mesh, level_set), level_set,
-                                     reach_of_distance * mesh.spacing);
-    state.debt.assign(mesh.nodes.size(), 0);
-    state.heat.fill(Values(mesh.nodes.size()));
+    state = initial_front(
+        mesh, [&](const Point &point) { return found.level_set(position(point)); },
+        reach_of_distance * mesh.spacing);
     increment.assign(mesh.nodes.size(), 0);
     powers = sources.powers(time);
     const StepFrame frame(mesh, state.level_set, 1);
@@ -125,14 +125,36 @@ namespace meltfront::reference_fem::cut::conservative
                           += heat * mesh.triangles[t].hat(i, point);
                   });
     }
+    initial_temperatures(frame, found.temperature);
+    unknowns = most_unknowns = frame.unknowns;
+    initial_heat = stored_heat() + latent_heat();
+    check();
+  }
+
+  /** Of the scene at nodes of each phase; those beyond its front, and where a source is,
+   * follow from its heat. */
+  void ConservativeRun::initial_temperatures(
+      const StepFrame &frame,
+      const std::function<double(const cases::Position &)> &temperature)
+  {
     const double fastest = std::max(scene.material.solid.diffusivity(),
                                     scene.material.liquid.diffusivity());
     temperatures = temperatures_of(
         assembly, frame, {time, time, powers},
         share_of_projection * mesh.spacing * mesh.spacing / fastest, state.heat);
-    unknowns = most_unknowns = frame.unknowns;
-    initial_heat = stored_heat() + latent_heat();
-    check();
+    for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
+      for(const unsigned int node : mesh.triangles[t].nodes)
+      {
+        if(!mesh.triangles[t].whole || mesh.triangles[t].part.empty())
+          continue;
+        const Phase phase = state.level_set[node] < 0 ? Phase::solid : Phase::liquid;
+        double value = temperature(position(mesh.nodes[node]))
+                       - scene.material.melting_temperature;
+        if(phase == Phase::solid && !powers.empty())
+          value -= sources.value(mesh.nodes[node], powers);
+        if(std::isfinite(value))
+          temperatures[index(phase)][node] = value;
+      }
   }
 
   void ConservativeRun::require_resolved(const Front &front) const
@@ -145,10 +167,10 @@ namespace meltfront::reference_fem::cut::conservative
           double &deepest = depth[state.level_set[node] < 0 ? 0 : 1];
           deepest = std::max(deepest, std::abs(state.level_set[node]));
         }
-    if(!(std::min(depth[0], depth[1]) >= least_depth * mesh.spacing))
+    if(!(std::min(depth[0], depth[1]) >= least_depth_of_node * mesh.spacing))
       throw cases::Refusal(fmt::format(
           "fem-cut does not resolve the front at the start: solid is {:.3g} m deep and "
-          "liquid {:.3g} m, with cells of {:.3g} m; {} cells are needed",
+          "liquid {:.3g} m at a node, with cells of {:.3g} m; {} cells are needed",
           depth[0], depth[1], mesh.spacing, least_depth));
   }
 
@@ -231,27 +253,32 @@ namespace meltfront::reference_fem::cut::conservative
     const double stop = cases::end_of_piece(breakpoints, time, scene.end_time);
     const auto end = [&] { return duration == stop - time ? stop : time + duration; };
     Step step;
-    try
+    for(int halvings = 0;; ++halvings)
     {
-      int halvings = 0;
-      while(!attempt(duration, end(), step))
+      const bool last_chance = halvings == most_halvings;
+      try
       {
-        if(halvings++ == most_halvings)
+        if(attempt(duration, end(), step))
+          break;
+        if(last_chance)
         {
           ++capped_steps;
           break;
         }
-        duration /= 2;
-        ++halved_steps;
       }
-    }
-    catch(const std::runtime_error &error)
-    {
-      if(dynamic_cast<const cases::Refusal *>(&error))
+      catch(const cases::Refusal &)
+      {
         throw;
-      throw cases::NumericalError(method_name, step_number + 1, time + duration,
-                                  "temperature",
-                                  fmt::format("cannot be solved for: {}", error.what()));
+      }
+      catch(const std::runtime_error &error)
+      {
+        if(last_chance)
+          throw cases::NumericalError(
+              method_name, step_number + 1, time + duration, "temperature",
+              fmt::format("cannot be solved for: {}", error.what()));
+      }
+      duration /= 2;
+      ++halved_steps;
     }
     accept(step, duration, end());
   }
@@ -274,7 +301,7 @@ namespace meltfront::reference_fem::cut::conservative
     turn_small_bodies();
     state.level_set = with_distances(mesh, Front(mesh, state.level_set), state.level_set,
                                      reach_of_distance * mesh.spacing);
-    gather_debt();
+    settle_hats();
     check();
   }
 
@@ -293,26 +320,23 @@ namespace meltfront::reference_fem::cut::conservative
     }
   }
 
-  /** Debt of hats that the front has left goes to those that it is at: only its sum
-   * matters. */
-  void ConservativeRun::gather_debt()
+  /** What is left at hats that a phase or the front has gone from, as where a thin layer
+   * vanishes at once: heat of a phase that is no longer near goes to the other's in the
+   * same hat, debt of the front to the heat of the phase that is there. */
+  void ConservativeRun::settle_hats()
   {
-    const double reach = 2 * mesh.spacing;
-    double left = 0, staying = 0;
+    largest_debt = std::max(largest_debt, std::abs(sum(state.debt)));
+    const StepFrame frame(mesh, state.level_set, Constants().smoothing);
     for(std::size_t node = 0; node < state.debt.size(); ++node)
-      if(std::abs(state.level_set[node]) < reach)
-        ++staying;
-      else
-        left += std::exchange(state.debt[node], 0);
-    largest_debt = std::max(largest_debt, std::abs(sum(state.debt) + left));
-    if(left == 0)
-      return;
-    if(staying == 0)
-      throw cases::NumericalError(method_name, step_number, time, "front",
-                                  "has vanished and owes latent heat");
-    for(std::size_t node = 0; node < state.debt.size(); ++node)
-      if(std::abs(state.level_set[node]) < reach)
-        state.debt[node] += left / staying;
+    {
+      const Phase here = state.level_set[node] < 0 ? Phase::solid : Phase::liquid,
+                  other = here == Phase::solid ? Phase::liquid : Phase::solid;
+      double &heat = state.heat[index(here)][node];
+      if(frame.temperature[index(other)][node] < 0)
+        heat += std::exchange(state.heat[index(other)][node], 0);
+      if(frame.displacement[node] < 0)
+        heat -= latent_heat_of_volume() * std::exchange(state.debt[node], 0);
+    }
   }
 
   void ConservativeRun::check() const

@@ -32,20 +32,25 @@ namespace meltfront::reference_fem::cut::conservative
     cases::Snapshot snapshot(long step, double time) override;
 
     void start();
+    void initial_temperatures(
+        const StepFrame &frame,
+        const std::function<double(const cases::Position &)> &temperature);
     void step();
     double next_step() const;
     struct Step;
     bool attempt(double duration, double end, Step &step);
     void accept(Step &step, double duration, double end);
     void turn_small_bodies();
-    void gather_debt();
+    void settle_hats();
     void check() const;
     void require_resolved(const Front &front) const;
     double latent_heat_of_volume() const;
     double domain_area() const;
     double stored_heat() const;
     double latent_heat() const;
-    void add_site(const Point &point, double weight, double temperature, bool solid);
+    Point in_domain(const Point &point) const;
+    Phase phase_at(unsigned int triangle, const Point &point) const;
+    void add_site(unsigned int triangle, const Point &point, double weight, Phase phase);
     void collect_sites();
     std::vector<cases::EffectCost> effect_costs() const;
 

@@ -4,6 +4,7 @@
 #include <cases/wall_law.h>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace meltfront::reference_fem::cut::conservative
 {
@@ -116,8 +117,10 @@ namespace meltfront::reference_fem::cut::conservative
     for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
     {
       const Polygon &part = context.front.part(t, context.phase);
-      if(!context.frame.active[index(context.phase)][t] || part.empty())
+      if(part.empty())
         continue;
+      if(!context.frame.active[index(context.phase)][t])
+        throw std::runtime_error("the front has moved beyond where temperatures are");
       const Triangle &triangle = mesh.triangles[t];
       std::array<std::array<double, 3>, 3> mass{};
       double area = 0;

@@ -1,5 +1,6 @@
 #include <reference_fem/cut/conservative/stage.h>
 
+#include <reference_fem/cut/conservative/front_law.h>
 #include <reference_fem/cut/conservative/linear_system.h>
 
 #include <algorithm>
@@ -11,15 +12,6 @@ namespace meltfront::reference_fem::cut::conservative
 {
   namespace
   {
-    void append(const Operator &source, double factor,
-                const std::vector<int> &row_of_node,
-                std::vector<Eigen::Triplet<double>> &result)
-    {
-      for(const Eigen::Triplet<double> &entry : source.entries)
-        result.emplace_back(row_of_node[static_cast<std::size_t>(entry.row())],
-                            entry.col(), factor * entry.value());
-    }
-
     /** One linear system of a stage and what its solution says. */
     class StagePass
     {
@@ -111,41 +103,15 @@ namespace meltfront::reference_fem::cut::conservative
 
       void add_front(const Values &increment, LocalVector &load)
       {
-        const std::vector<int> &rows = frame.displacement;
-        for(const CutTriangle &cut : front.cut)
-          if(cut.crossed)
-            add_area(cut);
-        append(frame.smoothing, 1, rows, entries);
+        Values change = data.change;
         for(const PhaseOperators &terms : operators)
-          append(terms.front, per_area, rows, entries);
-        const Values smooth = frame.smoothing.apply(frame.as_unknowns(increment));
-        for(std::size_t node = 0; node < rows.size(); ++node)
-          if(rows[node] >= 0)
-          {
-            double constants = operators[index(Phase::solid)].source_flux[node];
-            for(const PhaseOperators &terms : operators)
-              constants += terms.front.constant[node];
-            load[rows[node]] = front.solid_area[node] - frame.front.solid_area[node]
-                               - data.change[node] - smooth[node] - per_area * constants;
-          }
-      }
-
-      /** Minus the derivative of the solid's area by the level set. */
-      void add_area(const CutTriangle &cut)
-      {
-        const Triangle &triangle = *cut.place;
-        const double slope = cut.level_set.gradient.norm();
-        integrate(
-            cut.segment,
-            [&](const Point &point, double weight)
-            {
-              for(int i = 0; i < 3; ++i)
-                for(int j = 0; j < 3; ++j)
-                  entries.emplace_back(
-                      frame.displacement[triangle.nodes[static_cast<std::size_t>(i)]],
-                      frame.displacement[triangle.nodes[static_cast<std::size_t>(j)]],
-                      weight / slope * triangle.hat(i, point) * triangle.hat(j, point));
-            });
+        {
+          append(terms.front, per_area, frame.displacement, entries);
+          for(std::size_t node = 0; node < change.size(); ++node)
+            change[node]
+                += per_area * (terms.front.constant[node] + terms.source_flux[node]);
+        }
+        add_area_law(frame, front, change, increment, entries, load);
       }
 
       void hold_front()
@@ -176,42 +142,6 @@ namespace meltfront::reference_fem::cut::conservative
       }
       return result;
     }
-
-    Values moved(const StepFrame &frame, const Values &increment, double spacing)
-    {
-      Values result = frame.level_set;
-      for(std::size_t node = 0; node < result.size(); ++node)
-        result[node] += increment[node];
-      return without_zeros(std::move(result), spacing);
-    }
-
-    /** Add the displacement found, one spacing at most. */
-    void move(const StepFrame &frame, const Front &front, const TriangleMesh &mesh,
-              const LocalVector &solution, StageResult &result)
-    {
-      for(std::size_t node = 0; node < result.increment.size(); ++node)
-        if(const int unknown = frame.displacement[node]; unknown >= 0)
-          result.increment[node]
-              += std::clamp(solution[unknown], -mesh.spacing, mesh.spacing);
-      result.last_move = 0;
-      for(const CutTriangle &cut : front.cut)
-        for(const unsigned int node : cut.place->nodes)
-          if(frame.displacement[node] >= 0)
-            result.last_move = std::max(result.last_move,
-                                        std::abs(solution[frame.displacement[node]]));
-      result.limited = result.limited || result.last_move > mesh.spacing;
-    }
-
-    /** What the law of the front is off by. */
-    Values debt(const StepFrame &frame, const StageData &data, const StageResult &result,
-                const Front &front, double per_area)
-    {
-      Values owed = frame.smoothing.apply(frame.as_unknowns(result.increment));
-      for(std::size_t node = 0; node < owed.size(); ++node)
-        owed[node] += data.change[node] + per_area * result.flux[node]
-                      - (front.solid_area[node] - frame.front.solid_area[node]);
-      return owed;
-    }
   } // namespace
 
   StageResult solve_stage(PhaseAssembly &assembly, const cases::Scene &scene,
@@ -228,14 +158,18 @@ namespace meltfront::reference_fem::cut::conservative
     const int made = frame.has_front() ? passes : 2;
     for(int pass = 0; pass < made; ++pass)
     {
-      const Front front(mesh, moved(frame, result.increment, mesh.spacing));
+      const Front front(mesh, frame.moved(result.increment, mesh.spacing));
       const bool coupled = pass > 0 && frame.has_front();
       StagePass stage(assembly, scene, frame, front, data, result.temperatures, coupled);
       stage.solve(result.increment);
       result.entries += static_cast<long>(stage.entries.size());
       result.temperatures = temperatures(frame, stage.solution);
       if(coupled)
-        move(frame, front, mesh, stage.solution, result);
+      {
+        result.last_move = add_displacement(frame, front, mesh.spacing, stage.solution,
+                                            result.increment);
+        result.limited = result.limited || result.last_move > mesh.spacing;
+      }
       if(pass + 1 < made)
         continue;
       for(const Phase phase : phases)
@@ -246,10 +180,13 @@ namespace meltfront::reference_fem::cut::conservative
     }
     for(const double power : data.time.powers)
       result.source_power += power;
-    result.level_set = moved(frame, result.increment, mesh.spacing);
+    result.level_set = frame.moved(result.increment, mesh.spacing);
     const double per_area
         = data.duration / (scene.material.solid.density * scene.material.latent_heat);
-    result.debt = debt(frame, data, result, Front(mesh, result.level_set), per_area);
+    Values change = data.change;
+    for(std::size_t node = 0; node < change.size(); ++node)
+      change[node] += per_area * result.flux[node];
+    result.debt = debt(frame, Front(mesh, result.level_set), change, result.increment);
     return result;
   }
 

@@ -23,6 +23,14 @@ namespace meltfront::reference_fem::cut::conservative
     return result;
   }
 
+  void append(const Operator &source, double factor, const std::vector<int> &row_of_node,
+              std::vector<Eigen::Triplet<double>> &result)
+  {
+    for(const Eigen::Triplet<double> &entry : source.entries)
+      result.emplace_back(row_of_node[static_cast<std::size_t>(entry.row())], entry.col(),
+                          factor * entry.value());
+  }
+
   double sum(const Values &values)
   {
     double result = 0;
@@ -105,6 +113,14 @@ namespace meltfront::reference_fem::cut::conservative
                         weight * (slope * triangle.gradients[i])
                             * (slope * triangle.gradients[j]));
     }
+  }
+
+  Values StepFrame::moved(const Values &increment, double spacing) const
+  {
+    Values result = level_set;
+    for(std::size_t node = 0; node < result.size(); ++node)
+      result[node] += increment[node];
+    return without_zeros(std::move(result), spacing);
   }
 
   LocalVector StepFrame::as_unknowns(const Values &increment) const

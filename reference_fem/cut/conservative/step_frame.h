@@ -30,6 +30,10 @@ namespace meltfront::reference_fem::cut::conservative
     Values constant;
   };
 
+  /** Add entries to a system whose rows are given by node. */
+  void append(const Operator &source, double factor, const std::vector<int> &row_of_node,
+              std::vector<Eigen::Triplet<double>> &result);
+
   double sum(const Values &values);
 
   /** What the stages of a step share: its front at the begin, where phases and front have
@@ -56,6 +60,9 @@ namespace meltfront::reference_fem::cut::conservative
     {
       return !band.empty();
     }
+
+    /** The level set after an increment. */
+    Values moved(const Values &increment, double spacing) const;
 
     /** Nodal increments of the level set as a vector of unknowns. */
     LocalVector as_unknowns(const Values &increment) const;
