@@ -296,15 +296,21 @@ namespace meltfront::reference_fem::cut::conservative
                        follow, context.result.front);
                 });
       if(context.singular)
-        visit_source_flux(context, cut.segment, cut.normal,
-                          [&](const Point &point, double weight, double flux)
-                          {
-                            for(std::size_t i = 0; i < 3; ++i)
-                              context.result.source_flux[triangle.nodes[i]]
-                                  += weight * flux
-                                     * triangle.hat(static_cast<int>(i), point);
-                          });
+        meters.sources.measure([&] { add_source_flux(context, cut); });
     }
+  }
+
+  void PhaseAssembly::add_source_flux(const Context &context,
+                                      const CutTriangle &cut) const
+  {
+    visit_source_flux(context, cut.segment, cut.normal,
+                      [&](const Point &point, double weight, double flux)
+                      {
+                        for(std::size_t i = 0; i < 3; ++i)
+                          context.result.source_flux[cut.place->nodes[i]]
+                              += weight * flux
+                                 * cut.place->hat(static_cast<int>(i), point);
+                      });
   }
 
   void PhaseAssembly::add_walls(const Context &context) const
