@@ -102,9 +102,18 @@ namespace meltfront::reference_fem::cut::conservative
           "fem-cut: scheme = conservative starts from a front that is "
           "there, not from liquid about sinks (scheme = extension does)");
     start_in_words = found.description;
-    state = initial_front(
-        mesh, [&](const Point &point) { return found.level_set(position(point)); },
-        reach_of_distance * mesh.spacing);
+    try
+    {
+      state = initial_front(
+          mesh, [&](const Point &point) { return found.level_set(position(point)); },
+          reach_of_distance * mesh.spacing);
+    }
+    catch(const std::runtime_error &error)
+    {
+      throw cases::Refusal(fmt::format("fem-cut does not resolve the front at the start "
+                                       "with cells of {:.3g} m: {}",
+                                       mesh.spacing, error.what()));
+    }
     increment.assign(mesh.nodes.size(), 0);
     powers = sources.powers(time);
     const StepFrame frame(mesh, state.level_set, 1);
