@@ -27,7 +27,7 @@ namespace meltfront::reference_fem::cut
     void bind(cases::OptionBinder &options);
 
     Scheme scheme = Scheme::extension;
-    int passes = 3;
+    int passes = 12;
     int degree = 1, level_set_degree = 2;
     int refinement = 0;
     BandWidths widths;

@@ -27,7 +27,7 @@ namespace meltfront::reference_fem::cut::conservative
         {"time scheme", "SDIRK of two stages, order 2, L-stable, for heat and front", ""},
         {"cells crossed in a step, at most", fmt::format("{:g}", options.cfl), "1"},
         {"longest time step", fmt::format("{:.6g}", result.time_step), "s"},
-        {"passes per stage", fmt::format("{}", options.passes), "1"},
+        {"passes per stage, at most", fmt::format("{}", options.passes), "1"},
         {"linear solver", "sparse LU (UMFPACK)", ""}};
     return result;
   }
@@ -39,11 +39,12 @@ namespace meltfront::reference_fem::cut::conservative
     cost.unknowns = most_unknowns;
     cost.work = entries;
     cost.solver_iterations = solves;
-    cost.most_iterations = 2 * options.passes;
+    cost.most_iterations = most_solves;
     cost.capped_steps = capped_steps;
     cost.evidence
         = {{"steps halved", double(halved_steps)},
            {"steps whose front's move was cut to one cell", double(capped_steps)},
+           {"stages whose passes did not settle", double(unsettled_stages)},
            {"small bodies booked as the other phase", double(turned_bodies)},
            {"largest area by which the front was behind its heat, of the domain",
             largest_debt / domain_area()}};

@@ -1,9 +1,7 @@
 #include <reference_fem/cut/conservative/conservative_run.h>
 
 #include <cases/error.h>
-#include <cases/exact/front_start.h>
 #include <cases/time_integral.h>
-#include <reference_fem/cut/conservative/initial_front.h>
 #include <reference_fem/cut/run.h>
 
 #include <fmt/format.h>
@@ -36,19 +34,8 @@ namespace meltfront::reference_fem::cut::conservative
      */
     constexpr double least_area = 0.1;
 
-    /** Spacings from the front up to which the level set is a distance. */
-    constexpr double reach_of_distance = 6;
-
-    /** Spacings: what there is of a phase at the start is resolved if it is 2.5 deep;
-     * some node is then deeper than this. */
-    constexpr double least_depth = 2.5,
-                     least_depth_of_node = 2.5 - 1 / std::numbers::sqrt2;
-
     /** Of the run: shorter steps are not made. */
     constexpr double shortest_step = 1e-8;
-
-    /** Of the time in which temperatures even out across a spacing. */
-    constexpr double share_of_projection = 0.04;
 
     RunOptions checked(const RunOptions &options)
     {
@@ -58,6 +45,15 @@ namespace meltfront::reference_fem::cut::conservative
       if(options.refinement != 0)
         throw cases::Refusal("fem-cut: scheme = conservative runs on a uniform mesh: "
                              "refinement = 0 would be right");
+      const RunOptions standing;
+      const std::pair<const char *, bool> unknown[]{
+          {"level_set_degree", options.level_set_degree != standing.level_set_degree},
+          {"solves", options.solves != standing.solves},
+          {"speed_smoothing", options.speed_smoothing != standing.speed_smoothing}};
+      for(const auto &[name, given] : unknown)
+        if(given)
+          throw cases::Refusal(fmt::format(
+              "fem-cut: the option {} is not one of scheme = conservative", name));
       return options;
     }
   } // namespace
@@ -92,100 +88,11 @@ namespace meltfront::reference_fem::cut::conservative
     return scene.material.solid.density * scene.material.latent_heat;
   }
 
-  void ConservativeRun::start()
-  {
-    const double seed = options.seed_cells * mesh.spacing;
-    cases::SeedRule rule{method_name, "cells", seed, seed};
-    const cases::FrontStart found = cases::find_front_start(scene, rule);
-    if(found.time > scene.start_time)
-      throw cases::Refusal(
-          "fem-cut: scheme = conservative starts from a front that is "
-          "there, not from liquid about sinks (scheme = extension does)");
-    start_in_words = found.description;
-    try
-    {
-      state = initial_front(
-          mesh, [&](const Point &point) { return found.level_set(position(point)); },
-          reach_of_distance * mesh.spacing);
-    }
-    catch(const std::runtime_error &error)
-    {
-      throw cases::Refusal(fmt::format("fem-cut does not resolve the front at the start "
-                                       "with cells of {:.3g} m: {}",
-                                       mesh.spacing, error.what()));
-    }
-    increment.assign(mesh.nodes.size(), 0);
-    powers = sources.powers(time);
-    const StepFrame frame(mesh, state.level_set, 1);
-    require_resolved(frame.front);
-    for(const Phase phase : phases)
-    {
-      const double capacity = assembly.properties(phase).volumetric_heat_capacity();
-      for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
-        integrate(frame.front.part(t, phase),
-                  [&](const Point &point, double weight)
-                  {
-                    const double heat = capacity * weight
-                                        * (found.temperature(position(point))
-                                           - scene.material.melting_temperature);
-                    for(int i = 0; i < 3; ++i)
-                      state.heat[index(phase)]
-                                [mesh.triangles[t].nodes[static_cast<std::size_t>(i)]]
-                          += heat * mesh.triangles[t].hat(i, point);
-                  });
-    }
-    initial_temperatures(frame, found.temperature);
-    unknowns = most_unknowns = frame.unknowns;
-    initial_heat = stored_heat() + latent_heat();
-    check();
-  }
-
-  /** Of the scene at nodes of each phase; those beyond its front, and where a source is,
-   * follow from its heat. */
-  void ConservativeRun::initial_temperatures(
-      const StepFrame &frame,
-      const std::function<double(const cases::Position &)> &temperature)
-  {
-    const double fastest = std::max(scene.material.solid.diffusivity(),
-                                    scene.material.liquid.diffusivity());
-    temperatures = temperatures_of(
-        assembly, frame, {time, time, powers},
-        share_of_projection * mesh.spacing * mesh.spacing / fastest, state.heat);
-    for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
-      for(const unsigned int node : mesh.triangles[t].nodes)
-      {
-        if(!mesh.triangles[t].whole || mesh.triangles[t].part.empty())
-          continue;
-        const Phase phase = state.level_set[node] < 0 ? Phase::solid : Phase::liquid;
-        double value = temperature(position(mesh.nodes[node]))
-                       - scene.material.melting_temperature;
-        if(phase == Phase::solid && !powers.empty())
-          value -= sources.value(mesh.nodes[node], powers);
-        if(std::isfinite(value))
-          temperatures[index(phase)][node] = value;
-      }
-  }
-
-  void ConservativeRun::require_resolved(const Front &front) const
-  {
-    std::array<double, 2> depth{};
-    for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      if(front.location[t] != Location::outside)
-        for(const unsigned int node : mesh.triangles[t].nodes)
-        {
-          double &deepest = depth[state.level_set[node] < 0 ? 0 : 1];
-          deepest = std::max(deepest, std::abs(state.level_set[node]));
-        }
-    if(!(std::min(depth[0], depth[1]) >= least_depth_of_node * mesh.spacing))
-      throw cases::Refusal(fmt::format(
-          "fem-cut does not resolve the front at the start: solid is {:.3g} m deep and "
-          "liquid {:.3g} m at a node, with cells of {:.3g} m; {} cells are needed",
-          depth[0], depth[1], mesh.spacing, least_depth));
-  }
-
   void ConservativeRun::take_steps()
   {
-    reached(0, time);
+    if(step_number > 0)
+      report_uniform_start();
+    reached(step_number, time);
     while(time < scene.end_time)
     {
       step();
@@ -245,7 +152,8 @@ namespace meltfront::reference_fem::cut::conservative
     }
     data.guess = step.first.temperatures;
     step.second = solve_stage(assembly, scene, mesh, frame, data, options.passes);
-    solves += 2 * options.passes;
+    solves += step.first.solves + step.second.solves;
+    most_solves = std::max(most_solves, step.first.solves + step.second.solves);
     entries += step.first.entries + step.second.entries;
     double farthest = 0;
     for(const CutTriangle &cut : frame.front.cut)
@@ -295,6 +203,7 @@ namespace meltfront::reference_fem::cut::conservative
   void ConservativeRun::accept(Step &step, double duration, double end)
   {
     const double first = (1 - gamma) * duration, second = gamma * duration;
+    unsettled_stages += !step.first.settled + !step.second.settled;
     boundary_heat += first * step.first.wall_power + second * step.second.wall_power;
     source_heat += first * (step.first.released_power + step.first.source_power)
                    + second * (step.second.released_power + step.second.source_power);

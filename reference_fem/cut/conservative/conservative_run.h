@@ -15,6 +15,9 @@
 
 namespace meltfront::reference_fem::cut::conservative
 {
+  /** Spacings from the front up to which the level set is a distance. */
+  inline constexpr double reach_of_distance = 6;
+
   /** A run of `fem-cut` with `scheme = conservative`: start, steps, events, snapshots. */
   class ConservativeRun : public cases::Run
   {
@@ -31,10 +34,14 @@ namespace meltfront::reference_fem::cut::conservative
     void take_steps() override;
     cases::Snapshot snapshot(long step, double time) override;
 
+    // In conservative_start.cc:
     void start();
     void initial_temperatures(
         const StepFrame &frame,
         const std::function<double(const cases::Position &)> &temperature);
+    void require_resolved(const Front &front) const;
+    void report_uniform_start();
+
     void step();
     double next_step() const;
     struct Step;
@@ -43,7 +50,6 @@ namespace meltfront::reference_fem::cut::conservative
     void turn_small_bodies();
     void settle_hats();
     void check() const;
-    void require_resolved(const Front &front) const;
     double latent_heat_of_volume() const;
     double domain_area() const;
     double stored_heat() const;
@@ -72,7 +78,8 @@ namespace meltfront::reference_fem::cut::conservative
     double last_step = 0, front_speed = 0;
     double boundary_heat = 0, source_heat = 0, initial_heat = 0;
     long step_number = 0, halved_steps = 0, capped_steps = 0, turned_bodies = 0;
-    long solves = 0, unknowns = 0, most_unknowns = 0, entries = 0;
+    long solves = 0, most_solves = 0, unsettled_stages = 0, unknowns = 0,
+         most_unknowns = 0, entries = 0;
     double largest_debt = 0; ///< of the solid's area (m^2)
 
     std::array<std::vector<double>, dim> site_positions, front_positions;

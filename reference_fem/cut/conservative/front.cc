@@ -79,31 +79,34 @@ namespace meltfront::reference_fem::cut::conservative
     return level_set;
   }
 
+  Values distances(const TriangleMesh &mesh, const std::vector<Segment> &segments,
+                   const Values &signs, double reach)
+  {
+    Values result(signs.size());
+    for(std::size_t i = 0; i < result.size(); ++i)
+      result[i] = std::copysign(reach, signs[i]);
+    for(const Segment &segment : segments)
+      mesh.visit_nodes_near(segment.begin, reach + segment.length(),
+                            [&](unsigned int node)
+                            {
+                              const double found = distance(mesh.nodes[node], segment);
+                              if(found < std::abs(result[node]))
+                                result[node] = std::copysign(found, signs[node]);
+                            });
+    return without_zeros(std::move(result), mesh.spacing);
+  }
+
   Values with_distances(const TriangleMesh &mesh, const Front &front,
                         const Values &level_set, double reach)
   {
-    Values result(level_set.size());
-    std::vector<char> kept(level_set.size(), false);
-    for(std::size_t i = 0; i < result.size(); ++i)
-      result[i] = std::copysign(reach, level_set[i]);
+    std::vector<Segment> segments;
     for(const CutTriangle &cut : front.cut)
-    {
-      for(const unsigned int node : mesh.triangles[cut.triangle].nodes)
-        kept[node] = true;
-      if(!cut.crossed)
-        continue;
-      mesh.visit_nodes_near(mesh.triangles[cut.triangle].centre, reach,
-                            [&](unsigned int node)
-                            {
-                              const double found
-                                  = distance(mesh.nodes[node], cut.segment);
-                              if(found < std::abs(result[node]))
-                                result[node] = std::copysign(found, level_set[node]);
-                            });
-    }
-    for(std::size_t i = 0; i < result.size(); ++i)
-      if(kept[i])
-        result[i] = level_set[i];
-    return without_zeros(std::move(result), mesh.spacing);
+      if(cut.crossed)
+        segments.push_back(cut.segment);
+    Values result = distances(mesh, segments, level_set, reach);
+    for(const CutTriangle &cut : front.cut)
+      for(const unsigned int node : cut.place->nodes)
+        result[node] = level_set[node];
+    return result;
   }
 } // namespace meltfront::reference_fem::cut::conservative

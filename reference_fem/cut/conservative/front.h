@@ -63,6 +63,11 @@ namespace meltfront::reference_fem::cut::conservative
   /** Values with those that are zero, as far as the spacing tells, shifted off it. */
   Values without_zeros(Values level_set, double spacing);
 
+  /** Signed distances of nodes to segments, up to a reach; beyond it that reach.
+   * @param signs of the values are those of the result */
+  Values distances(const TriangleMesh &mesh, const std::vector<Segment> &segments,
+                   const Values &signs, double reach);
+
   /**
    * A signed distance at the nodes of triangles that are not cut, up to a reach; beyond
    * it that reach. Nodes of cut triangles keep their values, so that the front does not

@@ -45,20 +45,6 @@ namespace meltfront::reference_fem::cut::conservative
         load[row] -= off[node];
   }
 
-  double add_displacement(const StepFrame &frame, const Front &front, double spacing,
-                          const LocalVector &solution, Values &increment)
-  {
-    for(std::size_t node = 0; node < increment.size(); ++node)
-      if(const int unknown = frame.displacement[node]; unknown >= 0)
-        increment[node] += std::clamp(solution[unknown], -spacing, spacing);
-    double largest = 0;
-    for(const CutTriangle &cut : front.cut)
-      for(const unsigned int node : cut.place->nodes)
-        if(const int unknown = frame.displacement[node]; unknown >= 0)
-          largest = std::max(largest, std::abs(solution[unknown]));
-    return largest;
-  }
-
   Values debt(const StepFrame &frame, const Front &front, const Values &change,
               const Values &increment)
   {
@@ -67,5 +53,69 @@ namespace meltfront::reference_fem::cut::conservative
       owed[node]
           += change[node] - (front.solid_area[node] - frame.front.solid_area[node]);
     return owed;
+  }
+
+  FrontMove::FrontMove(const TriangleMesh &mesh, const StepFrame &frame,
+                       const Values &change, const Values &increment)
+    : largest(mesh.spacing)
+    , mesh(mesh)
+    , frame(frame)
+  {
+    go_to(increment, change);
+  }
+
+  void FrontMove::go_to(const Values &to, const Values &change)
+  {
+    increment = to;
+    front.emplace(mesh, frame.moved(increment, mesh.spacing));
+    debt = conservative::debt(frame, *front, change, increment);
+  }
+
+  double FrontMove::largest_at_front(const LocalVector &solution) const
+  {
+    double result = 0;
+    for(const CutTriangle &cut : front->cut)
+      for(const unsigned int node : cut.place->nodes)
+        if(const int unknown = frame.displacement[node]; unknown >= 0)
+          result = std::max(result, std::abs(solution[unknown]));
+    return result;
+  }
+
+  void FrontMove::make(const LocalVector &solution, const Values &change)
+  {
+    /** Of what the function falls by at the begin. */
+    constexpr double steepest_rise = 0.5;
+    constexpr int most_halvings = 6;
+    constexpr double negligible = 1e-9; ///< spacings: round-off tells the slope
+    const Values begin = increment;
+    double longest = 0;
+    for(const int unknown : frame.displacement)
+      if(unknown >= 0)
+        longest = std::max(longest, std::abs(solution[unknown]));
+    largest = largest_at_front(solution);
+    limited = limited || longest > mesh.spacing;
+    const auto slope = [&]
+    {
+      double sum = 0;
+      for(std::size_t node = 0; node < debt.size(); ++node)
+        if(const int unknown = frame.displacement[node]; unknown >= 0)
+          sum += debt[node] * solution[unknown];
+      return sum;
+    };
+    debt = conservative::debt(frame, *front, change, begin);
+    const double fall = std::abs(slope());
+    double share = std::min(1., mesh.spacing / longest);
+    for(int halvings = 0;; ++halvings)
+    {
+      Values next = begin;
+      for(std::size_t node = 0; node < next.size(); ++node)
+        if(const int unknown = frame.displacement[node]; unknown >= 0)
+          next[node] += share * solution[unknown];
+      go_to(next, change);
+      if(halvings == most_halvings || longest < negligible * mesh.spacing
+         || slope() <= steepest_rise * fall)
+        return;
+      share /= 2;
+    }
   }
 } // namespace meltfront::reference_fem::cut::conservative

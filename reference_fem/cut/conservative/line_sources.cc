@@ -44,6 +44,17 @@ namespace meltfront::reference_fem::cut::conservative
     return result;
   }
 
+  Point LineSources::off(Point point) const
+  {
+    for(const Point &place : places)
+      if(point.distance(place) < smallest_distance)
+      {
+        point = place;
+        point[0] += smallest_distance;
+      }
+    return point;
+  }
+
   double LineSources::value(const Point &point, const std::vector<double> &powers) const
   {
     double sum = 0;

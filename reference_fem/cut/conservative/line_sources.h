@@ -26,6 +26,9 @@ namespace meltfront::reference_fem::cut::conservative
     std::vector<double> remaining_powers(const std::vector<double> &first, double share,
                                          double begin, double end) const;
 
+    /** The point, or one at the smallest distance where it is nearer to a source. */
+    Point off(Point point) const;
+
     double value(const Point &point, const std::vector<double> &powers) const;
 
     /** K/m */

@@ -60,8 +60,10 @@ namespace meltfront::reference_fem::cut::conservative
    *   N(theta, g; w) = int_front (k d_n theta - beta (theta - g)) w + k d_n w (theta - g)
    *
    * with beta = gamma_N k/h. Held walls have the same N. A face is between active
-   * triangles of which one is not wholly in the phase. Sums over all w: S(theta, 1) is
-   * what crosses front and walls and is released.
+   * triangles of which one is not wholly in the phase, now or in a pass before: with the
+   * faces of the pass alone the terms would jump where the front passes a node, and
+   * passes would go to and fro about it. Sums over all w: S(theta, 1) is what crosses
+   * front and walls and is released.
    */
   class PhaseAssembly
   {
@@ -78,7 +80,8 @@ namespace meltfront::reference_fem::cut::conservative
                             const StageTime &stage, const Temperatures &guess,
                             bool follow);
 
-    /** Call before the terms of another time: what is released is kept for a stage. */
+    /** Call before the terms of another time: what is released, and which triangles have
+     * been cut, is kept for a stage. */
     void forget_stage();
 
     /** Over the melting temperature, of the solid with the singular part (K). */
@@ -100,7 +103,7 @@ namespace meltfront::reference_fem::cut::conservative
     struct Context;
     void add_bulk(const Context &context) const;
     void add_released(const Context &context);
-    void add_ghost_penalty(const Context &context) const;
+    void add_ghost_penalty(const Context &context);
     void add_front(const Context &context) const;
     void add_source_flux(const Context &context, const CutTriangle &cut) const;
     void add_walls(const Context &context) const;
@@ -122,6 +125,7 @@ namespace meltfront::reference_fem::cut::conservative
     const Constants constants;
     std::vector<std::array<double, 3>> released; ///< by triangle, of those not cut (W/m)
     std::vector<char> released_known;
+    std::array<std::vector<char>, 2> was_parted; ///< by phase and triangle
   };
 } // namespace meltfront::reference_fem::cut::conservative
 

@@ -75,20 +75,33 @@ namespace meltfront::reference_fem::cut::conservative
   Split split(const Polygon &polygon, const LinearFunction &function);
 
   /** Call visit(point, weight) for a quadrature that is exact for polynomials of degree
-   * 2. */
+   * 2, on triangles whose edges are divided. All points are inside: on a side that is the
+   * front a datum that jumps there would be of the one or the other phase by chance. */
   template <typename Visit>
-  void integrate(const Polygon &polygon, const Visit &visit)
+  void integrate(const Polygon &polygon, const Visit &visit, int divisions = 1)
   {
     if(polygon.empty())
       return;
     const Point *const corner = polygon.begin();
     for(const Point *next = corner + 2; next < polygon.end(); ++next)
     {
-      const Gradient first = next[-1] - corner[0], second = next[0] - corner[0];
+      const Gradient first = (next[-1] - corner[0]) / divisions,
+                     second = (next[0] - corner[0]) / divisions;
       const double weight = (first[0] * second[1] - first[1] * second[0]) / 6;
-      visit(corner[0] + first / 2, weight);
-      visit(corner[0] + second / 2, weight);
-      visit(corner[0] + (first + second) / 2, weight);
+      const auto piece = [&](const Point &origin, const Gradient &a, const Gradient &b)
+      {
+        visit(origin + (a + b) / 6, weight);
+        visit(origin + (4 * a + b) / 6, weight);
+        visit(origin + (a + 4 * b) / 6, weight);
+      };
+      for(int i = 0; i < divisions; ++i)
+        for(int j = 0; i + j < divisions; ++j)
+        {
+          const Point origin = corner[0] + i * first + j * second;
+          piece(origin, first, second);
+          if(i + j + 1 < divisions)
+            piece(origin + first + second, -1 * first, -1 * second);
+        }
     }
   }
 

@@ -12,23 +12,35 @@ namespace meltfront::reference_fem::cut::conservative
 {
   namespace
   {
+    /** Spacings: passes end when what is left to move is less. */
+    constexpr double settled = 1e-4;
+
+    /** Spacings: passes that move the front by less and do not make it less go to and fro
+     * about a node at which what is released jumps for the quadrature. */
+    constexpr double small = 0.02;
+
+    /** What passes are still going to move if each goes on to make as much less. */
+    double rest(double move, double before)
+    {
+      return move < before / 2 ? move * move / (before - move) : move;
+    }
+
     /** One linear system of a stage and what its solution says. */
     class StagePass
     {
     public:
       StagePass(PhaseAssembly &assembly, const cases::Scene &scene,
                 const StepFrame &frame, const Front &front, const StageData &data,
-                const Temperatures &guess, bool coupled)
+                const Temperatures &guess)
         : frame(frame)
         , front(front)
         , data(data)
-        , coupled(coupled)
         , per_area(data.duration
                    / (scene.material.solid.density * scene.material.latent_heat))
       {
         for(const Phase phase : phases)
           operators.push_back(
-              assembly.assemble(phase, frame, front, data.time, guess, coupled));
+              assembly.assemble(phase, frame, front, data.time, guess, true));
       }
 
       void solve(const Values &increment)
@@ -37,10 +49,8 @@ namespace meltfront::reference_fem::cut::conservative
         entries.clear();
         for(const Phase phase : phases)
           add_heat(phase, load);
-        if(coupled)
+        if(frame.has_front())
           add_front(increment, load);
-        else
-          hold_front();
         solution = conservative::solve(frame.unknowns, entries, load);
       }
 
@@ -114,17 +124,9 @@ namespace meltfront::reference_fem::cut::conservative
         add_area_law(frame, front, change, increment, entries, load);
       }
 
-      void hold_front()
-      {
-        for(const int row : frame.displacement)
-          if(row >= 0)
-            entries.emplace_back(row, row, 1.);
-      }
-
       const StepFrame &frame;
       const Front &front;
       const StageData &data;
-      const bool coupled;
       const double per_area; ///< m^2 of solid, of a watt for the stage's duration
       std::vector<PhaseOperators> operators; ///< by Phase
     };
@@ -149,44 +151,55 @@ namespace meltfront::reference_fem::cut::conservative
                           const StageData &data, int passes)
   {
     StageResult result;
-    result.increment = data.increment;
-    for(std::size_t node = 0; node < result.increment.size(); ++node)
+    Values predicted = data.increment;
+    for(std::size_t node = 0; node < predicted.size(); ++node)
       if(frame.displacement[node] < 0)
-        result.increment[node] = 0;
+        predicted[node] = 0;
     result.temperatures = data.guess;
     assembly.forget_stage();
-    const int made = frame.has_front() ? passes : 2;
-    for(int pass = 0; pass < made; ++pass)
+    const double per_area
+        = data.duration / (scene.material.solid.density * scene.material.latent_heat);
+    FrontMove move(mesh, frame, data.change, predicted);
+    const bool moves = frame.has_front();
+    // Without a front only radiation needs more than one.
+    const int most = moves ? passes : 2;
+    result.settled = !moves;
+    double before = 0;
+    bool to_and_fro = false, last = false;
+    for(int pass = 1; !last; ++pass)
     {
-      const Front front(mesh, frame.moved(result.increment, mesh.spacing));
-      const bool coupled = pass > 0 && frame.has_front();
-      StagePass stage(assembly, scene, frame, front, data, result.temperatures, coupled);
-      stage.solve(result.increment);
+      StagePass stage(assembly, scene, frame, *move.front, data, result.temperatures);
+      stage.solve(move.increment);
+      ++result.solves;
       result.entries += static_cast<long>(stage.entries.size());
       result.temperatures = temperatures(frame, stage.solution);
-      if(coupled)
+      const Values flux = stage.flux();
+      if(moves)
       {
-        result.last_move = add_displacement(frame, front, mesh.spacing, stage.solution,
-                                            result.increment);
-        result.limited = result.limited || result.last_move > mesh.spacing;
+        Values change = data.change;
+        for(std::size_t node = 0; node < change.size(); ++node)
+          change[node] += per_area * flux[node];
+        move.make(stage.solution, change);
+        result.settled = rest(move.largest, before) <= settled * mesh.spacing;
+        to_and_fro
+            = pass > 2 && before <= small * mesh.spacing && move.largest > before / 2;
+        before = move.largest;
       }
-      if(pass + 1 < made)
+      last = pass == most || (moves && (result.settled || to_and_fro));
+      if(!last)
         continue;
       for(const Phase phase : phases)
         result.heat[index(phase)] = stage.heat(phase);
-      result.flux = stage.flux();
+      result.flux = flux;
       result.wall_power = stage.wall_power();
       result.released_power = stage.released_power();
     }
     for(const double power : data.time.powers)
       result.source_power += power;
-    result.level_set = frame.moved(result.increment, mesh.spacing);
-    const double per_area
-        = data.duration / (scene.material.solid.density * scene.material.latent_heat);
-    Values change = data.change;
-    for(std::size_t node = 0; node < change.size(); ++node)
-      change[node] += per_area * result.flux[node];
-    result.debt = debt(frame, Front(mesh, result.level_set), change, result.increment);
+    result.limited = move.limited;
+    result.level_set = frame.moved(move.increment, mesh.spacing);
+    result.increment = std::move(move.increment);
+    result.debt = std::move(move.debt);
     return result;
   }
 

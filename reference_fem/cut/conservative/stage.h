@@ -26,9 +26,10 @@ namespace meltfront::reference_fem::cut::conservative
     Values flux; ///< heat that the phases take up through the front, by hat (W/m)
     Values debt; ///< what the front's law is off by, by hat (m^2)
     double wall_power = 0, released_power = 0, source_power = 0; ///< W/m
-    double last_move = 0; ///< of the level set at cut triangles, in the last pass (m)
+    bool settled = true;  ///< the passes came to rest
     bool limited = false; ///< a move was cut to one spacing
-    long entries = 0;     ///< of the matrices
+    long solves = 0;
+    long entries = 0; ///< of the matrices
   };
 
   /**
@@ -39,15 +40,16 @@ namespace meltfront::reference_fem::cut::conservative
    * smoothing(w)
    *
    * A(phi; w) the integral of w over the solid, F_p the flux of the condition at the
-   * front in the same hats. In the first pass the front is where it is predicted; in each
-   * further one temperatures and the increment of the level set are unknowns of one
-   * linear system, the condition at the front following it (Newton's method but for terms
-   * of the size of the step's thermal length).
+   * front in the same hats. A pass solves one linear system for temperatures and the
+   * increment of the level set, in which the condition at the front follows the increment
+   * (Newton's method but for terms of the size of the step's thermal length; see
+   * FrontMove for how far the increment is made). Passes end when the front has less than
+   * 1e-4 spacings left to move, by how much less each moves it than the one before.
    *
    * However many passes are made no heat is lost: the heat of a hat is that of the last
    * solve's geometry, and what the law of the front is off by is carried on as debt.
    *
-   * @param passes at least 2
+   * @param passes at most
    * @throws std::runtime_error where the system is singular or its solution not finite
    * @throws cases::OutOfMemory
    */

@@ -12,6 +12,9 @@ namespace meltfront::reference_fem::cut::conservative
 
     /** Spacings from the front within which the level set moves. */
     constexpr double band_width = 3.5;
+
+    /** Of the smoothing: what holds nodes that no normal ties to the front. */
+    constexpr double isotropic_share = 0.01;
   } // namespace
 
   Values Operator::apply(const LocalVector &unknowns) const
@@ -103,15 +106,16 @@ namespace meltfront::reference_fem::cut::conservative
     {
       const Triangle &triangle = mesh.triangles[t];
       const Gradient slope = triangle.gradient(level_set);
-      const double square = slope.norm_square();
-      if(!(square > 0))
-        continue;
-      const double weight = factor * triangle.area / square;
+      // Where the distance has a ridge it has no normal: there the term fades.
+      const double weight = factor * triangle.area,
+                   along = weight / std::max(1., slope.norm_square());
       for(std::size_t i = 0; i < 3; ++i)
         for(std::size_t j = 0; j < 3; ++j)
           smoothing.add(triangle.nodes[i], displacement[triangle.nodes[j]],
-                        weight * (slope * triangle.gradients[i])
-                            * (slope * triangle.gradients[j]));
+                        along * (slope * triangle.gradients[i])
+                                * (slope * triangle.gradients[j])
+                            + isotropic_share * weight
+                                  * (triangle.gradients[i] * triangle.gradients[j]));
     }
   }
 

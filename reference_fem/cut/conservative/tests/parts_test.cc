@@ -1,5 +1,6 @@
 #include <reference_fem/cut/conservative/front_law.h>
 #include <reference_fem/cut/conservative/initial_front.h>
+#include <reference_fem/cut/conservative/linear_system.h>
 #include <reference_fem/cut/conservative/phase_operators.h>
 
 #include <cases/tests/support/scenes.h>
@@ -75,6 +76,54 @@ namespace meltfront::reference_fem::cut::conservative
       EXPECT_GE(chords, 5e-4);
       EXPECT_LE(off, chords / 50);
       EXPECT_LE(std::abs(sum(state.debt)), 1e-12);
+    }
+
+    TEST(InitialFront, ALevelSetMayBendAtItsZero)
+    {
+      // As a temperature whose slopes differ; straight, so that only the bend can be
+      // wrong.
+      const TriangleMesh mesh(square().domain, 20);
+      const auto bent = [](const Point &p)
+      {
+        const double distance = (p[0] + 0.3 * p[1] - 0.0713) / std::hypot(1, 0.3);
+        return (distance < 0 ? 1 : 0.2) * distance;
+      };
+      const FrontState state = initial_front(mesh, bent, reach * mesh.spacing);
+      EXPECT_NEAR(Front(mesh, state.level_set).area(Phase::solid), 2 * 1.0713, 1e-9);
+    }
+
+    TEST(FrontMove, FindsAFrontThatNewtonsMethodMisses)
+    {
+      // Two circles that nearly touch: between them the level set has a ridge.
+      const TriangleMesh mesh(square().domain, 24);
+      const auto disks = [](const Point &p) {
+        return std::min(p.distance({-0.43, 0.01}), p.distance({0.4, 0.03})) - 0.37;
+      };
+      const StepFrame frame(mesh, nodal(mesh, disks), 1);
+      const Front target(mesh,
+                         nodal(mesh, [&](const Point &p) { return disks(p) - 0.06; }));
+      Values change(mesh.nodes.size());
+      for(std::size_t node = 0; node < change.size(); ++node)
+        change[node] = target.solid_area[node] - frame.front.solid_area[node];
+      FrontMove move(mesh, frame, change, Values(mesh.nodes.size()));
+      double first = 0, last = 0;
+      for(const double value : move.debt)
+        first = std::max(first, std::abs(value));
+      for(int i = 0; i < 20; ++i)
+      {
+        std::vector<Eigen::Triplet<double>> entries;
+        LocalVector load = LocalVector::Zero(frame.unknowns);
+        for(const std::vector<int> &unknown : frame.temperature)
+          for(const int row : unknown)
+            if(row >= 0)
+              entries.emplace_back(row, row, 1.);
+        add_area_law(frame, *move.front, change, move.increment, entries, load);
+        move.make(solve(frame.unknowns, entries, load), change);
+      }
+      for(const double value : move.debt)
+        last = std::max(last, std::abs(value));
+      EXPECT_LE(last, 1e-10 * first);
+      EXPECT_NEAR(sum(move.front->solid_area), sum(target.solid_area), 1e-9);
     }
 
     TEST(FrontLaw, DerivativeOfTheArea)
