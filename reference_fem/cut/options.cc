@@ -4,11 +4,12 @@ namespace meltfront::reference_fem::cut
 {
   void RunOptions::bind(cases::OptionBinder &options)
   {
-    options.add("scheme", scheme,
-                "Extension: BDF2, elements of any degree, refined meshes, seeds about "
-                "sinks. Conservative: heat balanced by construction, linear triangles; "
-                "knows passes, cfl, fewest_steps, penalty and ghost_penalty.",
-                cases::in_order<Scheme>({"extension", "conservative"}));
+    options.add(
+        "scheme", scheme,
+        "Extension: BDF2, elements of any degree, refined meshes. Conservative: heat "
+        "balanced by construction, linear triangles; knows passes, cfl, "
+        "fewest_steps, seed_cells, penalty and ghost_penalty.",
+        cases::in_order<Scheme>({"extension", "conservative"}));
     options.add(
         "passes", passes,
         "Solves per stage of the conservative scheme, at most, each for temperatures "
