@@ -2,6 +2,7 @@
 
 #include <cases/demand.h>
 #include <cases/scene.h>
+#include <reference_fem/cut/conservative/conservative_run.h>
 #include <reference_fem/cut/options.h>
 #include <reference_fem/cut/run.h>
 
@@ -66,6 +67,10 @@ namespace meltfront::reference_fem
       set_up(const cases::Scene &scene, const cases::EffectSet &effects,
              const cases::Resolution &resolution) const override
       {
+        const auto options = cases::read_options(cut::RunOptions(), resolution.options);
+        if(options.scheme == cut::Scheme::conservative)
+          return std::make_unique<cut::conservative::ConservativeRun>(scene, effects,
+                                                                      resolution);
         return std::make_unique<cut::CutRun>(scene, effects, resolution);
       }
     };

@@ -4,6 +4,17 @@ namespace meltfront::reference_fem::cut
 {
   void RunOptions::bind(cases::OptionBinder &options)
   {
+    options.add(
+        "scheme", scheme,
+        "Extension: BDF2, elements of any degree, refined meshes. Conservative: heat "
+        "balanced by construction, linear triangles; knows passes, cfl, "
+        "fewest_steps, seed_cells, penalty and ghost_penalty.",
+        cases::in_order<Scheme>({"extension", "conservative"}));
+    options.add(
+        "passes", passes,
+        "Solves per stage of the conservative scheme, at most, each for temperatures "
+        "and front together; they end when the front rests.",
+        2, 50);
     options.add("degree", degree, "Degree of the temperature's elements.", 1, 2);
     options.add("level_set_degree", level_set_degree,
                 "Degree of the level set's elements.", 1, 2);

@@ -14,11 +14,20 @@ namespace meltfront::reference_fem::cut
    * = 12, 20, 32, of shorter ones up to 0.034 at n = 20. */
   inline constexpr cases::Overshoot overshoot{0.04, 1.5};
 
+  /** How heat and front are carried through time. */
+  enum class Scheme
+  {
+    extension,   ///< BDF2 on phases that reach beyond the front
+    conservative ///< the heat of each hat function and the solid's area, SDIRK
+  };
+
   /** The options of `fem-cut`. */
   struct RunOptions
   {
     void bind(cases::OptionBinder &options);
 
+    Scheme scheme = Scheme::extension;
+    int passes = 12;
     int degree = 1, level_set_degree = 2;
     int refinement = 0;
     BandWidths widths;

@@ -40,10 +40,13 @@ namespace meltfront::verification::claims
     {
       const cases::Method *method;
       cases::Capabilities capabilities;
+      std::string scheme{}; ///< value of the option `scheme`; empty: as it stands
 
       Outcome run(Trial trial) const
       {
         adapt(method->name(), capabilities.form, trial);
+        if(!scheme.empty())
+          trial.options.emplace_back("scheme", scheme);
         Outcome outcome = claims::run(*method, trial);
         if(capabilities.form == "along a line" || solves_in_more_dimensions())
         {
@@ -103,8 +106,11 @@ namespace meltfront::verification::claims
 
       std::string name() const
       {
-        return capabilities.form.empty() ? method->name()
-                                         : method->name() + " " + capabilities.form;
+        std::string result = method->name();
+        for(const std::string &part : {capabilities.form, scheme})
+          if(!part.empty())
+            result += " " + part;
+        return result;
       }
     };
 
@@ -113,7 +119,11 @@ namespace meltfront::verification::claims
       std::vector<Form> result;
       for(const auto &method : methods())
         for(const cases::Capabilities &capabilities : method->capabilities())
+        {
           result.push_back({method.get(), capabilities});
+          if(method->name() == "fem-cut")
+            result.push_back({method.get(), capabilities, "conservative"});
+        }
       return result;
     }
 

@@ -1,0 +1,219 @@
+#include <reference_fem/cut/conservative/conservative_run.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::reference_fem::cut::conservative
+{
+  cases::RunDescription ConservativeRun::describe() const
+  {
+    cases::RunDescription result;
+    result.dimension = dim;
+    result.spacing = mesh.spacing;
+    result.time_step
+        = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
+    result.unknowns = unknowns;
+    result.parameters = {
+        {"scheme", "conservative: the state is the heat of each hat function", ""},
+        {"elements", "linear triangles, each phase on those that it cuts", ""},
+        {"mesh", fmt::format("{} squares cut in two", mesh.squares.size()), ""},
+        {"front",
+         "linear level set, area law in the same hats, Nitsche's condition, ghost "
+         "penalty",
+         ""},
+        {"start", start_in_words, ""},
+        {"time scheme", "SDIRK of two stages, order 2, L-stable, for heat and front", ""},
+        {"cells crossed in a step, at most", fmt::format("{:g}", options.cfl), "1"},
+        {"longest time step", fmt::format("{:.6g}", result.time_step), "s"},
+        {"passes per stage, at most", fmt::format("{}", options.passes), "1"},
+        {"linear solver", "sparse LU (UMFPACK)", ""}};
+    return result;
+  }
+
+  cases::Cost ConservativeRun::cost() const
+  {
+    cases::Cost cost;
+    cost.steps = step_number;
+    cost.unknowns = most_unknowns;
+    cost.work = entries;
+    cost.solver_iterations = solves;
+    cost.most_iterations = most_solves;
+    cost.capped_steps = capped_steps;
+    cost.evidence
+        = {{"steps halved", double(halved_steps)},
+           {"steps whose front's move was cut to one cell", double(capped_steps)},
+           {"stages whose passes did not settle", double(unsettled_stages)},
+           {"small bodies booked as the other phase", double(turned_bodies)},
+           {"largest area by which the front was behind its heat, of the domain",
+            largest_debt / domain_area()}};
+    cost.effects = effect_costs();
+    return cost;
+  }
+
+  double ConservativeRun::domain_area() const
+  {
+    const Front front(mesh, state.level_set);
+    return front.area(Phase::solid) + front.area(Phase::liquid);
+  }
+
+  double ConservativeRun::stored_heat() const
+  {
+    return sum(state.heat[0]) + sum(state.heat[1]);
+  }
+
+  /** Of the liquid, less what the front has taken up but not yet made solid of: what the
+   * last pass leaves over is freezing that is due. */
+  double ConservativeRun::latent_heat() const
+  {
+    return latent_heat_of_volume()
+           * (Front(mesh, state.level_set).area(Phase::liquid) - sum(state.debt));
+  }
+
+  /** A point of the domain's own outline for one of the polygon's that lies beyond it. */
+  Point ConservativeRun::in_domain(const Point &point) const
+  {
+    const double radius = point.norm();
+    if(!scene.domain.round() || !(radius > 0))
+      return point;
+    return Point(std::clamp(radius, scene.domain.inner_radius, scene.domain.radius)
+                 / radius * point);
+  }
+
+  Phase ConservativeRun::phase_at(unsigned int triangle, const Point &point) const
+  {
+    return mesh.triangles[triangle].value(state.level_set, point) < 0 ? Phase::solid
+                                                                      : Phase::liquid;
+  }
+
+  void ConservativeRun::add_site(unsigned int triangle, const Point &point, double weight,
+                                 Phase phase)
+  {
+    const Point place = in_domain(point);
+    for(int d = 0; d < dim; ++d)
+      site_positions[d].push_back(place[d]);
+    weights.push_back(weight);
+    site_temperatures.push_back(
+        scene.material.melting_temperature
+        + assembly.temperature(phase, triangle, place, temperatures, powers));
+    solid_fractions.push_back(phase == Phase::solid ? 1 : 0);
+  }
+
+  void ConservativeRun::collect_sites()
+  {
+    const Front front(mesh, state.level_set);
+    for(int d = 0; d < dim; ++d)
+    {
+      site_positions[d].clear();
+      front_positions[d].clear();
+    }
+    weights.clear();
+    site_temperatures.clear();
+    solid_fractions.clear();
+    site_cells.clear();
+    for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
+      for(const Phase phase : phases)
+        integrate(front.part(t, phase), [&](const Point &point, double weight)
+                  { add_site(t, point, weight, phase); });
+    constexpr unsigned int none = static_cast<unsigned int>(-1);
+    std::vector<unsigned int> site_of_node(mesh.nodes.size(), none);
+    for(unsigned int s = 0; s < mesh.squares.size(); ++s)
+    {
+      if(mesh.triangles[2 * s].part.empty() && mesh.triangles[2 * s + 1].part.empty())
+        continue;
+      for(const unsigned int node : mesh.squares[s])
+      {
+        if(site_of_node[node] == none)
+        {
+          site_of_node[node] = static_cast<unsigned int>(weights.size());
+          const unsigned int t = mesh.triangle_at(in_domain(mesh.nodes[node]));
+          add_site(t, mesh.nodes[node], 0, phase_at(t, in_domain(mesh.nodes[node])));
+        }
+        site_cells.push_back(site_of_node[node]);
+      }
+    }
+    for(const CutTriangle &cut : front.cut)
+      if(cut.crossed)
+        integrate(cut.segment,
+                  [&](const Point &point, double)
+                  {
+                    for(int d = 0; d < dim; ++d)
+                      front_positions[d].push_back(point[d]);
+                  });
+  }
+
+  cases::Snapshot ConservativeRun::snapshot(long step, double at)
+  {
+    collect_sites();
+    cases::Snapshot snapshot;
+    snapshot.step = step;
+    snapshot.time = at;
+    snapshot.dimension = dim;
+    for(int d = 0; d < dim; ++d)
+    {
+      snapshot.positions[d] = site_positions[d];
+      snapshot.front[d] = front_positions[d];
+    }
+    snapshot.weights = weights;
+    snapshot.temperature = site_temperatures;
+    snapshot.solid_fraction = solid_fractions;
+    snapshot.cells = site_cells;
+    snapshot.obeys_maximum_principle = false;
+    snapshot.heat
+        = {stored_heat(), latent_heat(), boundary_heat, source_heat, initial_heat};
+    return snapshot;
+  }
+
+  std::vector<cases::EffectCost> ConservativeRun::effect_costs() const
+  {
+    using cases::BoundaryKind, cases::Effect;
+    const auto of_wall = [&](Effect effect, BoundaryKind kind)
+    {
+      const auto pieces
+          = std::ranges::count_if(mesh.walls, [&](const WallPiece &wall)
+                                  { return scene.boundary(wall.side).kind == kind; });
+      return assembly.meters.walls[static_cast<std::size_t>(kind)].cost(
+          effect, static_cast<std::size_t>(pieces) * sizeof(WallPiece));
+    };
+    std::vector<cases::EffectCost> result;
+    for(const cases::EffectDecision &decision : effects.decisions())
+    {
+      if(!decision.on)
+        continue;
+      switch(decision.effect)
+      {
+      case Effect::phase_change:
+        result.push_back(assembly.meters.front.cost(
+            decision.effect,
+            (state.level_set.size() + state.debt.size()) * sizeof(double)));
+        break;
+      case Effect::heat_sources:
+        result.push_back(assembly.meters.sources.cost(
+            decision.effect, sources.places.size() * sizeof(Point)));
+        break;
+      case Effect::volumetric_source:
+        result.push_back(
+            assembly.meters.released.cost(decision.effect, assembly.released_bytes()));
+        break;
+      case Effect::wall_temperature:
+        result.push_back(of_wall(decision.effect, BoundaryKind::fixed_temperature));
+        break;
+      case Effect::wall_flux:
+        result.push_back(of_wall(decision.effect, BoundaryKind::flux));
+        break;
+      case Effect::robin_wall:
+        result.push_back(of_wall(decision.effect, BoundaryKind::heat_transfer));
+        break;
+      case Effect::radiating_wall:
+        result.push_back(of_wall(decision.effect, BoundaryKind::radiation));
+        break;
+      default:
+        // Two conductivities or capacities in place of one are other numbers in the same
+        // matrices, with no time of their own.
+        result.push_back({decision.effect, solves, 0, 0});
+      }
+    }
+    return result;
+  }
+} // namespace meltfront::reference_fem::cut::conservative

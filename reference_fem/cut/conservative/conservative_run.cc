@@ -1,0 +1,291 @@
+#include <reference_fem/cut/conservative/conservative_run.h>
+
+#include <cases/error.h>
+#include <cases/time_integral.h>
+#include <reference_fem/cut/run.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace meltfront::reference_fem::cut::conservative
+{
+  namespace
+  {
+    /** Of the two-stage, L-stable method of order 2 (Alexander 1977). */
+    constexpr double gamma = 1 - 1 / std::numbers::sqrt2;
+
+    /** Of the longest step: the first one, before the front's speed is known. */
+    constexpr double first_step_share = 1. / 8;
+    constexpr double largest_growth = 2;
+
+    /** A step that moves the front by more spacings is halved, so many times. */
+    constexpr double farthest_move = 0.9;
+    constexpr int most_halvings = 8;
+
+    /** Squares of the spacing: a smaller body is turned into the other phase. Its latent
+     * heat goes to the hats about it, which are forty times as large or more: what that
+     * undercools or superheats them by is what elements of this size overshoot by anyway.
+     */
+    constexpr double least_area = 0.1;
+
+    /** Of the run: shorter steps are not made. */
+    constexpr double shortest_step = 1e-8;
+
+    RunOptions checked(const RunOptions &options)
+    {
+      if(options.degree != 1)
+        throw cases::Refusal("fem-cut: scheme = conservative has linear elements: degree "
+                             "= 1 would be right");
+      if(options.refinement != 0)
+        throw cases::Refusal("fem-cut: scheme = conservative runs on a uniform mesh: "
+                             "refinement = 0 would be right");
+      const RunOptions standing;
+      const std::pair<const char *, bool> unknown[]{
+          {"level_set_degree", options.level_set_degree != standing.level_set_degree},
+          {"solves", options.solves != standing.solves},
+          {"speed_smoothing", options.speed_smoothing != standing.speed_smoothing}};
+      for(const auto &[name, given] : unknown)
+        if(given)
+          throw cases::Refusal(fmt::format(
+              "fem-cut: the option {} is not one of scheme = conservative", name));
+      return options;
+    }
+  } // namespace
+
+  /** Both stages of a step. */
+  struct ConservativeRun::Step
+  {
+    StageResult first, second;
+    std::vector<double> powers;
+    int unknowns = 0;
+  };
+
+  ConservativeRun::ConservativeRun(const cases::Scene &scene,
+                                   const cases::EffectSet &effects,
+                                   const cases::Resolution &resolution)
+    : scene(scene)
+    , effects(effects)
+    , options(checked(cases::read_options(RunOptions(), resolution.options)))
+    , mesh(scene.domain, resolution.n)
+    , sources(scene, 1e-3 * mesh.spacing)
+    , assembly(scene, mesh, sources,
+               {options.stabilisation.penalty, options.stabilisation.ghost})
+    , bounds(cases::temperature_bounds(scene))
+    , breakpoints(cases::breakpoints_of(scene))
+    , time(scene.start_time)
+  {
+    start();
+  }
+
+  double ConservativeRun::latent_heat_of_volume() const
+  {
+    return scene.material.solid.density * scene.material.latent_heat;
+  }
+
+  void ConservativeRun::take_steps()
+  {
+    if(step_number > 0)
+      report_uniform_start();
+    reached(step_number, time);
+    while(time < scene.end_time)
+    {
+      step();
+      reached(step_number, time);
+    }
+  }
+
+  double ConservativeRun::next_step() const
+  {
+    const double whole = scene.end_time - scene.start_time;
+    const double longest = whole / static_cast<double>(options.fewest_steps);
+    double step = last_step > 0 ? std::min(longest, largest_growth * last_step)
+                                : first_step_share * longest;
+    if(front_speed > 0)
+      step = std::min(step, options.cfl * mesh.spacing / front_speed);
+    if(!(step > shortest_step * whole))
+      throw cases::NumericalError(
+          method_name, step_number + 1, time, "front",
+          fmt::format("moves at {:.3g} m/s, for which steps would be shorter than {:g} "
+                      "of the run",
+                      front_speed, shortest_step));
+    const double rest = cases::end_of_piece(breakpoints, time, scene.end_time) - time;
+    if(step >= rest * (1 - 1e-10))
+      return rest;
+    return step > rest / 2 ? rest / 2 : step;
+  }
+
+  /** @return false if the front would move too far */
+  bool ConservativeRun::attempt(double duration, double end, Step &step)
+  {
+    const StepFrame frame(mesh, state.level_set, Constants().smoothing);
+    step.unknowns = frame.unknowns;
+    most_unknowns = std::max(most_unknowns, long(frame.unknowns));
+    const std::size_t nodes = mesh.nodes.size();
+    StageData data{
+        {time, time + gamma * duration, sources.powers(time + gamma * duration)},
+        gamma * duration,
+        state.heat,
+        state.debt,
+        increment,
+        temperatures};
+    for(double &value : data.increment)
+      value *= last_step > 0 ? gamma * duration / last_step : 0;
+    step.first = solve_stage(assembly, scene, mesh, frame, data, options.passes);
+
+    data.time
+        = {time, end, sources.remaining_powers(data.time.powers, 1 - gamma, time, end)};
+    step.powers = data.time.powers;
+    const double per_area = (1 - gamma) * duration / latent_heat_of_volume();
+    for(std::size_t node = 0; node < nodes; ++node)
+    {
+      for(std::size_t p = 0; p < 2; ++p)
+        data.heat[p][node]
+            += (1 - gamma) / gamma * (step.first.heat[p][node] - state.heat[p][node]);
+      data.change[node] += per_area * step.first.flux[node];
+      data.increment[node] = step.first.increment[node] / gamma;
+    }
+    data.guess = step.first.temperatures;
+    step.second = solve_stage(assembly, scene, mesh, frame, data, options.passes);
+    solves += step.first.solves + step.second.solves;
+    most_solves = std::max(most_solves, step.first.solves + step.second.solves);
+    entries += step.first.entries + step.second.entries;
+    double farthest = 0;
+    for(const CutTriangle &cut : frame.front.cut)
+      for(const unsigned int node : cut.place->nodes)
+        farthest = std::max(farthest, std::abs(step.second.increment[node]));
+    front_speed = farthest / duration;
+    return farthest <= farthest_move * mesh.spacing && !step.first.limited
+           && !step.second.limited;
+  }
+
+  void ConservativeRun::step()
+  {
+    double duration = next_step();
+    const double stop = cases::end_of_piece(breakpoints, time, scene.end_time);
+    const auto end = [&] { return duration == stop - time ? stop : time + duration; };
+    Step step;
+    for(int halvings = 0;; ++halvings)
+    {
+      const bool last_chance = halvings == most_halvings;
+      try
+      {
+        if(attempt(duration, end(), step))
+          break;
+        if(last_chance)
+        {
+          ++capped_steps;
+          break;
+        }
+      }
+      catch(const cases::Refusal &)
+      {
+        throw;
+      }
+      catch(const std::runtime_error &error)
+      {
+        if(last_chance)
+          throw cases::NumericalError(
+              method_name, step_number + 1, time + duration, "temperature",
+              fmt::format("cannot be solved for: {}", error.what()));
+      }
+      duration /= 2;
+      ++halved_steps;
+    }
+    accept(step, duration, end());
+  }
+
+  void ConservativeRun::accept(Step &step, double duration, double end)
+  {
+    const double first = (1 - gamma) * duration, second = gamma * duration;
+    unsettled_stages += !step.first.settled + !step.second.settled;
+    boundary_heat += first * step.first.wall_power + second * step.second.wall_power;
+    source_heat += first * (step.first.released_power + step.first.source_power)
+                   + second * (step.second.released_power + step.second.source_power);
+    state.heat = std::move(step.second.heat);
+    state.debt = std::move(step.second.debt);
+    temperatures = std::move(step.second.temperatures);
+    increment = std::move(step.second.increment);
+    powers = std::move(step.powers);
+    last_step = duration;
+    time = end;
+    ++step_number;
+    state.level_set = std::move(step.second.level_set);
+    turn_small_bodies();
+    state.level_set = with_distances(mesh, Front(mesh, state.level_set), state.level_set,
+                                     reach_of_distance * mesh.spacing);
+    settle_hats();
+    check();
+  }
+
+  void ConservativeRun::turn_small_bodies()
+  {
+    const Front front(mesh, state.level_set);
+    for(const Body &body : bodies(mesh, front, state.level_set))
+    {
+      if(!(body.area < least_area * mesh.spacing * mesh.spacing))
+        continue;
+      turn(mesh, front, body, latent_heat_of_volume(), state);
+      ++turned_bodies;
+      note(time, fmt::format("a body of {} of {:.3g} m^2 was booked as {}",
+                             body.phase == Phase::solid ? "solid" : "liquid", body.area,
+                             body.phase == Phase::solid ? "liquid" : "solid"));
+    }
+  }
+
+  /** What is left at hats that a phase or the front has gone from, as where a thin layer
+   * vanishes at once: heat of a phase that is no longer near goes to the other's in the
+   * same hat, debt of the front to the heat of the phase that is there. */
+  void ConservativeRun::settle_hats()
+  {
+    largest_debt = std::max(largest_debt, std::abs(sum(state.debt)));
+    const StepFrame frame(mesh, state.level_set, Constants().smoothing);
+    for(std::size_t node = 0; node < state.debt.size(); ++node)
+    {
+      const Phase here = state.level_set[node] < 0 ? Phase::solid : Phase::liquid,
+                  other = here == Phase::solid ? Phase::liquid : Phase::solid;
+      double &heat = state.heat[index(here)][node];
+      if(frame.temperature[index(other)][node] < 0)
+        heat += std::exchange(state.heat[index(other)][node], 0);
+      if(frame.displacement[node] < 0)
+        heat -= latent_heat_of_volume() * std::exchange(state.debt[node], 0);
+    }
+  }
+
+  void ConservativeRun::check() const
+  {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
+      if(mesh.triangles[t].whole && !mesh.triangles[t].part.empty())
+        for(const unsigned int node : mesh.triangles[t].nodes)
+        {
+          const Phase phase = state.level_set[node] < 0 ? Phase::solid : Phase::liquid;
+          const double value
+              = scene.material.melting_temperature
+                + assembly.temperature(phase, t, mesh.nodes[node], temperatures, powers);
+          // A comparison passes over what is not a number.
+          if(!std::isfinite(value))
+            lowest = highest = value;
+          lowest = std::min(lowest, value);
+          highest = std::max(highest, value);
+        }
+    cases::require_sinks(scene, time, method_name);
+    cases::check_temperature(
+        bounds, lowest, highest, method_name, step_number, time,
+        cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain));
+    for(const Point &place : sources.places)
+    {
+      const Triangle &triangle = mesh.triangles[mesh.triangle_at(place)];
+      if(!(triangle.value(state.level_set, place) <= -mesh.spacing))
+        throw cases::Refusal(fmt::format(
+            "fem-cut: the source at ({:.6g}, {:.6g}) does not lie in the solid, at least "
+            "a cell from the front, at time {:.6g}",
+            place[0], place[1], time));
+    }
+  }
+} // namespace meltfront::reference_fem::cut::conservative

@@ -1,0 +1,91 @@
+#ifndef meltfront_reference_fem_cut_conservative_conservative_run_h
+#define meltfront_reference_fem_cut_conservative_conservative_run_h
+
+#include <cases/run.h>
+#include <cases/scene.h>
+#include <reference_fem/cut/conservative/bodies.h>
+#include <reference_fem/cut/conservative/stage.h>
+#include <reference_fem/cut/options.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace meltfront::reference_fem::cut::conservative
+{
+  /** Spacings from the front up to which the level set is a distance. */
+  inline constexpr double reach_of_distance = 6;
+
+  /** A run of `fem-cut` with `scheme = conservative`: start, steps, events, snapshots. */
+  class ConservativeRun : public cases::Run
+  {
+  public:
+    /** @throws cases::Refusal for options and starts that the scheme does not know */
+    ConservativeRun(const cases::Scene &scene, const cases::EffectSet &effects,
+                    const cases::Resolution &resolution);
+
+    // In conservative_report.cc:
+    cases::RunDescription describe() const override;
+    cases::Cost cost() const override;
+
+  private:
+    void take_steps() override;
+    cases::Snapshot snapshot(long step, double time) override;
+
+    // In conservative_start.cc:
+    void start();
+    void initial_temperatures(
+        const StepFrame &frame,
+        const std::function<double(const cases::Position &)> &temperature);
+    void require_resolved(const Front &front) const;
+    void report_uniform_start();
+
+    void step();
+    double next_step() const;
+    struct Step;
+    bool attempt(double duration, double end, Step &step);
+    void accept(Step &step, double duration, double end);
+    void turn_small_bodies();
+    void settle_hats();
+    void check() const;
+    double latent_heat_of_volume() const;
+    double domain_area() const;
+    double stored_heat() const;
+    double latent_heat() const;
+    Point in_domain(const Point &point) const;
+    Phase phase_at(unsigned int triangle, const Point &point) const;
+    void add_site(unsigned int triangle, const Point &point, double weight, Phase phase);
+    void collect_sites();
+    std::vector<cases::EffectCost> effect_costs() const;
+
+    const cases::Scene &scene;
+    const cases::EffectSet &effects;
+    const RunOptions options;
+    const TriangleMesh mesh;
+    const LineSources sources;
+    PhaseAssembly assembly;
+    const cases::TemperatureBounds bounds;
+    const std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
+    std::string start_in_words;
+
+    double time = 0;
+    FrontState state;
+    Temperatures temperatures;
+    std::vector<double> powers; ///< of line sources at the state
+    Values increment;           ///< of the level set in the last step (m)
+    double last_step = 0, front_speed = 0;
+    double boundary_heat = 0, source_heat = 0, initial_heat = 0;
+    long step_number = 0, halved_steps = 0, capped_steps = 0, turned_bodies = 0;
+    long solves = 0, most_solves = 0, unsettled_stages = 0, unknowns = 0,
+         most_unknowns = 0, entries = 0;
+    double largest_debt = 0; ///< of the solid's area (m^2)
+
+    std::array<std::vector<double>, dim> site_positions, front_positions;
+    std::vector<double> weights, site_temperatures, solid_fractions;
+    std::vector<unsigned int> site_cells;
+  };
+} // namespace meltfront::reference_fem::cut::conservative
+
+#endif

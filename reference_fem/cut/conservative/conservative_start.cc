@@ -1,0 +1,145 @@
+#include <reference_fem/cut/conservative/conservative_run.h>
+
+#include <cases/error.h>
+#include <cases/exact/front_start.h>
+#include <reference_fem/cut/conservative/initial_front.h>
+#include <reference_fem/cut/run.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace meltfront::reference_fem::cut::conservative
+{
+  namespace
+  {
+    /** Spacings: what there is of a phase at the start is resolved if it is 2.5 deep;
+     * some node is then deeper than this. */
+    constexpr double least_depth = 2.5,
+                     least_depth_of_node = 2.5 - 1 / std::numbers::sqrt2;
+
+    /** Of the time in which temperatures even out across a spacing. */
+    constexpr double share_of_projection = 0.04;
+  } // namespace
+
+  void ConservativeRun::start()
+  {
+    const double seed = options.seed_cells * mesh.spacing;
+    cases::SeedRule rule{method_name, "cells", seed, seed};
+    for(const cases::Side side : scene.sides())
+      if(scene.boundary(side).exact)
+        rule.exempt_walls.push_back(side);
+    const cases::FrontStart found = cases::find_front_start(scene, rule);
+    time = found.time;
+    step_number = time > scene.start_time ? 1 : 0;
+    start_in_words = found.description;
+    try
+    {
+      state = initial_front(
+          mesh, [&](const Point &point) { return found.level_set(position(point)); },
+          reach_of_distance * mesh.spacing);
+    }
+    catch(const std::runtime_error &error)
+    {
+      throw cases::Refusal(fmt::format("fem-cut does not resolve the front at the start "
+                                       "with cells of {:.3g} m: {}",
+                                       mesh.spacing, error.what()));
+    }
+    increment.assign(mesh.nodes.size(), 0);
+    powers = sources.powers(time);
+    const StepFrame frame(mesh, state.level_set, 1);
+    require_resolved(frame.front);
+    for(const Phase phase : phases)
+    {
+      const double capacity = assembly.properties(phase).volumetric_heat_capacity();
+      for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
+        integrate(frame.front.part(t, phase),
+                  [&](const Point &point, double weight)
+                  {
+                    const double heat = capacity * weight
+                                        * (found.temperature(position(sources.off(point)))
+                                           - scene.material.melting_temperature);
+                    for(int i = 0; i < 3; ++i)
+                      state.heat[index(phase)]
+                                [mesh.triangles[t].nodes[static_cast<std::size_t>(i)]]
+                          += heat * mesh.triangles[t].hat(i, point);
+                  });
+    }
+    initial_temperatures(frame, found.temperature);
+    unknowns = most_unknowns = frame.unknowns;
+    initial_heat = stored_heat() + latent_heat();
+    check();
+  }
+
+  /** Of the scene at nodes of each phase; those beyond its front, and where a source is,
+   * follow from its heat. */
+  void ConservativeRun::initial_temperatures(
+      const StepFrame &frame,
+      const std::function<double(const cases::Position &)> &temperature)
+  {
+    const double fastest = std::max(scene.material.solid.diffusivity(),
+                                    scene.material.liquid.diffusivity());
+    temperatures = temperatures_of(
+        assembly, frame, {time, time, powers},
+        share_of_projection * mesh.spacing * mesh.spacing / fastest, state.heat);
+    for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
+      for(const unsigned int node : mesh.triangles[t].nodes)
+      {
+        if(!mesh.triangles[t].whole || mesh.triangles[t].part.empty())
+          continue;
+        const Phase phase = state.level_set[node] < 0 ? Phase::solid : Phase::liquid;
+        double value = temperature(position(sources.off(mesh.nodes[node])))
+                       - scene.material.melting_temperature;
+        if(phase == Phase::solid && !powers.empty())
+          value -= sources.value(mesh.nodes[node], powers);
+        if(std::isfinite(value))
+          temperatures[index(phase)][node] = value;
+      }
+  }
+
+  void ConservativeRun::require_resolved(const Front &front) const
+  {
+    std::array<double, 2> depth{};
+    for(std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      if(front.location[t] != Location::outside)
+        for(const unsigned int node : mesh.triangles[t].nodes)
+        {
+          double &deepest = depth[state.level_set[node] < 0 ? 0 : 1];
+          deepest = std::max(deepest, std::abs(state.level_set[node]));
+        }
+    if(!(std::min(depth[0], depth[1]) >= least_depth_of_node * mesh.spacing))
+      throw cases::Refusal(fmt::format(
+          "fem-cut does not resolve the front at the start: solid is {:.3g} m deep and "
+          "liquid {:.3g} m at a node, with cells of {:.3g} m; {} cells are needed",
+          depth[0], depth[1], mesh.spacing, least_depth));
+  }
+
+  /** The scene's own initial state, of a run that sets out from fronts seeded later. */
+  void ConservativeRun::report_uniform_start()
+  {
+    const Values nothing(mesh.nodes.size());
+    FrontState uniform{Values(mesh.nodes.size(), reach_of_distance * mesh.spacing),
+                       {nothing, nothing},
+                       nothing};
+    const double above = scene.initial.temperature({}, scene.start_time)
+                         - scene.material.melting_temperature;
+    const double capacity = scene.material.liquid.volumetric_heat_capacity();
+    const Front front(mesh, uniform.level_set);
+    for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
+      for(const unsigned int node : mesh.triangles[t].nodes)
+        uniform.heat[index(Phase::liquid)][node]
+            += capacity * above * front.part(t, Phase::liquid).area() / 3;
+    std::swap(state, uniform);
+    Temperatures of_liquid{nothing, Values(mesh.nodes.size(), above)};
+    std::swap(temperatures, of_liquid);
+    initial_heat = stored_heat() + latent_heat();
+    reached(0, scene.start_time);
+    std::swap(state, uniform);
+    std::swap(temperatures, of_liquid);
+    for(const cases::PointSource &source : scene.sources)
+      source_heat += source.energy(time) - source.energy(scene.start_time);
+  }
+} // namespace meltfront::reference_fem::cut::conservative

@@ -1,0 +1,121 @@
+#include <reference_fem/cut/conservative/front_law.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace meltfront::reference_fem::cut::conservative
+{
+  namespace
+  {
+    /** Minus the derivative of the solid's area by the level set. */
+    void add_area(const StepFrame &frame, const CutTriangle &cut,
+                  std::vector<Eigen::Triplet<double>> &entries)
+    {
+      const Triangle &triangle = *cut.place;
+      for(const unsigned int node : triangle.nodes)
+        if(frame.displacement[node] < 0)
+          throw std::runtime_error("the front has left the band in which it moves");
+      const double slope = cut.level_set.gradient.norm();
+      integrate(cut.segment,
+                [&](const Point &point, double weight)
+                {
+                  for(std::size_t i = 0; i < 3; ++i)
+                    for(std::size_t j = 0; j < 3; ++j)
+                      entries.emplace_back(
+                          frame.displacement[triangle.nodes[i]],
+                          frame.displacement[triangle.nodes[j]],
+                          weight / slope * triangle.hat(static_cast<int>(i), point)
+                              * triangle.hat(static_cast<int>(j), point));
+                });
+    }
+  } // namespace
+
+  void add_area_law(const StepFrame &frame, const Front &front, const Values &change,
+                    const Values &increment, std::vector<Eigen::Triplet<double>> &entries,
+                    LocalVector &load)
+  {
+    for(const CutTriangle &cut : front.cut)
+      if(cut.crossed)
+        add_area(frame, cut, entries);
+    append(frame.smoothing, 1, frame.displacement, entries);
+    const Values off = debt(frame, front, change, increment);
+    for(std::size_t node = 0; node < off.size(); ++node)
+      if(const int row = frame.displacement[node]; row >= 0)
+        load[row] -= off[node];
+  }
+
+  Values debt(const StepFrame &frame, const Front &front, const Values &change,
+              const Values &increment)
+  {
+    Values owed = frame.smoothing.apply(frame.as_unknowns(increment));
+    for(std::size_t node = 0; node < owed.size(); ++node)
+      owed[node]
+          += change[node] - (front.solid_area[node] - frame.front.solid_area[node]);
+    return owed;
+  }
+
+  FrontMove::FrontMove(const TriangleMesh &mesh, const StepFrame &frame,
+                       const Values &change, const Values &increment)
+    : largest(mesh.spacing)
+    , mesh(mesh)
+    , frame(frame)
+  {
+    go_to(increment, change);
+  }
+
+  void FrontMove::go_to(const Values &to, const Values &change)
+  {
+    increment = to;
+    front.emplace(mesh, frame.moved(increment, mesh.spacing));
+    debt = conservative::debt(frame, *front, change, increment);
+  }
+
+  double FrontMove::largest_at_front(const LocalVector &solution) const
+  {
+    double result = 0;
+    for(const CutTriangle &cut : front->cut)
+      for(const unsigned int node : cut.place->nodes)
+        if(const int unknown = frame.displacement[node]; unknown >= 0)
+          result = std::max(result, std::abs(solution[unknown]));
+    return result;
+  }
+
+  void FrontMove::make(const LocalVector &solution, const Values &change)
+  {
+    /** Of what the function falls by at the begin. */
+    constexpr double steepest_rise = 0.5;
+    constexpr int most_halvings = 6;
+    constexpr double negligible = 1e-9; ///< spacings: round-off tells the slope
+    const Values begin = increment;
+    double longest = 0;
+    for(const int unknown : frame.displacement)
+      if(unknown >= 0)
+        longest = std::max(longest, std::abs(solution[unknown]));
+    largest = largest_at_front(solution);
+    limited = limited || longest > mesh.spacing;
+    const auto slope = [&]
+    {
+      double sum = 0;
+      for(std::size_t node = 0; node < debt.size(); ++node)
+        if(const int unknown = frame.displacement[node]; unknown >= 0)
+          sum += debt[node] * solution[unknown];
+      return sum;
+    };
+    debt = conservative::debt(frame, *front, change, begin);
+    const double fall = std::abs(slope());
+    double share = std::min(1., mesh.spacing / longest);
+    for(int halvings = 0;; ++halvings)
+    {
+      Values next = begin;
+      for(std::size_t node = 0; node < next.size(); ++node)
+        if(const int unknown = frame.displacement[node]; unknown >= 0)
+          next[node] += share * solution[unknown];
+      go_to(next, change);
+      if(halvings == most_halvings || longest < negligible * mesh.spacing
+         || slope() <= steepest_rise * fall)
+        return;
+      share /= 2;
+    }
+  }
+} // namespace meltfront::reference_fem::cut::conservative

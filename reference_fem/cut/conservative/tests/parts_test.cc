@@ -1,0 +1,241 @@
+#include <reference_fem/cut/conservative/front_law.h>
+#include <reference_fem/cut/conservative/initial_front.h>
+#include <reference_fem/cut/conservative/linear_system.h>
+#include <reference_fem/cut/conservative/phase_operators.h>
+
+#include <cases/tests/support/scenes.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace meltfront::reference_fem::cut::conservative
+{
+  namespace
+  {
+    constexpr double reach = 6;
+
+    cases::Scene square()
+    {
+      return test_support::box(test_support::unit_material(), 2, {-1, -1, 0}, {1, 1, 0},
+                               0, 1);
+    }
+
+    double star(const Point &point)
+    {
+      const double angle = std::atan2(point[1], point[0]);
+      return point.norm() - 0.5 - 0.08 * std::cos(3 * angle + 0.4);
+    }
+
+    Values nodal(const TriangleMesh &mesh, const std::function<double(const Point &)> &f)
+    {
+      Values result;
+      for(const Point &node : mesh.nodes)
+        result.push_back(f(node));
+      return without_zeros(std::move(result), mesh.spacing);
+    }
+
+    TEST(TriangleMesh, DomainsHaveTheirAreaAndClosedRims)
+    {
+      cases::Domain annulus;
+      annulus.shape = cases::DomainShape::shell;
+      annulus.dimension = 2;
+      annulus.radius = 1;
+      annulus.inner_radius = 0.37;
+      const TriangleMesh mesh(annulus, 23);
+      double area = 0;
+      for(const Triangle &triangle : mesh.triangles)
+        area += triangle.part.area();
+      EXPECT_NEAR(area, std::numbers::pi * (1 - 0.37 * 0.37), 1e-13);
+      Gradient sum;
+      for(const WallPiece &wall : mesh.walls)
+        sum += wall.segment.length() * wall.normal;
+      EXPECT_LE(sum.norm(), 1e-12);
+    }
+
+    TEST(Front, AreaByHatsIsThePolygons)
+    {
+      const TriangleMesh mesh(square().domain, 24);
+      const Front front(mesh, nodal(mesh, star));
+      // Of the star: pi (0.5^2 + 0.08^2/2), less what chords cut off.
+      EXPECT_NEAR(front.area(Phase::solid), std::numbers::pi * 0.2532, 4e-3);
+      EXPECT_NEAR(sum(front.solid_area), front.area(Phase::solid), 1e-13);
+      EXPECT_NEAR(front.area(Phase::solid) + front.area(Phase::liquid), 4, 1e-13);
+    }
+
+    TEST(InitialFront, HasTheExactArea)
+    {
+      const double exact = std::numbers::pi * (0.25 + 0.08 * 0.08 / 2);
+      const TriangleMesh mesh(square().domain, 24);
+      const FrontState state = initial_front(mesh, star, reach * mesh.spacing);
+      const double off
+          = std::abs(exact - Front(mesh, state.level_set).area(Phase::solid)),
+          chords = std::abs(exact - Front(mesh, nodal(mesh, star)).area(Phase::solid));
+      // Eight divisions of a triangle: a sixty-fourth of what its chord cuts off.
+      EXPECT_GE(chords, 5e-4);
+      EXPECT_LE(off, chords / 50);
+      EXPECT_LE(std::abs(sum(state.debt)), 1e-12);
+    }
+
+    TEST(InitialFront, ALevelSetMayBendAtItsZero)
+    {
+      // As a temperature whose slopes differ; straight, so that only the bend can be
+      // wrong.
+      const TriangleMesh mesh(square().domain, 20);
+      const auto bent = [](const Point &p)
+      {
+        const double distance = (p[0] + 0.3 * p[1] - 0.0713) / std::hypot(1, 0.3);
+        return (distance < 0 ? 1 : 0.2) * distance;
+      };
+      const FrontState state = initial_front(mesh, bent, reach * mesh.spacing);
+      EXPECT_NEAR(Front(mesh, state.level_set).area(Phase::solid), 2 * 1.0713, 1e-9);
+    }
+
+    TEST(FrontMove, FindsAFrontThatNewtonsMethodMisses)
+    {
+      // Two circles that nearly touch: between them the level set has a ridge.
+      const TriangleMesh mesh(square().domain, 24);
+      const auto disks = [](const Point &p) {
+        return std::min(p.distance({-0.43, 0.01}), p.distance({0.4, 0.03})) - 0.37;
+      };
+      const StepFrame frame(mesh, nodal(mesh, disks), 1);
+      const Front target(mesh,
+                         nodal(mesh, [&](const Point &p) { return disks(p) - 0.06; }));
+      Values change(mesh.nodes.size());
+      for(std::size_t node = 0; node < change.size(); ++node)
+        change[node] = target.solid_area[node] - frame.front.solid_area[node];
+      FrontMove move(mesh, frame, change, Values(mesh.nodes.size()));
+      double first = 0, last = 0;
+      for(const double value : move.debt)
+        first = std::max(first, std::abs(value));
+      for(int i = 0; i < 20; ++i)
+      {
+        std::vector<Eigen::Triplet<double>> entries;
+        LocalVector load = LocalVector::Zero(frame.unknowns);
+        for(const std::vector<int> &unknown : frame.temperature)
+          for(const int row : unknown)
+            if(row >= 0)
+              entries.emplace_back(row, row, 1.);
+        add_area_law(frame, *move.front, change, move.increment, entries, load);
+        move.make(solve(frame.unknowns, entries, load), change);
+      }
+      for(const double value : move.debt)
+        last = std::max(last, std::abs(value));
+      EXPECT_LE(last, 1e-10 * first);
+      EXPECT_NEAR(sum(move.front->solid_area), sum(target.solid_area), 1e-9);
+    }
+
+    TEST(FrontLaw, DerivativeOfTheArea)
+    {
+      const TriangleMesh mesh(square().domain, 24);
+      const StepFrame frame(mesh, nodal(mesh, star), 0);
+      const Values nothing(mesh.nodes.size());
+      std::vector<Eigen::Triplet<double>> entries;
+      LocalVector load = LocalVector::Zero(frame.unknowns);
+      add_area_law(frame, frame.front, nothing, nothing, entries, load);
+      Operator derivative(mesh.nodes.size());
+      std::vector<unsigned int> node_of(static_cast<std::size_t>(frame.unknowns));
+      for(unsigned int node = 0; node < mesh.nodes.size(); ++node)
+        if(frame.displacement[node] >= 0)
+          node_of[static_cast<std::size_t>(frame.displacement[node])] = node;
+      for(const Eigen::Triplet<double> &entry : entries)
+        derivative.add(node_of[static_cast<std::size_t>(entry.row())], entry.col(),
+                       entry.value());
+      Values increment(mesh.nodes.size());
+      for(std::size_t node = 0; node < increment.size(); ++node)
+        increment[node] = 1e-6 * mesh.spacing * std::cos(3. * double(node));
+      const Values by_derivative = derivative.apply(frame.as_unknowns(increment));
+      const Front moved(mesh, frame.moved(increment, mesh.spacing));
+      double largest = 0, off = 0;
+      for(std::size_t node = 0; node < increment.size(); ++node)
+      {
+        const double difference = frame.front.solid_area[node] - moved.solid_area[node];
+        largest = std::max(largest, std::abs(difference));
+        off = std::max(off, std::abs(difference - by_derivative[node]));
+      }
+      EXPECT_GT(largest, 0);
+      EXPECT_LE(off, 1e-5 * largest);
+    }
+
+    TEST(PhaseAssembly, FluxThroughAPlaneFrontIsExact)
+    {
+      const cases::Scene scene = square();
+      const TriangleMesh mesh(scene.domain, 12);
+      const LineSources sources(scene, mesh.spacing);
+      PhaseAssembly assembly(scene, mesh, sources, {});
+      // Oblique, through the square from side to side.
+      const double slope = 0.3;
+      const auto distance = [&](const Point &p)
+      { return (p[0] + slope * p[1] - 0.0713) / std::hypot(1, slope); };
+      const StepFrame frame(mesh, nodal(mesh, distance), 1);
+      const Temperatures nothing{Values(mesh.nodes.size()), Values(mesh.nodes.size())};
+      const double length = 2 * std::hypot(1, slope);
+      for(const Phase phase : phases)
+      {
+        const PhaseOperators terms
+            = assembly.assemble(phase, frame, frame.front, {0, 0, {}}, nothing, false);
+        LocalVector unknowns = LocalVector::Zero(frame.unknowns);
+        for(std::size_t node = 0; node < mesh.nodes.size(); ++node)
+          if(const int unknown = frame.temperature[index(phase)][node]; unknown >= 0)
+            unknowns[unknown] = 1.7 * distance(mesh.nodes[node]);
+        const double sense = phase == Phase::solid ? 1 : -1;
+        EXPECT_NEAR(sum(terms.front.apply(unknowns)), sense * 1.7 * length, 1e-12);
+        // Conduction and stabilisation move heat from hat to hat only.
+        EXPECT_NEAR(sum(terms.interior.apply(unknowns)), 0, 1e-12);
+      }
+    }
+
+    TEST(LineSources, FluxOverAClosedLineIsThePower)
+    {
+      cases::Scene scene = square();
+      scene.sources = {test_support::steady_sink({0.03, -0.02, 0}, 2.5)};
+      const TriangleMesh mesh(scene.domain, 24);
+      const LineSources sources(scene, 1e-3 * mesh.spacing);
+      const Front front(mesh, nodal(mesh, star));
+      double flux = 0, quadrature = 0;
+      for(const CutTriangle &cut : front.cut)
+      {
+        flux += sources.flux(cut.segment, cut.normal, sources.powers(0));
+        integrate(cut.segment,
+                  [&](const Point &point, double weight) {
+                    quadrature
+                        += weight
+                           * (sources.gradient(point, sources.powers(0)) * cut.normal);
+                  });
+      }
+      EXPECT_NEAR(flux, 2.5, 1e-13);
+      EXPECT_NEAR(quadrature, 2.5, 1e-6);
+    }
+
+    TEST(Bodies, TurningKeepsTheHeat)
+    {
+      const TriangleMesh mesh(square().domain, 24);
+      const std::array<Point, 2> places{Point(-0.4, 0.1), Point(0.431, -0.2)};
+      const auto disks = [&](const Point &p)
+      { return std::min(p.distance(places[0]) - 0.3, p.distance(places[1]) - 0.1); };
+      FrontState state;
+      state.level_set = nodal(mesh, disks);
+      const Front before(mesh, state.level_set);
+      state.heat.fill(before.solid_area);
+      for(double &value : state.heat[1])
+        value = 0.013 - value;
+      state.debt = before.solid_area;
+      constexpr double latent_heat = 3;
+      const auto heat = [&](const Front &front)
+      {
+        return sum(state.heat[0]) + sum(state.heat[1])
+               - latent_heat * (front.area(Phase::solid) + sum(state.debt));
+      };
+      const double first = heat(before);
+      std::vector<Body> found = bodies(mesh, before, state.level_set);
+      ASSERT_EQ(found.size(), 3u);
+      for(const Body &body : found)
+        if(body.area < 0.04)
+          turn(mesh, before, body, latent_heat, state);
+      const Front after(mesh, state.level_set);
+      EXPECT_NEAR(heat(after), first, 1e-13);
+      EXPECT_EQ(bodies(mesh, after, state.level_set).size(), 2u);
+    }
+  } // namespace
+} // namespace meltfront::reference_fem::cut::conservative
