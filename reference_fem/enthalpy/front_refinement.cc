@@ -110,7 +110,7 @@ namespace meltfront::reference_fem
 
   bool FrontRefinement::finest_at_front(const Discretisation &discretisation,
                                         const std::vector<double> &enthalpy,
-                                        int layers) const
+                                        int within) const
   {
     const std::vector<int> layer = layers_from_front(discretisation, enthalpy, within);
     const std::vector<int> left = mesh.halvings_left();

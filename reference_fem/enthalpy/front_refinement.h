@@ -31,7 +31,7 @@ namespace meltfront::reference_fem
     static constexpr int layers_kept = 2;
     /** Steps after which the mesh is adapted at the latest. */
     static constexpr int most_steps = 10;
-    static constexpr double smoothness = 1;
+    static constexpr double smoothness = 0.1;
     /** Cells that are joined have four times the jump: they are to stay below. */
     static constexpr double joined_below = 1. / 8;
 

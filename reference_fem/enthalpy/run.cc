@@ -152,8 +152,12 @@ namespace meltfront::reference_fem
     const ConductionMatrix &conduction = alloy    ? alloy->conduction_matrix()
                                          : fronts ? fronts->matrix()
                                                   : mesh.conduction;
-    return {conduction, mesh.volume, free, exchange ? &*exchange : nullptr,
-            fronts || motion ? nullptr : levels.get()};
+    return {conduction,
+            mesh.volume,
+            free,
+            exchange ? &*exchange : nullptr,
+            fronts || motion ? nullptr : levels.get(),
+            refinable ? least_volume_over_typical() : 1};
   }
 
   StepFormula EnthalpyRun::formula(double next) const

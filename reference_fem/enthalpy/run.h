@@ -94,6 +94,7 @@ namespace meltfront::reference_fem
     void adapt_to_state();
     bool change_mesh(const std::vector<Wish> &wishes);
     void continue_on_new_mesh();
+    double least_volume_over_typical() const;
     void book_costs();
 
     void require_halvable(const StepFormula &step, const StepOutcome &outcome) const;

