@@ -6,6 +6,7 @@
 #include <reference_fem/enthalpy/run.h>
 #include <reference_fem/enthalpy/shaped_triangulation.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace meltfront::reference_fem
@@ -78,6 +79,13 @@ namespace meltfront::reference_fem
             = cases::lattice_points(scene.domain, options.dimension, resolution.n);
         if(scene.domain.shape == cases::DomainShape::slab)
           nodes *= std::pow(strip_width, options.dimension - 1);
+        if(options.refine_at_front)
+        {
+          // As measured of fronts that are about as large as the domain.
+          constexpr double times_boundary = 40;
+          nodes = std::min(nodes,
+                           times_boundary * std::pow(nodes, 1 - 1. / options.dimension));
+        }
         return {cases::program_bytes + nodes * per_node[options.dimension],
                 double(options.steps)};
       }

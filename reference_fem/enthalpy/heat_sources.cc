@@ -74,8 +74,7 @@ namespace meltfront::reference_fem
     }
   }
 
-  const HeatSources::Shares &HeatSources::given(MovingSource &moving, double begin,
-                                                double end)
+  const Shares &HeatSources::given(MovingSource &moving, double begin, double end)
   {
     for(const Given &kept : moving.steps)
       if(!kept.heat.empty() && kept.begin == begin && kept.end == end)

@@ -56,8 +56,6 @@ namespace meltfront::reference_fem
     }
 
   private:
-    using Shares = std::vector<std::pair<unsigned int, double>>;
-
     struct Source
     {
       std::function<double(double)> energy;

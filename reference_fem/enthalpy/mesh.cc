@@ -1,6 +1,7 @@
 #include <reference_fem/enthalpy/mesh.h>
 
 #include <cases/error.h>
+#include <reference_fem/enthalpy/row_builder.h>
 #include <reference_fem/enthalpy/shaped_triangulation.h>
 
 #include <deal.II/base/multithread_info.h>
@@ -18,7 +19,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 namespace meltfront::reference_fem
@@ -39,67 +39,6 @@ namespace meltfront::reference_fem
       return result;
     }
 
-    /** The rows of a network under construction, each with room for some neighbours. */
-    class RowBuilder
-    {
-    public:
-      explicit RowBuilder(const std::vector<unsigned int> &room)
-        : first(room.size() + 1, 0)
-        , filled(room.size(), 0)
-      {
-        std::partial_sum(room.begin(), room.end(), first.begin() + 1,
-                         std::plus<std::size_t>());
-        column.resize(first.back());
-        conductance.resize(first.back());
-      }
-
-      void add(unsigned int i, unsigned int j, double value)
-      {
-        const std::size_t end = first[i] + filled[i];
-        std::size_t k = first[i];
-        while(k < end && column[k] != j)
-          ++k;
-        if(k == end)
-        {
-          column[k] = j;
-          conductance[k] = 0;
-          ++filled[i];
-        }
-        conductance[k] += value;
-      }
-
-      /** Sorts and closes up the rows; nothing is left here. */
-      void move_to(ConductionMatrix &matrix)
-      {
-        std::size_t end = 0;
-        std::vector<std::pair<unsigned int, double>> row;
-        for(std::size_t i = 0; i < filled.size(); ++i)
-        {
-          row.clear();
-          for(std::size_t k = first[i]; k < first[i] + filled[i]; ++k)
-            row.emplace_back(column[k], conductance[k]);
-          std::sort(row.begin(), row.end());
-          for(const auto &[j, value] : row)
-          {
-            column[end] = j;
-            conductance[end] = value;
-            matrix.diagonal[i] += value;
-            ++end;
-          }
-          matrix.row_start.push_back(end);
-        }
-        column.resize(end);
-        conductance.resize(end);
-        matrix.column = std::move(column);
-        matrix.conductance = std::move(conductance);
-      }
-
-    private:
-      std::vector<std::size_t> first;
-      std::vector<unsigned int> filled, column;
-      std::vector<double> conductance;
-    };
-
     template <int dim>
     class DealMesh : public Mesh
     {
@@ -107,8 +46,7 @@ namespace meltfront::reference_fem
       DealMesh(const cases::Scene &scene, int n);
 
       Discretisation discretise() const override;
-      std::vector<std::pair<unsigned int, double>>
-      shares(const Position &point) const override;
+      Shares shares(const Position &point) const override;
       void expect_many_points() override
       {
         finder.emplace(shape.triangulation, mapping);
@@ -417,8 +355,7 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    std::vector<std::pair<unsigned int, double>>
-    DealMesh<dim>::shares(const Position &point) const
+    Shares DealMesh<dim>::shares(const Position &point) const
     {
       dealii::Point<dim> p;
       for(int d = 0; d < dim; ++d)
@@ -454,7 +391,7 @@ namespace meltfront::reference_fem
         throw outside();
       const auto unit = dealii::GeometryInfo<dim>::project_to_unit_cell(found.second);
       const auto corners = sites(found.first);
-      std::vector<std::pair<unsigned int, double>> result;
+      Shares result;
       for(unsigned int a = 0; a < corners.size(); ++a)
       {
         double value = element.shape_value(a, unit);

@@ -22,6 +22,17 @@ namespace meltfront::reference_fem
     cases::Position position;
   };
 
+  /** Nodes (or vertices) among which something is shared, with shares that sum up to one.
+   */
+  using Shares = std::vector<std::pair<unsigned int, double>>;
+
+  /** A site that is no node: its values are those of nodes around it, in shares. */
+  struct HangingSite
+  {
+    unsigned int site;
+    Shares nodes;
+  };
+
   /**
    * A scene's domain discretised with linear elements, as plain arrays: what the solver
    * works on. All integrals are in the measure of the scene (see
@@ -29,7 +40,7 @@ namespace meltfront::reference_fem
    * two or three dimensions, with the weight 2 pi r or 4 pi r^2 in a radial mesh.
    *
    * A *site* is a vertex of the mesh, a *node* an unknown: on periodic sides several
-   * sites share a node.
+   * sites share a node, and where cells of two sizes meet a site may hang between nodes.
    */
   struct Discretisation
   {
@@ -38,7 +49,8 @@ namespace meltfront::reference_fem
     cases::Symmetry measure = cases::Symmetry::none; ///< of a radial mesh
 
     std::array<std::vector<double>, 3> site_positions;
-    std::vector<unsigned int> node_of_site;
+    std::vector<unsigned int> node_of_site; ///< of one that hangs the first of its nodes
+    std::vector<HangingSite> hanging;
     std::vector<double> site_weights; ///< the node's volume at its first site, else 0
     std::vector<unsigned int> cells;  ///< sites by cell, lexicographic
 
@@ -62,8 +74,7 @@ namespace meltfront::reference_fem
      * functions there (their sum is one).
      * @throws cases::InputError if the point lies outside of the mesh
      */
-    virtual std::vector<std::pair<unsigned int, double>>
-    shares(const cases::Position &point) const = 0;
+    virtual Shares shares(const cases::Position &point) const = 0;
 
     /** Make shares() faster where it is called many times. */
     virtual void expect_many_points() = 0;

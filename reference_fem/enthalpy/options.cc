@@ -70,6 +70,11 @@ namespace meltfront::reference_fem
         "(nodes), or from where the front lies within its cell (within_cells; in one "
         "dimension only).",
         {{"nodes", false}, {"within_cells", true}});
+    options.add("refinement", refine_at_front,
+                "Where cells are as small as n says: everywhere (none), or at the front, "
+                "at sources and where temperature bends, with larger ones elsewhere "
+                "(front; in boxes and half sections of axisymmetric bodies).",
+                {{"none", false}, {"front", true}});
     options.add("preconditioner", preconditioner,
                 "Preconditioner of the conjugate gradients in 2D and 3D: ssor, amg "
                 "(Trilinos ML) or "

@@ -25,6 +25,7 @@ namespace meltfront::reference_fem
     int dimension = 0; ///< 0: the lowest
     int iteration_limit = 100;
     bool front_within_cells = false; ///< conductances as FrontConduction has them
+    bool refine_at_front = false;    ///< see FrontRefinement
     Preconditioner preconditioner = Preconditioner::automatic;
   };
 

@@ -41,29 +41,20 @@ namespace meltfront::reference_fem
     , time_before(scene.start_time)
     , breakpoints(cases::breakpoints_of(scene))
   {
-    std::unique_ptr<Mesh> geometry = make_mesh(scene, options.dimension, resolution.n);
-    mesh = geometry->discretise();
-    obeys_maximum_principle = mesh.conduction.is_monotone();
-    slack = obeys_maximum_principle
-                ? cases::overshoot_of_round_off
-                : cases::allowed_overshoot(overshoot, mesh.spacing, scene.domain);
-    if(motion && mesh.dimension > 1)
+    if(motion && options.dimension > 1)
       throw cases::Refusal("fem-enthalpy moves displaced liquid in one dimension only");
-    const std::size_t n = mesh.volume.size();
-    free.assign(n, 1);
-    if(effects.contains(Effect::heat_sources))
-      sources.emplace(scene, *geometry, mesh);
-    if(effects.contains(Effect::volumetric_source))
-      release.emplace(scene, mesh);
-    if(effects.contains(Effect::wall_flux))
-      flux.emplace(scene, mesh);
-    if(effects.contains(Effect::wall_temperature))
-      walls.emplace(scene, mesh).mark(free);
-    if(effects.contains(Effect::robin_wall) || effects.contains(Effect::radiating_wall))
-      exchange.emplace(scene, mesh, free);
-
-    if(!holds_solute(scene, effects))
-      enthalpy = initial_enthalpy(scene, *geometry, mesh, free);
+    std::unique_ptr<Mesh> geometry;
+    if(options.refine_at_front)
+      refine_start();
+    else
+    {
+      geometry = make_mesh(scene, options.dimension, resolution.n);
+      mesh = geometry->discretise();
+      make_parts(*geometry);
+      if(!holds_solute(scene, effects))
+        enthalpy = initial_enthalpy(scene, *geometry, mesh, free);
+    }
+    judge_mesh();
     // The mesh itself is large: it makes room for the solver where it is not needed.
     if(sources && sources->move())
       mesh_of_moving_sources = std::move(geometry);
@@ -78,12 +69,37 @@ namespace meltfront::reference_fem
       motion->move(mesh, enthalpy, enthalpy_before, time);
       linear_solver->conductances_changed();
     }
-    u = CompensatedVector(n);
-    for(std::size_t i = 0; i < n; ++i)
+    u = CompensatedVector(enthalpy.size());
+    for(std::size_t i = 0; i < u.size(); ++i)
       u.set(i, solver->kirchhoff_at_enthalpy(i, enthalpy[i]));
-    rhs.resize(n);
-    heat.resize(n);
+    rhs.resize(u.size());
+    heat.resize(u.size());
     initial_heat = total_heat();
+  }
+
+  /** What its shape means for the maximum principle. */
+  void EnthalpyRun::judge_mesh()
+  {
+    obeys_maximum_principle = mesh.conduction.is_monotone();
+    slack = obeys_maximum_principle
+                ? cases::overshoot_of_round_off
+                : cases::allowed_overshoot(overshoot, mesh.spacing, scene.domain);
+  }
+
+  /** The parts that work on the mesh; the nodes whose temperature a wall prescribes. */
+  void EnthalpyRun::make_parts(Mesh &geometry)
+  {
+    free.assign(mesh.volume.size(), 1);
+    if(effects.contains(Effect::heat_sources))
+      sources.emplace(scene, geometry, mesh);
+    if(effects.contains(Effect::volumetric_source))
+      release.emplace(scene, mesh);
+    if(effects.contains(Effect::wall_flux))
+      flux.emplace(scene, mesh);
+    if(effects.contains(Effect::wall_temperature))
+      walls.emplace(scene, mesh).mark(free);
+    if(effects.contains(Effect::robin_wall) || effects.contains(Effect::radiating_wall))
+      exchange.emplace(scene, mesh, free);
   }
 
   void EnthalpyRun::make_solver()
@@ -136,8 +152,12 @@ namespace meltfront::reference_fem
     const ConductionMatrix &conduction = alloy    ? alloy->conduction_matrix()
                                          : fronts ? fronts->matrix()
                                                   : mesh.conduction;
-    return {conduction, mesh.volume, free, exchange ? &*exchange : nullptr,
-            fronts || motion ? nullptr : levels.get()};
+    return {conduction,
+            mesh.volume,
+            free,
+            exchange ? &*exchange : nullptr,
+            fronts || motion ? nullptr : levels.get(),
+            refinable ? least_volume_over_typical() : 1};
   }
 
   StepFormula EnthalpyRun::formula(double next) const
@@ -229,19 +249,9 @@ namespace meltfront::reference_fem
                  * exchange->power([this](std::size_t i)
                                    { return solver->temperature_excess(u[i]); });
     if(walls)
-      entered += walls->react(
-          step, problem(), u, rhs, enthalpy,
-          [this](unsigned int node, double temperature, double last)
-          {
-            const double excess = temperature - scene.material.melting_temperature;
-            const cases::Material &material = scene.material;
-            const double jump
-                = material.curves ? material.curves->jump() : material.latent_heat;
-            return alloy ? alloy->enthalpy_at(node, excess, last)
-                         : density()
-                               * (excess == 0 ? std::clamp(last / density(), 0., jump)
-                                              : material.enthalpy(temperature));
-          });
+      entered += walls->react(step, problem(), u, rhs, enthalpy,
+                              [this](unsigned int node, double temperature, double last)
+                              { return enthalpy_at_wall(node, temperature, last); });
     const double boundary_now
         = step.combine(boundary_heat.now, boundary_heat.before) + entered;
     boundary_heat = {boundary_now, boundary_heat.now};
@@ -252,6 +262,19 @@ namespace meltfront::reference_fem
     time = step.next;
     ++step_number;
     check_balance();
+  }
+
+  /** Of a node at a prescribed temperature, where its enthalpy was `last`. */
+  double EnthalpyRun::enthalpy_at_wall(unsigned int node, double temperature,
+                                       double last) const
+  {
+    const cases::Material &material = scene.material;
+    const double excess = temperature - material.melting_temperature;
+    const double jump = material.curves ? material.curves->jump() : material.latent_heat;
+    return alloy ? alloy->enthalpy_at(node, excess, last)
+                 : density()
+                       * (excess == 0 ? std::clamp(last / density(), 0., jump)
+                                      : material.enthalpy(temperature));
   }
 
   void EnthalpyRun::check_temperatures(const StepFormula &step) const
@@ -357,6 +380,8 @@ namespace meltfront::reference_fem
         u = u_accepted;
         continue;
       }
+      if(refinement && refine_for_step())
+        continue;
       queue.pop();
       u_before = u_accepted;
       u_accepted = u;
@@ -366,6 +391,8 @@ namespace meltfront::reference_fem
       accept(step);
       if(motion)
         move_liquid();
+      if(refinement)
+        adapt_to_state();
       reached(step_number, time);
       if(outcome.iterations > comfortable_iterations && !queue.empty())
       {

@@ -5,6 +5,7 @@
 #include <cases/scene.h>
 #include <reference_fem/enthalpy/alloy_solver.h>
 #include <reference_fem/enthalpy/front_conduction.h>
+#include <reference_fem/enthalpy/front_refinement.h>
 #include <reference_fem/enthalpy/heat_sources.h>
 #include <reference_fem/enthalpy/liquid_motion.h>
 #include <reference_fem/enthalpy/mesh.h>
@@ -61,7 +62,21 @@ namespace meltfront::reference_fem
       double now = 0, before = 0;
     };
 
+    /** What changes of the mesh leave behind. */
+    struct Adaptation
+    {
+      long adaptations = 0;
+      double transfer_defect = 0; ///< largest heat lost in one, over the heat at hand
+      int steps_since = 0;        ///< the mesh was looked at
+      long most_unknowns = 0;
+      double unknowns_times_steps = 0;
+      long work = 0, linear_iterations = 0; ///< on meshes given up
+      std::vector<cases::EffectCost> effects;
+    };
+
     std::string mesh_in_words() const;
+    void judge_mesh();
+    void make_parts(Mesh &geometry);
     void make_solver();
     StepProblem problem();
     StepFormula formula(double next) const;
@@ -69,7 +84,19 @@ namespace meltfront::reference_fem
     StepOutcome attempt(const StepFormula &step);
     StepOutcome solve_with_fronts(const StepFormula &step);
     void accept(const StepFormula &step);
+    double enthalpy_at_wall(unsigned int node, double temperature, double last) const;
     void move_liquid();
+
+    // In run_adaptation.cc:
+    void refine_start();
+    std::vector<double> state_ahead() const;
+    bool refine_for_step();
+    void adapt_to_state();
+    bool change_mesh(const std::vector<Wish> &wishes);
+    void continue_on_new_mesh();
+    double least_volume_over_typical() const;
+    void book_costs();
+
     void require_halvable(const StepFormula &step, const StepOutcome &outcome) const;
     StepOutcome solve(StepFormula &step);
     void check_temperatures(const StepFormula &step) const;
@@ -88,6 +115,10 @@ namespace meltfront::reference_fem
     const cases::EffectSet &effects;
     const cases::Resolution &resolution;
     RunOptions options;
+
+    std::unique_ptr<RefinableMesh> refinable; ///< null where the mesh stays as it is
+    std::optional<FrontRefinement> refinement;
+    Adaptation adaptation;
 
     Discretisation mesh;
     std::vector<char> free;

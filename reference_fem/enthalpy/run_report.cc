@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace meltfront::reference_fem
 {
@@ -18,8 +19,10 @@ namespace meltfront::reference_fem
               ? "Cartesian, weight 2 pi r"
           : scene.domain.outline ? "squares and a layer along the outline"
                                  : "Cartesian";
-    return fmt::format("{} cells, {} nodes, {}D, {}", mesh.cells.size() >> mesh.dimension,
-                       mesh.volume.size(), mesh.dimension, shape);
+    return fmt::format("{} cells, {} nodes, {}D, {}{}",
+                       mesh.cells.size() >> mesh.dimension, mesh.volume.size(),
+                       mesh.dimension, shape,
+                       refinable ? " at the start, refined at the front" : "");
   }
 
   cases::RunDescription EnthalpyRun::describe() const
@@ -73,6 +76,18 @@ namespace meltfront::reference_fem
       site_temperature[site] = scene.material.temperature(specific);
       site_solid_fraction[site] = scene.material.solid_fraction(specific);
     }
+    for(const HangingSite &hangs : mesh.hanging)
+    {
+      double temperature = 0, solid_fraction = 0;
+      for(const auto &[node, share] : hangs.nodes)
+      {
+        const double specific = enthalpy[node] / density();
+        temperature += share * scene.material.temperature(specific);
+        solid_fraction += share * scene.material.solid_fraction(specific);
+      }
+      site_temperature[hangs.site] = temperature;
+      site_solid_fraction[hangs.site] = solid_fraction;
+    }
   }
 
   double EnthalpyRun::latent_heat(std::size_t node) const
@@ -123,7 +138,7 @@ namespace meltfront::reference_fem
     cases::Cost cost;
     cost.steps = step_number;
     cost.unknowns = describe().unknowns;
-    cost.work = solver->work();
+    cost.work = solver->work() + adaptation.work;
     cost.solver_iterations = alloy ? alloy->iterations() : iterations;
     cost.most_iterations = statistics.iterations;
     cost.capped_steps = capped_steps;
@@ -135,9 +150,19 @@ namespace meltfront::reference_fem
            {"steps left to backward Euler", double(statistics.euler_steps)}};
     if(step_number > 0)
       cost.evidence["iterations_per_step"] = double(cost.solver_iterations) / step_number;
-    if(linear_solver && linear_solver->iterations() > 0)
+    const long linear_iterations = adaptation.linear_iterations
+                                   + (linear_solver ? linear_solver->iterations() : 0);
+    if(linear_iterations > 0)
       cost.evidence["linear iterations per iteration"]
-          = double(linear_solver->iterations()) / iterations;
+          = double(linear_iterations) / iterations;
+    if(refinable && step_number > 0)
+    {
+      cost.unknowns = std::lround(adaptation.unknowns_times_steps / step_number);
+      cost.evidence["adaptations"] = double(adaptation.adaptations);
+      cost.evidence["transfer_defect"] = adaptation.transfer_defect;
+      cost.evidence["unknowns, mean"] = double(cost.unknowns);
+      cost.evidence["unknowns, most"] = double(adaptation.most_unknowns);
+    }
     return cost;
   }
 
@@ -193,6 +218,13 @@ namespace meltfront::reference_fem
             {decision.effect, graph.linearisations,
              graph.linearisations > 0 ? static_cast<long>(sizeof(double)) : 0L, 0});
       }
+    }
+    for(std::size_t e = 0; e < adaptation.effects.size(); ++e)
+    {
+      const cases::EffectCost &earlier = adaptation.effects[e];
+      result[e].calls += earlier.calls;
+      result[e].bytes = std::max(result[e].bytes, earlier.bytes);
+      result[e].seconds += earlier.seconds;
     }
     return result;
   }

@@ -85,7 +85,7 @@ namespace meltfront::reference_fem
             solver().add_slope_of_jump(u, heat);
         linear_solver.solve({heat_capacity, c, active, residual,
                              safety * NonlinearSolver::target_inconsistency * state.scale
-                                 * heat_per_kelvin},
+                                 * heat_per_kelvin * problem.least_volume},
                             state.settled ? tight : loose, direction);
         if constexpr(Solver::moves_fronts)
           if(front_moves)

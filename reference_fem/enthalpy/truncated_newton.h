@@ -37,6 +37,9 @@ namespace meltfront::reference_fem
     WallExchange *exchange = nullptr;  ///< null: walls exchange no heat
     /** Of the nodes, where they lie on a lattice: coarse levels move fronts far. */
     const std::vector<LatticeLevel> *levels = nullptr;
+    /** The least volume over the typical one: what is left of the heat of a large node
+     * would be much for a small one. */
+    double least_volume = 1;
   };
 
   /**
