@@ -5,6 +5,7 @@
 #include <cases/scene.h>
 #include <reference_fem/cut/heat_problem.h>
 #include <reference_fem/cut/options.h>
+#include <reference_fem/cut/sites.h>
 
 #include <array>
 #include <functional>
@@ -75,7 +76,6 @@ namespace meltfront::reference_fem::cut
 
     void report_initial();
     void collect_sites();
-    void add_site(const Point &point, double weight, double temperature, bool solid);
     void add_vertices();
     std::vector<cases::EffectCost> effect_costs() const;
     std::map<std::string, double> evidence() const;
@@ -101,9 +101,7 @@ namespace meltfront::reference_fem::cut
     long step_number = 0, halved_steps = 0, capped_steps = 0, euler_steps = 0, meshes = 1;
     double boundary_heat = 0, released_heat = 0, initial_heat = 0;
 
-    std::array<std::vector<double>, dim> site_positions, front_positions;
-    std::vector<double> weights, temperatures, solid_fractions;
-    std::vector<unsigned int> site_cells;
+    Sites sites;
   };
 } // namespace meltfront::reference_fem::cut
 

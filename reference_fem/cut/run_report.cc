@@ -80,15 +80,6 @@ namespace meltfront::reference_fem::cut
       state = *std::move(seeded);
   }
 
-  void CutRun::add_site(const Point &point, double weight, double temperature, bool solid)
-  {
-    for(int d = 0; d < dim; ++d)
-      site_positions[d].push_back(point[d]);
-    weights.push_back(weight);
-    temperatures.push_back(temperature);
-    solid_fractions.push_back(solid ? 1 : 0);
-  }
-
   /** Vertices as sites without weight. */
   void CutRun::add_vertices()
   {
@@ -105,11 +96,10 @@ namespace meltfront::reference_fem::cut
         unsigned int &site = site_of_dof[cell.dofs[vertex]];
         if(site == none)
         {
-          site = static_cast<unsigned int>(weights.size());
           const VertexValue value = at_vertex(state, number, vertex);
-          add_site(value.point, 0, value.temperature, value.solid);
+          site = sites.add(value.point, 0, value.temperature, value.solid);
         }
-        site_cells.push_back(site);
+        sites.cells.push_back(site);
       }
     }
   }
@@ -117,23 +107,15 @@ namespace meltfront::reference_fem::cut
   void CutRun::collect_sites()
   {
     const BackgroundMesh &mesh = *state.mesh;
-    for(int d = 0; d < dim; ++d)
-    {
-      site_positions[d].clear();
-      front_positions[d].clear();
-    }
-    weights.clear();
-    temperatures.clear();
-    solid_fractions.clear();
-    site_cells.clear();
+    sites.clear();
     for(const Phase phase : phases)
     {
       const auto add = [&](unsigned int cell, const std::vector<VolumePoint> &points)
       {
         for(const VolumePoint &point : points)
-          add_site(mesh.cells[cell].real(point.unit), point.weight,
-                   heat.temperature(state, phase, cell, point.unit),
-                   phase == Phase::solid);
+          sites.add(mesh.cells[cell].real(point.unit), point.weight,
+                    heat.temperature(state, phase, cell, point.unit),
+                    phase == Phase::solid);
       };
       for(unsigned int cell = 0; cell < mesh.cells.size(); ++cell)
         if(CutGeometry::is(state.geometry->location[cell], phase)
@@ -144,33 +126,16 @@ namespace meltfront::reference_fem::cut
     add_vertices();
     for(const CutCell &cut : state.geometry->cut_cells)
       for(const SurfacePoint &point : cut.front)
-      {
-        const Point place = mesh.cells[cut.cell].real(point.unit);
-        for(int d = 0; d < dim; ++d)
-          front_positions[d].push_back(place[d]);
-      }
+        sites.add_on_front(mesh.cells[cut.cell].real(point.unit));
   }
 
   cases::Snapshot CutRun::snapshot(long step, double time)
   {
     collect_sites();
-    cases::Snapshot snapshot;
-    snapshot.step = step;
-    snapshot.time = time;
-    snapshot.dimension = dim;
-    for(int d = 0; d < dim; ++d)
-    {
-      snapshot.positions[d] = site_positions[d];
-      snapshot.front[d] = front_positions[d];
-    }
-    snapshot.weights = weights;
-    snapshot.temperature = temperatures;
-    snapshot.solid_fraction = solid_fractions;
-    snapshot.cells = site_cells;
-    snapshot.obeys_maximum_principle = false;
-    snapshot.heat = {heat.sensible_heat(state), heat.latent_heat(state), boundary_heat,
-                     heat.sinks.energy(state.time) + released_heat, initial_heat};
-    return snapshot;
+    return sites.snapshot(step, time,
+                          {heat.sensible_heat(state), heat.latent_heat(state),
+                           boundary_heat, heat.sinks.energy(state.time) + released_heat,
+                           initial_heat});
   }
 
   std::vector<cases::EffectCost> CutRun::effect_costs() const

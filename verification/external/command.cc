@@ -64,10 +64,10 @@ namespace meltfront::verification::external
 
     std::string with_values(const std::string &word, const json &request)
     {
-      static const std::regex placeholder(R"(\{(request|answer|/[^{}]*)\})");
+      static const std::regex in_braces(R"(\{(request|answer|/[^{}]*)\})");
       std::string result;
       auto rest = word.cbegin();
-      for(std::sregex_iterator match(word.begin(), word.end(), placeholder), none;
+      for(std::sregex_iterator match(word.begin(), word.end(), in_braces), none;
           match != none; ++match)
       {
         result.append(rest, (*match)[0].first);

@@ -87,31 +87,21 @@ namespace meltfront::reference_fem::cut::conservative
                                                                       : Phase::liquid;
   }
 
-  void ConservativeRun::add_site(unsigned int triangle, const Point &point, double weight,
-                                 Phase phase)
+  unsigned int ConservativeRun::add_site(unsigned int triangle, const Point &point,
+                                         double weight, Phase phase)
   {
     const Point place = in_domain(point);
-    for(int d = 0; d < dim; ++d)
-      site_positions[d].push_back(place[d]);
-    weights.push_back(weight);
-    site_temperatures.push_back(
+    return sites.add(
+        place, weight,
         scene.material.melting_temperature
-        + assembly.temperature(phase, triangle, place, temperatures, powers));
-    solid_fractions.push_back(phase == Phase::solid ? 1 : 0);
+            + assembly.temperature(phase, triangle, place, temperatures, powers),
+        phase == Phase::solid);
   }
 
   void ConservativeRun::collect_sites()
   {
     const Front front(mesh, state.level_set);
-    for(int d = 0; d < dim; ++d)
-    {
-      site_positions[d].clear();
-      front_positions[d].clear();
-    }
-    weights.clear();
-    site_temperatures.clear();
-    solid_fractions.clear();
-    site_cells.clear();
+    sites.clear();
     for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
       for(const Phase phase : phases)
         integrate(front.part(t, phase), [&](const Point &point, double weight)
@@ -126,43 +116,25 @@ namespace meltfront::reference_fem::cut::conservative
       {
         if(site_of_node[node] == none)
         {
-          site_of_node[node] = static_cast<unsigned int>(weights.size());
           const unsigned int t = mesh.triangle_at(in_domain(mesh.nodes[node]));
-          add_site(t, mesh.nodes[node], 0, phase_at(t, in_domain(mesh.nodes[node])));
+          site_of_node[node] = add_site(t, mesh.nodes[node], 0,
+                                        phase_at(t, in_domain(mesh.nodes[node])));
         }
-        site_cells.push_back(site_of_node[node]);
+        sites.cells.push_back(site_of_node[node]);
       }
     }
     for(const CutTriangle &cut : front.cut)
       if(cut.crossed)
         integrate(cut.segment,
-                  [&](const Point &point, double)
-                  {
-                    for(int d = 0; d < dim; ++d)
-                      front_positions[d].push_back(point[d]);
-                  });
+                  [&](const Point &point, double) { sites.add_on_front(point); });
   }
 
   cases::Snapshot ConservativeRun::snapshot(long step, double at)
   {
     collect_sites();
-    cases::Snapshot snapshot;
-    snapshot.step = step;
-    snapshot.time = at;
-    snapshot.dimension = dim;
-    for(int d = 0; d < dim; ++d)
-    {
-      snapshot.positions[d] = site_positions[d];
-      snapshot.front[d] = front_positions[d];
-    }
-    snapshot.weights = weights;
-    snapshot.temperature = site_temperatures;
-    snapshot.solid_fraction = solid_fractions;
-    snapshot.cells = site_cells;
-    snapshot.obeys_maximum_principle = false;
-    snapshot.heat
-        = {stored_heat(), latent_heat(), boundary_heat, source_heat, initial_heat};
-    return snapshot;
+    return sites.snapshot(
+        step, at,
+        {stored_heat(), latent_heat(), boundary_heat, source_heat, initial_heat});
   }
 
   std::vector<cases::EffectCost> ConservativeRun::effect_costs() const

@@ -6,6 +6,7 @@
 #include <reference_fem/cut/conservative/bodies.h>
 #include <reference_fem/cut/conservative/stage.h>
 #include <reference_fem/cut/options.h>
+#include <reference_fem/cut/sites.h>
 
 #include <array>
 #include <functional>
@@ -56,7 +57,8 @@ namespace meltfront::reference_fem::cut::conservative
     double latent_heat() const;
     Point in_domain(const Point &point) const;
     Phase phase_at(unsigned int triangle, const Point &point) const;
-    void add_site(unsigned int triangle, const Point &point, double weight, Phase phase);
+    unsigned int add_site(unsigned int triangle, const Point &point, double weight,
+                          Phase phase);
     void collect_sites();
     std::vector<cases::EffectCost> effect_costs() const;
 
@@ -82,9 +84,7 @@ namespace meltfront::reference_fem::cut::conservative
          most_unknowns = 0, entries = 0;
     double largest_debt = 0; ///< of the solid's area (m^2)
 
-    std::array<std::vector<double>, dim> site_positions, front_positions;
-    std::vector<double> weights, site_temperatures, solid_fractions;
-    std::vector<unsigned int> site_cells;
+    Sites sites;
   };
 } // namespace meltfront::reference_fem::cut::conservative
 

@@ -1,4 +1,5 @@
 #include <reference_fem/cut/conservative/front_law.h>
+#include <reference_fem/cut/conservative/linear_system.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,5 +118,17 @@ namespace meltfront::reference_fem::cut::conservative
         return;
       share /= 2;
     }
+  }
+
+  void FrontMove::approach(const Values &change)
+  {
+    std::vector<Eigen::Triplet<double>> entries;
+    LocalVector load = LocalVector::Zero(frame.unknowns);
+    for(const std::vector<int> &unknown : frame.temperature)
+      for(const int row : unknown)
+        if(row >= 0)
+          entries.emplace_back(row, row, 1.);
+    add_area_law(frame, *front, change, increment, entries, load);
+    make(solve(frame.unknowns, entries, load), change);
   }
 } // namespace meltfront::reference_fem::cut::conservative

@@ -49,6 +49,9 @@ namespace meltfront::reference_fem::cut::conservative
      * than a spacing. */
     void make(const LocalVector &solution, const Values &change);
 
+    /** One step of Newton's method for a given change of the solid's area. */
+    void approach(const Values &change);
+
     Values increment;           ///< psi (m)
     std::optional<Front> front; ///< after it
     Values debt;                ///< what the law is off by there, by hat (m^2)

@@ -1,7 +1,6 @@
 #include <reference_fem/cut/conservative/initial_front.h>
 
 #include <reference_fem/cut/conservative/front_law.h>
-#include <reference_fem/cut/conservative/linear_system.h>
 
 #include <algorithm>
 #include <array>
@@ -183,16 +182,7 @@ namespace meltfront::reference_fem::cut::conservative
       change[node] = fine.solid_area[node] - frame.front.solid_area[node];
     FrontMove move(mesh, frame, change, increment);
     for(int i = 0; i < most_corrections && move.largest > settled * mesh.spacing; ++i)
-    {
-      std::vector<Eigen::Triplet<double>> entries;
-      LocalVector load = LocalVector::Zero(frame.unknowns);
-      for(const std::vector<int> &unknown : frame.temperature)
-        for(const int row : unknown)
-          if(row >= 0)
-            entries.emplace_back(row, row, 1.);
-      add_area_law(frame, *move.front, change, move.increment, entries, load);
-      move.make(solve(frame.unknowns, entries, load), change);
-    }
+      move.approach(change);
     state.debt = move.debt;
     state.level_set = with_distances(mesh, *move.front,
                                      frame.moved(move.increment, mesh.spacing), reach);

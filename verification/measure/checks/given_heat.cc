@@ -1,5 +1,4 @@
 #include <verification/measure/checks/given_heat.h>
-#include <verification/measure/checks/scene_quadrature.h>
 
 #include <fmt/format.h>
 
@@ -72,6 +71,16 @@ namespace meltfront::verification
           += HeatOverTime(source.power, scene.start_time, scene.end_time, {}).gross();
   }
 
+  /** One point stands for all where a field is the same everywhere. */
+  std::vector<QuadraturePoint> GivenHeat::points_for(
+      const cases::Field &field, double measure,
+      const std::function<std::vector<QuadraturePoint>(int divisions)> &points) const
+  {
+    if(field.constant)
+      return {{{}, measure}};
+    return resolving_points(points, field, scene.start_time, scene.end_time);
+  }
+
   void GivenHeat::add_walls()
   {
     using cases::BoundaryKind;
@@ -90,25 +99,20 @@ namespace meltfront::verification
                                     cases::to_string(side));
         return;
       }
-      std::vector<QuadraturePoint> points = points_on(scene.domain, side);
       walls_vary |= !boundary.value.constant;
-      if(boundary.value.constant)
-        points = {{{}, area_of(scene.domain, side)}};
+      const std::vector<QuadraturePoint> points = points_for(
+          boundary.value, area_of(scene.domain, side),
+          [&](int divisions) { return points_on(scene.domain, side, divisions); });
       if(points.empty())
       {
-        unknown_walls = fmt::format("no quadrature for a flux that varies along {}",
-                                    cases::to_string(side));
+        unknown_walls
+            = fmt::format("no quadrature for a flux that varies as it does along {}",
+                          cases::to_string(side));
         return;
       }
-      walls.emplace_back(
-          [&boundary, points](double time)
-          {
-            double sum = 0;
-            for(const QuadraturePoint &point : points)
-              sum += point.weight * boundary.value(point.place, time);
-            return sum;
-          },
-          scene.start_time, scene.end_time, boundary.value.breakpoints);
+      walls.emplace_back([&boundary, points](double time)
+                         { return integral(points, boundary.value, time); },
+                         scene.start_time, scene.end_time, boundary.value.breakpoints);
     }
   }
 
@@ -117,24 +121,19 @@ namespace meltfront::verification
     if(!scene.volumetric_source)
       return;
     const cases::Field &release = *scene.volumetric_source;
-    std::vector<QuadraturePoint> points = points_over(scene.domain);
     sources_vary = !release.constant;
-    if(release.constant)
-      points = {{{}, volume_of(scene.domain)}};
+    const std::vector<QuadraturePoint> points
+        = points_for(release, volume_of(scene.domain),
+                     [&](int divisions) { return points_over(scene.domain, divisions); });
     if(points.empty())
     {
-      unknown_sources = "no quadrature for a release that varies in this domain";
+      unknown_sources
+          = "no quadrature for a release that varies as it does in this domain";
       return;
     }
-    released.emplace(
-        [&release, points](double time)
-        {
-          double sum = 0;
-          for(const QuadraturePoint &point : points)
-            sum += point.weight * release(point.place, time);
-          return sum;
-        },
-        scene.start_time, scene.end_time, release.breakpoints);
+    released.emplace([&release, points](double time)
+                     { return integral(points, release, time); },
+                     scene.start_time, scene.end_time, release.breakpoints);
   }
 
   double GivenHeat::through_walls(double time) const

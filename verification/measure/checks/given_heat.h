@@ -2,6 +2,7 @@
 #define meltfront_verification_measure_checks_given_heat_h
 
 #include <cases/scene.h>
+#include <verification/measure/checks/scene_quadrature.h>
 
 #include <functional>
 #include <optional>
@@ -67,6 +68,9 @@ namespace meltfront::verification
     double gross_sources() const;
 
   private:
+    std::vector<QuadraturePoint> points_for(
+        const cases::Field &field, double measure,
+        const std::function<std::vector<QuadraturePoint>(int divisions)> &points) const;
     void add_walls();
     void add_release();
 

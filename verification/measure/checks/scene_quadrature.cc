@@ -1,5 +1,6 @@
 #include <verification/measure/checks/scene_quadrature.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -57,14 +58,15 @@ namespace meltfront::verification
           point.weight *= 2 * std::numbers::pi * point.place[0];
     }
 
-    std::vector<QuadraturePoint> around(double radius, double weight)
+    std::vector<QuadraturePoint> around(double radius, double weight, int divisions)
     {
+      const int count = points_around * divisions;
       std::vector<QuadraturePoint> result;
-      for(int i = 0; i < points_around; ++i)
+      for(int i = 0; i < count; ++i)
       {
-        const double angle = 2 * std::numbers::pi * (i + 0.5) / points_around;
-        result.push_back({{radius * std::cos(angle), radius * std::sin(angle), 0},
-                          weight / points_around});
+        const double angle = 2 * std::numbers::pi * (i + 0.5) / count;
+        result.push_back(
+            {{radius * std::cos(angle), radius * std::sin(angle), 0}, weight / count});
       }
       return result;
     }
@@ -120,32 +122,33 @@ namespace meltfront::verification
     return area;
   }
 
-  std::vector<QuadraturePoint> points_over(const cases::Domain &domain)
+  std::vector<QuadraturePoint> points_over(const cases::Domain &domain, int divisions)
   {
     std::vector<QuadraturePoint> points;
     if(domain.rectangular())
     {
       points.push_back({{}, 1});
       for(int d = 0; d < domain.dimension; ++d)
-        points = extruded(
-            points, d,
-            points_between(domain.lower[d], domain.upper[d], cells_of(domain)));
+        points = extruded(points, d,
+                          points_between(domain.lower[d], domain.upper[d],
+                                         divisions * cells_of(domain)));
       turn_about_axis(domain, points);
     }
     else if(domain.round() && domain.dimension == 2)
-      for(const LinePoint &ray :
-          points_between(domain.inner_radius, domain.radius, cells_of(domain)))
+      for(const LinePoint &ray : points_between(domain.inner_radius, domain.radius,
+                                                divisions * cells_of(domain)))
         for(const QuadraturePoint &point :
-            around(ray.place, 2 * std::numbers::pi * ray.place * ray.weight))
+            around(ray.place, 2 * std::numbers::pi * ray.place * ray.weight, divisions))
           points.push_back(point);
     return points;
   }
 
-  std::vector<QuadraturePoint> points_on(const cases::Domain &domain, cases::Side side)
+  std::vector<QuadraturePoint> points_on(const cases::Domain &domain, cases::Side side,
+                                         int divisions)
   {
     if(domain.round() && domain.dimension == 2)
       return around(side == cases::Side::inner ? domain.inner_radius : domain.radius,
-                    area_of(domain, side));
+                    area_of(domain, side), divisions);
     if(!domain.rectangular())
       return {};
     const int normal = static_cast<int>(side) / 2;
@@ -154,10 +157,51 @@ namespace meltfront::verification
         = static_cast<int>(side) % 2 == 0 ? domain.lower[normal] : domain.upper[normal];
     for(int d = 0; d < domain.dimension; ++d)
       if(d != normal)
-        points = extruded(
-            points, d,
-            points_between(domain.lower[d], domain.upper[d], cells_of(domain)));
+        points = extruded(points, d,
+                          points_between(domain.lower[d], domain.upper[d],
+                                         divisions * cells_of(domain)));
     turn_about_axis(domain, points);
     return points;
+  }
+
+  double integral(const std::vector<QuadraturePoint> &points, const cases::Field &field,
+                  double time)
+  {
+    double sum = 0;
+    for(const QuadraturePoint &point : points)
+      sum += point.weight * field(point.place, time);
+    return sum;
+  }
+
+  std::vector<QuadraturePoint> resolving_points(
+      const std::function<std::vector<QuadraturePoint>(int divisions)> &points,
+      const cases::Field &field, double start, double end)
+  {
+    constexpr double settled = 2e-2;
+    constexpr std::size_t most_points = 70000;
+    constexpr double times[] = {0.013, 0.271, 0.523, 0.787, 1};
+    std::vector<QuadraturePoint> coarse = points(1);
+    for(int divisions = 2; !coarse.empty(); divisions *= 2)
+    {
+      std::vector<QuadraturePoint> fine = points(divisions);
+      double change = 0;
+      for(const double share : times)
+      {
+        const double time = start + share * (end - start);
+        double magnitude = 0;
+        for(const QuadraturePoint &point : fine)
+          magnitude += point.weight * std::abs(field(point.place, time));
+        if(magnitude > 0)
+          change = std::max(change, std::abs(integral(fine, field, time)
+                                             - integral(coarse, field, time))
+                                        / magnitude);
+      }
+      if(change <= settled)
+        return coarse;
+      coarse = std::move(fine);
+      if(coarse.size() > most_points)
+        return {};
+    }
+    return coarse;
   }
 } // namespace meltfront::verification

@@ -3,6 +3,7 @@
 
 #include <cases/scene.h>
 
+#include <functional>
 #include <vector>
 
 namespace meltfront::verification
@@ -22,12 +23,30 @@ namespace meltfront::verification
 
   /** Points over a slab, a box, a disk or an annulus, two in each of 256 cells along a
    * line, 16 along each direction of the plane, 64 around, 8 in space; none for other
-   * shapes. */
-  std::vector<QuadraturePoint> points_over(const cases::Domain &domain);
+   * shapes. @param divisions of these cells along every direction */
+  std::vector<QuadraturePoint> points_over(const cases::Domain &domain,
+                                           int divisions = 1);
 
   /** Points over a wall: 32 on a box's in the plane, 64 around a round one; none for
    * walls of other shapes. */
-  std::vector<QuadraturePoint> points_on(const cases::Domain &domain, cases::Side side);
+  std::vector<QuadraturePoint> points_on(const cases::Domain &domain, cases::Side side,
+                                         int divisions = 1);
+
+  /** Integral of a field at a time (s). */
+  double integral(const std::vector<QuadraturePoint> &points, const cases::Field &field,
+                  double time);
+
+  /**
+   * Points so dense that halving their distance changes the field's integral by no more
+   * than two hundredths of that of its magnitude, at times over the scene: what methods
+   * sample of a field at their own places is off by as much.
+   *
+   * @param points by divisions, as above
+   * @return none if some 70000 do not do: the field varies faster than they see
+   */
+  std::vector<QuadraturePoint> resolving_points(
+      const std::function<std::vector<QuadraturePoint>(int divisions)> &points,
+      const cases::Field &field, double start, double end);
 } // namespace meltfront::verification
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace meltfront::verification
@@ -94,6 +95,34 @@ namespace meltfront::verification
       const double released = std::numbers::pi / 32 * 0.25;
       EXPECT_NEAR(heat.from_sources(0.5), released - 1.5, 1e-9);
       EXPECT_NEAR(heat.gross_sources(), 4 * released + 3, 1e-9);
+    }
+
+    /** A spot between the points of the coarsest quadrature, which saw five times its
+     * heat. */
+    TEST(GivenHeat, ResolvesANarrowSpotOrSaysThatItDoesNot)
+    {
+      cases::Scene scene = tests::scene_of(DomainShape::box, 2, Symmetry::none);
+      const auto spot = [&scene](double width)
+      {
+        const cases::Domain &box = scene.domain;
+        const double at_x = box.lower[0] + 0.513 * (box.upper[0] - box.lower[0]),
+                     at_y = box.lower[1] + 0.487 * (box.upper[1] - box.lower[1]);
+        return field(
+            [width, at_x, at_y](const cases::Position &p, double)
+            {
+              const double x = p[0] - at_x, y = p[1] - at_y;
+              return std::exp(-(x * x + y * y) / (width * width));
+            });
+      };
+      constexpr double width = 0.008;
+      scene.volumetric_source = spot(width);
+      const double duration = scene.end_time - scene.start_time,
+                   exact = std::numbers::pi * width * width * duration;
+      const GivenHeat heat(scene);
+      EXPECT_EQ(heat.unknown_sources, "");
+      EXPECT_NEAR(heat.from_sources(scene.end_time), exact, 0.02 * exact);
+      scene.volumetric_source = spot(0.002);
+      EXPECT_NE(GivenHeat(scene).unknown_sources, "");
     }
   } // namespace
 } // namespace meltfront::verification

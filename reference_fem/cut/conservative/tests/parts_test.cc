@@ -1,6 +1,5 @@
 #include <reference_fem/cut/conservative/front_law.h>
 #include <reference_fem/cut/conservative/initial_front.h>
-#include <reference_fem/cut/conservative/linear_system.h>
 #include <reference_fem/cut/conservative/phase_operators.h>
 
 #include <cases/tests/support/scenes.h>
@@ -110,16 +109,7 @@ namespace meltfront::reference_fem::cut::conservative
       for(const double value : move.debt)
         first = std::max(first, std::abs(value));
       for(int i = 0; i < 20; ++i)
-      {
-        std::vector<Eigen::Triplet<double>> entries;
-        LocalVector load = LocalVector::Zero(frame.unknowns);
-        for(const std::vector<int> &unknown : frame.temperature)
-          for(const int row : unknown)
-            if(row >= 0)
-              entries.emplace_back(row, row, 1.);
-        add_area_law(frame, *move.front, change, move.increment, entries, load);
-        move.make(solve(frame.unknowns, entries, load), change);
-      }
+        move.approach(change);
       for(const double value : move.debt)
         last = std::max(last, std::abs(value));
       EXPECT_LE(last, 1e-10 * first);
