@@ -7,6 +7,8 @@
 #include <cases/snapshot.h>
 
 #include <cstdint>
+#include <functional>
+#include <iosfwd>
 #include <limits>
 #include <map>
 #include <memory>
@@ -61,6 +63,22 @@ namespace meltfront::cases
     std::vector<Parameter> parameters; ///< the scheme in words and numbers
   };
 
+  /** Keeps states of a run, so that it can be taken up where it was left. */
+  class StateKeeper
+  {
+  public:
+    virtual ~StateKeeper() = default;
+
+    /** The state that the run is to go on from, as offer() was given it; null: it begins
+     * at its start. */
+    virtual std::unique_ptr<std::istream> state_to_resume() = 0;
+
+    /** Called after every step but the last. @param save writes the state reached */
+    virtual void offer(long step, double time,
+                       const std::function<void(std::ostream &)> &save)
+        = 0;
+  };
+
   /** Who receives snapshots. */
   class Observer
   {
@@ -106,6 +124,12 @@ namespace meltfront::cases
     {
       static_cast<void>(name);
       static_cast<void>(value);
+    }
+
+    /** Who keeps states of the run, or null. */
+    virtual StateKeeper *state_keeper()
+    {
+      return nullptr;
     }
   };
 

@@ -1,6 +1,10 @@
 #include <cases/run.h>
 #include <cases/scene.h>
 
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+
+#include <stdexcept>
 #include <utility>
 
 namespace meltfront::cases
@@ -10,16 +14,56 @@ namespace meltfront::cases
     observer = &of_run;
     start_time = scene.start_time;
     end_time = scene.end_time;
+    keeper = observer->state_keeper();
     setup = since_setup.elapsed();
     watch = since_setup;
+    if(keeper)
+    {
+      const std::unique_ptr<std::istream> state
+          = watch.without([this] { return keeper->state_to_resume(); });
+      if(state)
+        resume(*state);
+    }
     take_steps();
     const Stopwatch::Seconds total = watch.elapsed();
     Cost result = cost();
-    result.setup_wall = setup.wall;
-    result.setup_cpu = setup.cpu;
-    result.stepping_wall = total.wall - setup.wall + elsewhere.wall;
-    result.stepping_cpu = total.cpu - setup.cpu + elsewhere.cpu;
+    result.setup_wall = setup.wall + setup_before.wall;
+    result.setup_cpu = setup.cpu + setup_before.cpu;
+    result.stepping_wall
+        = total.wall - setup.wall + elsewhere.wall + stepping_before.wall;
+    result.stepping_cpu = total.cpu - setup.cpu + elsewhere.cpu + stepping_before.cpu;
     return result;
+  }
+
+  void Run::save(boost::archive::binary_oarchive &) const
+  {
+    throw std::logic_error("this run cannot be resumed");
+  }
+
+  void Run::restore(boost::archive::binary_iarchive &)
+  {
+    throw std::logic_error("this run cannot be resumed");
+  }
+
+  void Run::resume(std::istream &state)
+  {
+    boost::archive::binary_iarchive archive(state);
+    for(Stopwatch::Seconds *spent : {&setup_before, &stepping_before})
+      archive >> spent->wall >> spent->cpu;
+    restore(archive);
+    setup = watch.elapsed();
+    begun = resumed = true;
+  }
+
+  void Run::write_state(std::ostream &state, const Stopwatch::Seconds &so_far) const
+  {
+    boost::archive::binary_oarchive archive(state);
+    const double setup_wall = setup.wall + setup_before.wall,
+                 setup_cpu = setup.cpu + setup_before.cpu;
+    const double stepping_wall = so_far.wall - setup.wall + stepping_before.wall,
+                 stepping_cpu = so_far.cpu - setup.cpu + stepping_before.cpu;
+    archive << setup_wall << setup_cpu << stepping_wall << stepping_cpu;
+    save(archive);
   }
 
   void Run::reached(long step, double time)
@@ -27,6 +71,7 @@ namespace meltfront::cases
     const bool first = !std::exchange(begun, true), last = time == end_time;
     if(first && !last)
       setup = watch.elapsed();
+    const Stopwatch::Seconds so_far = keeper ? watch.elapsed() : Stopwatch::Seconds();
     watch.without(
         [&]
         {
@@ -35,6 +80,9 @@ namespace meltfront::cases
           const bool wanted = observer->wants(step, time);
           if(wanted || first || last)
             observer->observe(snapshot(step, time));
+          if(keeper && !last)
+            keeper->offer(step, time,
+                          [&](std::ostream &state) { write_state(state, so_far); });
         });
   }
 

@@ -7,6 +7,12 @@
 #include <functional>
 #include <vector>
 
+namespace boost::archive
+{
+  class binary_iarchive;
+  class binary_oarchive;
+} // namespace boost::archive
+
 namespace meltfront::cases
 {
   /**
@@ -35,8 +41,28 @@ namespace meltfront::cases
   protected:
     /** All steps, reached() after each of them and at the initial state, which is step 0;
      * a steady scene's only state is its last. That is at the scene's end time exactly.
+     * A run that is resumed goes on from what restore() has read.
      */
     virtual void take_steps() = 0;
+
+    /** Write all that the steps to come depend on, to the bit; counts of what was done
+     * too. Called in reached(). By default a run cannot be resumed. */
+    virtual void save(boost::archive::binary_oarchive &state) const;
+
+    /** Read what save() wrote of the same run, after it was set up like any other. */
+    virtual void restore(boost::archive::binary_iarchive &state);
+
+    /** Whether states of this run are kept. */
+    bool keeps_states() const
+    {
+      return keeper != nullptr;
+    }
+
+    /** Whether restore() was called. */
+    bool is_resumed() const
+    {
+      return resumed;
+    }
 
     /** The state that the run has reached. What the snapshot spans lives until the run
      * goes on. */
@@ -60,11 +86,16 @@ namespace meltfront::cases
     void report(const std::string &name, double value);
 
   private:
+    void resume(std::istream &state);
+    void write_state(std::ostream &state, const Stopwatch::Seconds &so_far) const;
+
     Observer *observer = nullptr;
-    bool begun = false;
+    StateKeeper *keeper = nullptr;
+    bool begun = false, resumed = false;
     double start_time = 0, end_time = 0;
     Stopwatch watch;
     Stopwatch::Seconds setup, elsewhere;
+    Stopwatch::Seconds setup_before, stepping_before; ///< until the run was left
   };
 } // namespace meltfront::cases
 

@@ -69,6 +69,13 @@ namespace meltfront::reference_fem
       sum.add_product(factor, error + (remainder[j] - remainder[i]));
     }
 
+    /** To the bit (Boost.Serialization). */
+    template <class Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &leading &remainder;
+    }
+
   private:
     std::vector<double> leading, remainder;
   };

@@ -82,5 +82,9 @@ namespace meltfront::reference_fem
                 {{"automatic", Preconditioner::automatic},
                  {"ssor", Preconditioner::ssor},
                  {"amg", Preconditioner::amg}});
+    options.add("checkpoint", checkpoint,
+                "Wall time between checkpoints, from which `meltfront run --resume` goes "
+                "on (s); 0: none are kept.",
+                0, 1e9);
   }
 } // namespace meltfront::reference_fem

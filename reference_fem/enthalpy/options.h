@@ -27,6 +27,7 @@ namespace meltfront::reference_fem
     bool front_within_cells = false; ///< conductances as FrontConduction has them
     bool refine_at_front = false;    ///< see FrontRefinement
     Preconditioner preconditioner = Preconditioner::automatic;
+    double checkpoint = 0; ///< between states that are kept (s of wall time); 0: none
   };
 
   /** Their values, made out for a scene.

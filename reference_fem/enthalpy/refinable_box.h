@@ -36,6 +36,8 @@ namespace meltfront::reference_fem
     std::size_t cell_at(const cases::Position &point) const override;
     bool adapt(const std::vector<Wish> &wishes,
                const std::vector<std::vector<double> *> &fields) override;
+    void save(boost::archive::binary_oarchive &state) const override;
+    void restore(boost::archive::binary_iarchive &state) override;
 
   private:
     using Cell = typename LocalTriangulation<dim>::Cell;

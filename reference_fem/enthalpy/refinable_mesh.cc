@@ -4,6 +4,8 @@
 
 #include <deal.II/grid/grid_generator.h>
 
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -253,6 +255,19 @@ namespace meltfront::reference_fem
           (*fields[f])[node_of_vertex[v]] = values[f][v];
     }
     return true;
+  }
+
+  template <int dim>
+  void RefinableBox<dim>::save(boost::archive::binary_oarchive &state) const
+  {
+    local.triangulation.save(state, 0);
+  }
+
+  template <int dim>
+  void RefinableBox<dim>::restore(boost::archive::binary_iarchive &state)
+  {
+    local.triangulation.load(state, 0);
+    number();
   }
 
   std::unique_ptr<RefinableMesh> make_refinable_mesh(const cases::Scene &scene,

@@ -6,6 +6,12 @@
 #include <memory>
 #include <vector>
 
+namespace boost::archive
+{
+  class binary_iarchive;
+  class binary_oarchive;
+} // namespace boost::archive
+
 namespace meltfront::reference_fem
 {
   /** What is to become of a cell. */
@@ -45,6 +51,10 @@ namespace meltfront::reference_fem
     virtual bool adapt(const std::vector<Wish> &wishes,
                        const std::vector<std::vector<double> *> &fields)
         = 0;
+
+    /** Write which cells there are, and read it. */
+    virtual void save(boost::archive::binary_oarchive &state) const = 0;
+    virtual void restore(boost::archive::binary_iarchive &state) = 0;
   };
 
   /**

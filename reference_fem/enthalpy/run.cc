@@ -40,6 +40,8 @@ namespace meltfront::reference_fem
     , time(scene.start_time)
     , time_before(scene.start_time)
     , breakpoints(cases::breakpoints_of(scene))
+    , queue(scene.start_time, scene.end_time, options.steps, options.start_halvings,
+            breakpoints)
   {
     if(motion && options.dimension > 1)
       throw cases::Refusal("fem-enthalpy moves displaced liquid in one dimension only");
@@ -364,10 +366,12 @@ namespace meltfront::reference_fem
 
   void EnthalpyRun::take_steps()
   {
-    reached(0, time);
-    StepQueue queue(scene.start_time, scene.end_time, options.steps,
-                    options.start_halvings, breakpoints);
-    u_accepted = u;
+    require_resumable();
+    if(!is_resumed())
+    {
+      reached(0, time);
+      u_accepted = u;
+    }
     while(!queue.empty())
     {
       StepFormula step = formula(queue.next());
@@ -393,12 +397,12 @@ namespace meltfront::reference_fem
         move_liquid();
       if(refinement)
         adapt_to_state();
-      reached(step_number, time);
       if(outcome.iterations > comfortable_iterations && !queue.empty())
       {
         queue.halve(time);
         ++statistics.halvings;
       }
+      reached(step_number, time);
     }
   }
 

@@ -31,6 +31,12 @@ namespace meltfront::reference_fem
     int iterations = 0;
     long halvings = 0;    ///< steps that were halved
     long euler_steps = 0; ///< steps that BDF2 left to backward Euler
+
+    template <class Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &graph_inconsistency &balance_defect &iterations &halvings &euler_steps;
+    }
   };
 
   /** The largest relative defect of a step's heat balance that is accepted. */
@@ -56,13 +62,26 @@ namespace meltfront::reference_fem
     void take_steps() override;
     cases::Snapshot snapshot(long step, double time) override; // in run_report.cc
 
+    // In run_state.cc:
+    void save(boost::archive::binary_oarchive &state) const override;
+    void restore(boost::archive::binary_iarchive &state) override;
+    template <class Archive>
+    void pass_state(Archive &state);
+    void require_resumable() const;
+
     /** What a quantity that is summed over time was at the last two times. */
     struct History
     {
       double now = 0, before = 0;
+
+      template <class Archive>
+      void serialize(Archive &archive, unsigned int)
+      {
+        archive &now &before;
+      }
     };
 
-    /** What changes of the mesh leave behind. */
+    /** What changes of the mesh, and parts of a run that were left, leave behind. */
     struct Adaptation
     {
       long adaptations = 0;
@@ -70,8 +89,15 @@ namespace meltfront::reference_fem
       int steps_since = 0;        ///< the mesh was looked at
       long most_unknowns = 0;
       double unknowns_times_steps = 0;
-      long work = 0, linear_iterations = 0; ///< on meshes given up
+      long work = 0, linear_iterations = 0; ///< before
       std::vector<cases::EffectCost> effects;
+
+      template <class Archive>
+      void serialize(Archive &archive, unsigned int)
+      {
+        archive &adaptations &transfer_defect &steps_since &most_unknowns;
+        archive &unknowns_times_steps &work &linear_iterations &effects;
+      }
     };
 
     std::string mesh_in_words() const;
@@ -95,7 +121,7 @@ namespace meltfront::reference_fem
     bool change_mesh(const std::vector<Wish> &wishes);
     void continue_on_new_mesh();
     double least_volume_over_typical() const;
-    void book_costs();
+    Adaptation with_costs() const;
 
     void require_halvable(const StepFormula &step, const StepOutcome &outcome) const;
     StepOutcome solve(StepFormula &step);
@@ -148,6 +174,7 @@ namespace meltfront::reference_fem
     double defect = 0; ///< heat at hand less heat received (J)
     double time, time_before;
     std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
+    StepQueue queue;
     long step_number = 0, iterations = 0, capped_steps = 0;
     StepStatistics statistics;
     std::vector<double> site_temperature, site_solid_fraction;

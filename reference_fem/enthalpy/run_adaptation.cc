@@ -102,8 +102,8 @@ namespace meltfront::reference_fem
 
   void EnthalpyRun::continue_on_new_mesh()
   {
+    adaptation = with_costs();
     ++adaptation.adaptations;
-    book_costs();
     judge_mesh();
     make_parts(*refinable);
     make_solver();
@@ -128,11 +128,13 @@ namespace meltfront::reference_fem
            / std::sqrt(squares / static_cast<double>(mesh.volume.size()));
   }
 
-  /** What the parts that work on a mesh that is given up have cost. */
-  void EnthalpyRun::book_costs()
+  /** What the parts at hand, which are about to be given up, have cost is added. */
+  EnthalpyRun::Adaptation EnthalpyRun::with_costs() const
   {
-    adaptation.effects = effect_costs();
-    adaptation.work += solver->work();
-    adaptation.linear_iterations += linear_solver->iterations();
+    Adaptation result = adaptation;
+    result.effects = effect_costs();
+    result.work += solver->work();
+    result.linear_iterations += linear_solver->iterations();
+    return result;
   }
 } // namespace meltfront::reference_fem

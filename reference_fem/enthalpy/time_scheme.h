@@ -82,6 +82,13 @@ namespace meltfront::reference_fem
       sooner.push_back(now + (next() - now) / 2);
     }
 
+    /** What of it changes in the course of a run (Boost.Serialization). */
+    template <class Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &equal_step &sooner &breaks;
+    }
+
   private:
     double planned() const
     {

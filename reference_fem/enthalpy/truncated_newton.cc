@@ -49,6 +49,16 @@ namespace meltfront::reference_fem
         return graph.kirchhoff(temperature_excess);
       }
 
+      double temperature_scale() const override
+      {
+        return scale;
+      }
+
+      void set_temperature_scale(double of_steps_before) override
+      {
+        scale = of_steps_before;
+      }
+
       long work() const override
       {
         return entries_touched + owned_solver->work();
@@ -63,7 +73,7 @@ namespace meltfront::reference_fem
       using Base = StepNewton<TruncatedNewton<Graph, with_exchange>>;
       friend Base;
       using Base::active, Base::cost, Base::direction, Base::entries_touched,
-          Base::heat_capacity, Base::problem, Base::residual;
+          Base::heat_capacity, Base::problem, Base::residual, Base::scale;
 
       static constexpr bool jumps = Graph::jumps || Graph::curved;
       static constexpr bool exchanges = with_exchange;

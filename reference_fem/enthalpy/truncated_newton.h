@@ -92,6 +92,18 @@ namespace meltfront::reference_fem
     virtual double kirchhoff_at_enthalpy(std::size_t node, double enthalpy) const = 0;
     virtual double kirchhoff(double temperature_excess) const = 0;
 
+    /** Largest |T - T_m| of the steps solved so far (K), which off-graph distances are
+     * over, of a solver whose runs can be resumed. */
+    virtual double temperature_scale() const
+    {
+      return 0;
+    }
+
+    /** Go on from that of an earlier part of the run. */
+    virtual void set_temperature_scale(double)
+    {
+    }
+
     /** Matrix entries touched, the linear solver's included. */
     virtual long work() const = 0;
 

@@ -10,14 +10,18 @@
 #include <verification/judge/coverage.h>
 #include <verification/judge/criteria.h>
 #include <verification/judge/stability.h>
+#include <verification/matrix/directory_lock.h>
 #include <verification/matrix/matrix_file.h>
 #include <verification/matrix/matrix_files.h>
 #include <verification/matrix/runner.h>
 #include <verification/measure/measure.h>
 #include <verification/record/json_values.h>
 #include <verification/record/label.h>
+#include <verification/record/provenance.h>
+#include <verification/record/stored_case.h>
 #include <verification/report/page/report.h>
 #include <verification/report/plots/plot_folder.h>
+#include <verification/run/checkpoint/checkpoint_keeper.h>
 #include <verification/run/child_process.h>
 #include <verification/run/memory_limit.h>
 #include <verification/run/run_one.h>
@@ -98,8 +102,9 @@ namespace meltfront::verification
                                    : 0);
             RepeatPolicy once;
             once.most = 1;
-            const RunRecord record
-                = run_one(c, method, resolution, label, provenance, &fields, once);
+            const CheckpointFolder checkpoints = CheckpointFolder::in(directory);
+            const RunRecord record = run_one(c, method, resolution, label, provenance,
+                                             &fields, once, &checkpoints);
             if(record.status == RunStatus::finished)
               write_run_page(record, stored_case(c), directory);
             write_json(file, record);
@@ -118,6 +123,64 @@ namespace meltfront::verification
         write_json(file, failed);
       }
       return read_json(file).get<RunRecord>();
+    }
+
+    /** What a run that is resumed has to be the same in. */
+    nlohmann::json this_program()
+    {
+      nlohmann::json program = build_provenance();
+      program["program_version"] = program_version;
+      return program;
+    }
+
+    /** The case and the arguments of a run that was left in a directory. @throws
+     * cases::InputError if there is none, or what there is is damaged */
+    std::pair<cases::Case, RunArguments> left_run(const RunArguments &arguments)
+    {
+      const CheckpointFolder folder = CheckpointFolder::in(arguments.resume);
+      const nlohmann::json request = folder.request(this_program());
+      folder.last(); // throws where the run could not go on from it
+      RunArguments result = arguments;
+      result.output = arguments.resume;
+      try
+      {
+        request.at("method").get_to(result.method);
+        request.at("n").get_to(result.n);
+        request.at("settings").get_to(result.settings);
+        request.at("seed").get_to(result.seed);
+        request.at("threads").get_to(result.threads);
+        request.at("frames").get_to(result.frames);
+        return {request.at("case").get<StoredCase>(), result};
+      }
+      catch(const nlohmann::json::exception &problem)
+      {
+        throw cases::InputError(fmt::format("{}/checkpoint/request.json is damaged: {}",
+                                            arguments.resume, problem.what()));
+      }
+    }
+
+    nlohmann::json request_of(const cases::Case &c, const RunArguments &arguments)
+    {
+      return {{"case", stored_case(c)},
+              {"method", arguments.method},
+              {"n", arguments.n},
+              {"settings", sort_settings(arguments.settings).of_method},
+              {"seed", arguments.seed},
+              {"threads", arguments.threads},
+              {"frames", arguments.frames},
+              {"program", this_program()}};
+    }
+
+    /** Where a run was interrupted its checkpoint stays, and is told. */
+    void conclude_checkpoints(const RunRecord &record, const std::string &directory)
+    {
+      const CheckpointFolder folder = CheckpointFolder::in(directory);
+      if(!record.provenance.contains("ended"))
+        folder.remove();
+      else if(const auto last = folder.last())
+        fmt::print("Its checkpoint after step {} (t = {:.6g} s): go on with `meltfront "
+                   "run --resume {}`\n",
+                   last->step, last->time, directory);
     }
 
     /** Read settings of a method (sort_settings()) into its options. */
@@ -229,10 +292,55 @@ namespace meltfront::verification
                                    .string());
   }
 
+  namespace
+  {
+    int run_case(const cases::Case &c, const RunArguments &arguments,
+                 const std::string &directory)
+    {
+      const cases::Method &method = method_named(arguments.method);
+      cases::Resolution resolution{
+          arguments.n, cases::Options(method.option_declarations()), arguments.seed,
+          arguments.threads, memory_limit(arguments.memory)};
+      const auto set = apply_settings(sort_settings(arguments.settings).of_method, method,
+                                      resolution.options);
+      const DirectoryLock lock(directory);
+      if(arguments.resume.empty())
+        CheckpointFolder::in(directory).begin(checkpoint_interval(resolution.options) > 0
+                                                  ? request_of(c, arguments)
+                                                  : nlohmann::json());
+      const RunRecord record = run_alone(c, method, resolution,
+                                         run_label(method.name(), set, arguments.threads),
+                                         directory, arguments);
+      std::fputs(run_text(record, c).c_str(), stdout);
+      fmt::print("Written to {}: run.json{}\n", directory,
+                 record.status == RunStatus::finished
+                     ? ", front.csv, picture.svg, fields.pvd"
+                     : "");
+      conclude_checkpoints(record, directory);
+      switch(record.status)
+      {
+      case RunStatus::finished:
+        return all_well;
+      case RunStatus::refused:
+        return bad_input;
+      default:
+        return run_failed;
+      }
+    }
+  } // namespace
+
   int run(const RunArguments &arguments)
   {
+    if(!arguments.resume.empty())
+    {
+      if(!arguments.settings.empty())
+        throw cases::InputError("--resume takes no --set: the run goes on as it began");
+      const auto [c, of_left_run] = left_run(arguments);
+      return run_case(c, of_left_run, arguments.resume);
+    }
+    if(arguments.case_name.empty() || arguments.method.empty())
+      throw cases::InputError("run needs a case and --method, or --resume DIRECTORY");
     const cases::Method &method = method_named(arguments.method);
-    const Settings settings = sort_settings(arguments.settings);
     const auto directory_of = [&](const std::string &case_name)
     {
       return !arguments.output.empty()
@@ -240,32 +348,11 @@ namespace meltfront::verification
                  : default_directory(
                      fmt::format("run-{}-{}-{}", case_name, method.name(), arguments.n));
     };
-    const cases::Case c = cases::load_case(
-        varied_case(arguments.case_name, settings.of_case, directory_of));
-    cases::Resolution resolution{
-        arguments.n, cases::Options(method.option_declarations()), arguments.seed,
-        arguments.threads, memory_limit(arguments.memory)};
-    const auto set = apply_settings(settings.of_method, method, resolution.options);
+    const cases::Case c = cases::load_case(varied_case(
+        arguments.case_name, sort_settings(arguments.settings).of_case, directory_of));
     const std::string directory = directory_of(c.scene.name);
     make_directory(directory);
-
-    const RunRecord record = run_alone(c, method, resolution,
-                                       run_label(method.name(), set, arguments.threads),
-                                       directory, arguments);
-    std::fputs(run_text(record, c).c_str(), stdout);
-    fmt::print("Written to {}: run.json{}\n", directory,
-               record.status == RunStatus::finished
-                   ? ", front.csv, picture.svg, fields.pvd"
-                   : "");
-    switch(record.status)
-    {
-    case RunStatus::finished:
-      return all_well;
-    case RunStatus::refused:
-      return bad_input;
-    default:
-      return run_failed;
-    }
+    return run_case(c, arguments, directory);
   }
 
   int conclude(MatrixResult &result, const std::string &directory)

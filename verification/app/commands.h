@@ -47,6 +47,7 @@ namespace meltfront::verification
     int frames = 20;          ///< for ParaView
     double memory = 0;        ///< GB that the run may take; 0: what the machine has
     double time_limit = 3600; ///< s; 0: none
+    std::string resume;       ///< directory of a run to go on with, instead of a case
   };
 
   /** The value of a method's option. */

@@ -178,18 +178,27 @@ namespace
     auto *command = app.add_subcommand(
         "run", "run one method on a case; writes fields for ParaView");
     RunArguments &a = run_arguments;
+    auto *resume = command->add_option(
+        "--resume", a.resume,
+        "directory of a run that was interrupted, to go on with from its checkpoint "
+        "(option `checkpoint` of its method), instead of a case");
     command->add_option("case", a.case_name, "case of the library, or a case file")
-        ->required();
-    command->add_option("--method", a.method, "method")->required();
+        ->excludes(resume);
+    command->add_option("--method", a.method, "method")->excludes(resume);
     command->add_option("--n", a.n, "particles or cells along the domain's side (40)")
-        ->check(CLI::Range(2, 1000000));
-    command->add_option("--out", a.output, "directory (results/run-CASE-METHOD-N)");
+        ->check(CLI::Range(2, 1000000))
+        ->excludes(resume);
+    command->add_option("--out", a.output, "directory (results/run-CASE-METHOD-N)")
+        ->excludes(resume);
     add_settings(command, a.settings);
-    command->add_option("--seed", a.seed, "seed of random arrangements (1)");
+    command->add_option("--seed", a.seed, "seed of random arrangements (1)")
+        ->excludes(resume);
     command->add_option("--threads", a.threads, "number of threads (1)")
-        ->check(CLI::Range(1, 1024));
+        ->check(CLI::Range(1, 1024))
+        ->excludes(resume);
     command->add_option("--frames", a.frames, "number of output times for ParaView (20)")
-        ->check(CLI::Range(1, 10000));
+        ->check(CLI::Range(1, 10000))
+        ->excludes(resume);
     add_memory_option(command, a.memory);
     command
         ->add_option("--time-limit", a.time_limit,

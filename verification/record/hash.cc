@@ -10,7 +10,7 @@
 
 namespace meltfront::verification
 {
-  std::string sha256(const std::string &text)
+  std::string sha256(std::string_view text)
   {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
     unsigned int size = 0;
@@ -28,6 +28,6 @@ namespace meltfront::verification
     std::ifstream in(path, std::ios::binary);
     if(!in)
       throw cases::OutputError(fmt::format("cannot read {}", path));
-    return sha256({std::istreambuf_iterator<char>(in), {}});
+    return sha256(std::string(std::istreambuf_iterator<char>(in), {}));
   }
 } // namespace meltfront::verification

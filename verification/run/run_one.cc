@@ -3,6 +3,7 @@
 #include <cases/out_of_memory.h>
 #include <verification/record/hash.h>
 #include <verification/record/provenance.h>
+#include <verification/run/checkpoint/checkpoint_keeper.h>
 #include <verification/run/heat_observer.h>
 #include <verification/run/motion_observer.h>
 #include <verification/run/run_one.h>
@@ -74,7 +75,8 @@ namespace meltfront::verification
 
     void solve(const cases::Case &c, const cases::Method &method,
                const cases::Resolution &resolution, cases::Observer *second,
-               const RepeatPolicy &policy, RunRecord &record)
+               const RepeatPolicy &policy, const CheckpointFolder *checkpoints,
+               RunRecord &record)
     {
       const cases::EffectSet effects = cases::effects_within(c.scene, c.effect_tolerance);
       record.effects = effects.decisions();
@@ -91,7 +93,15 @@ namespace meltfront::verification
       };
       try
       {
-        record.cost = method.solve(scene, effects, resolution, *observer);
+        const double interval = checkpoint_interval(resolution.options);
+        if(checkpoints && interval > 0)
+        {
+          CheckpointKeeper keeper(*checkpoints, interval, *observer);
+          record.cost = method.solve(scene, effects, resolution, keeper);
+          record.cost.evidence.merge(keeper.evidence());
+        }
+        else
+          record.cost = method.solve(scene, effects, resolution, *observer);
         observer->require_end();
       }
       catch(...)
@@ -148,12 +158,13 @@ namespace meltfront::verification
   RunRecord run_one(const cases::Case &c, const cases::Method &method,
                     const cases::Resolution &resolution, const std::string &label,
                     const std::map<std::string, std::string> &provenance,
-                    cases::Observer *second, const RepeatPolicy &repeats)
+                    cases::Observer *second, const RepeatPolicy &repeats,
+                    const CheckpointFolder *checkpoints)
   {
     RunRecord record = empty_record(c, method, resolution, label, provenance);
     try
     {
-      solve(c, method, resolution, second, repeats, record);
+      solve(c, method, resolution, second, repeats, checkpoints, record);
     }
     catch(const cases::Refusal &refusal)
     {

@@ -4,6 +4,7 @@
 #include <cases/case.h>
 #include <cases/method.h>
 #include <verification/record/run_record.h>
+#include <verification/run/checkpoint/checkpoint_folder.h>
 
 #include <map>
 #include <string>
@@ -43,11 +44,14 @@ namespace meltfront::verification
    * @param provenance is copied to the record and completed by the case's text and hash,
    * the date and what build_provenance() knows
    * @param second an observer of the same run, e.g. a writer of fields, or null
+   * @param checkpoints where those that the method's options ask for are kept, and where
+   * the run goes on from if one lies there; null: nowhere
    */
   RunRecord run_one(const cases::Case &c, const cases::Method &method,
                     const cases::Resolution &resolution, const std::string &label,
                     const std::map<std::string, std::string> &provenance,
-                    cases::Observer *second = nullptr, const RepeatPolicy &repeats = {});
+                    cases::Observer *second = nullptr, const RepeatPolicy &repeats = {},
+                    const CheckpointFolder *checkpoints = nullptr);
 
   /** A record of that run which holds no result yet: status failed, no message. */
   RunRecord empty_record(const cases::Case &c, const cases::Method &method,

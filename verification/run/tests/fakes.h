@@ -8,6 +8,8 @@
 #include <verification/measure/tests/fixtures.h>
 #include <verification/record/temporary_directory.h>
 
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
 #include <fmt/format.h>
 
 #include <fcntl.h>
@@ -147,8 +149,19 @@ end
   private:
     void take_steps() override
     {
-      for(int step = 0; step <= steps; ++step)
-        reached(step, static_cast<double>(step) / steps);
+      for(; next <= steps; ++next)
+        reached(next, static_cast<double>(next) / steps);
+    }
+
+    void save(boost::archive::binary_oarchive &kept) const override
+    {
+      kept << next << initial_heat;
+    }
+
+    void restore(boost::archive::binary_iarchive &kept) override
+    {
+      kept >> next >> initial_heat;
+      ++next;
     }
 
     cases::Snapshot snapshot(long step, double time) override
@@ -173,6 +186,7 @@ end
     double error;
     Cheat cheat;
     double initial_heat = 0;
+    int next = 0; ///< step
     State state;
   };
 
@@ -204,7 +218,8 @@ end
     std::vector<cases::OptionDeclaration> option_declarations() const override
     {
       return {{"step_factor", "1", 0.5, "A number.", 0, 2},
-              {"scheme", "", std::string("euler"), "A word.", 0, 0, {"euler", "rkl2"}}};
+              {"scheme", "", std::string("euler"), "A word.", 0, 0, {"euler", "rkl2"}},
+              {"checkpoint", "s", 0., "Wall time between checkpoints.", 0, 1e9}};
     }
 
     std::unique_ptr<cases::Run> set_up(const cases::Scene &scene,

@@ -1,0 +1,86 @@
+#include <verification/app/tests/run_program.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <unistd.h>
+
+namespace meltfront::verification::tests
+{
+  namespace
+  {
+    /** Start the program in a session of its own and kill all of it after a moment. */
+    void run_and_kill(const std::string &arguments, double seconds)
+    {
+      const pid_t child = fork();
+      if(child == 0)
+      {
+        setsid();
+        const std::string command = "exec " + std::string(MELTFRONT_PROGRAM) + " "
+                                    + arguments + " >/dev/null 2>&1";
+        execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+        _exit(127);
+      }
+      std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+      kill(-child, SIGKILL);
+      waitpid(child, nullptr, 0);
+    }
+
+    nlohmann::json outcome(const fs::path &directory)
+    {
+      nlohmann::json run = read_json(directory / "run.json");
+      return {run.at("quantities"), run.at("series"), run.at("profile"),
+              run.at("cost").at("steps"), run.at("cost").at("work")};
+    }
+
+    /** Killed again and again, at any moment, it ends with the same results. */
+    TEST(Program, ResumesARunThatWasKilled)
+    {
+      const TemporaryDirectory scratch;
+      const std::string run
+          = "run corner-freezing --method fem-enthalpy --n 64 --frames 3 "
+            "--set fem-enthalpy.checkpoint=0.02";
+      ASSERT_EQ(run_program(run + " --out " + scratch.path("whole").string()).status, 0);
+      EXPECT_FALSE(fs::exists(scratch.path("whole") / "checkpoint"));
+
+      const std::string killed = scratch.path("killed").string();
+      run_and_kill(run + " --out " + killed, 0.6);
+      for(int k = 0; k < 3 && fs::exists(killed + "/checkpoint"); ++k)
+        run_and_kill("run --resume " + killed, 0.3 + 0.2 * k);
+      if(fs::exists(killed + "/checkpoint"))
+      {
+        const Outcome last = run_program("run --resume " + killed);
+        ASSERT_EQ(last.status, 0) << last.output;
+      }
+      EXPECT_EQ(outcome(killed), outcome(scratch.path("whole")));
+      for(const fs::directory_entry &entry :
+          fs::directory_iterator(scratch.path("whole")))
+        EXPECT_TRUE(fs::exists(killed / entry.path().filename())) << entry.path();
+    }
+
+    TEST(Program, SaysWhatItCannotResume)
+    {
+      const TemporaryDirectory scratch;
+      const Outcome nothing = run_program("run --resume " + scratch.path().string());
+      EXPECT_EQ(nothing.status, 2);
+      expect_text(nothing, "holds no run to resume");
+      const Outcome without_case = run_program("run --method fem-enthalpy");
+      EXPECT_EQ(without_case.status, 2);
+      expect_text(without_case, "run needs a case");
+      const Outcome other_method
+          = run_program("run plane-freezing-started --method sph --n 20 --set "
+                        "sph.checkpoint=10 --out "
+                        + scratch.path("sph").string());
+      EXPECT_EQ(other_method.status, 2);
+      expect_text(other_method, "checkpoint");
+      const Outcome alloy
+          = run_program("run alloy-sodium-nitrate --method fem-enthalpy --n 20 --set "
+                        "fem-enthalpy.checkpoint=10 --out "
+                        + scratch.path("alloy").string());
+      EXPECT_EQ(alloy.status, 2);
+      expect_text(alloy, "pure substances");
+      EXPECT_FALSE(fs::exists(scratch.path("alloy") / "checkpoint"));
+    }
+  } // namespace
+} // namespace meltfront::verification::tests

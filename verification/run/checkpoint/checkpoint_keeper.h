@@ -1,0 +1,60 @@
+#ifndef meltfront_verification_run_checkpoint_checkpoint_keeper_h
+#define meltfront_verification_run_checkpoint_checkpoint_keeper_h
+
+#include <verification/run/checkpoint/checkpoint_folder.h>
+#include <verification/run/checkpoint/observation_log.h>
+
+#include <chrono>
+#include <map>
+#include <optional>
+
+namespace meltfront::verification
+{
+  /**
+   * Stands between a run and its observer and keeps checkpoints of both: the run's state,
+   * and all that the observer was told. A run that is resumed tells its new observer the
+   * same first, so that what it measures is that of a run that was never left.
+   */
+  class CheckpointKeeper : public cases::Observer, private cases::StateKeeper
+  {
+  public:
+    /**
+     * Goes on from the folder's last checkpoint where there is one.
+     * @param interval between checkpoints (s of wall time)
+     */
+    CheckpointKeeper(CheckpointFolder folder, double interval, cases::Observer &observer);
+
+    void begin(const cases::RunDescription &description) override;
+    bool wants(long step, double time) override;
+    std::vector<double> wanted_times() const override;
+    void observe(const cases::Snapshot &snapshot) override;
+    void note(double time, const std::string &event) override;
+    void report(const std::string &name, double value) override;
+    cases::StateKeeper *state_keeper() override;
+
+    /** For the record, by a name in plain words. */
+    std::map<std::string, double> evidence() const;
+
+  private:
+    std::unique_ptr<std::istream> state_to_resume() override;
+    void offer(long step, double time,
+               const std::function<void(std::ostream &)> &save) override;
+
+    using Clock = std::chrono::steady_clock;
+
+    CheckpointFolder folder;
+    double interval;
+    cases::Observer &observer;
+    std::optional<ObservationLog> log;
+    long kept = 0;
+    int resumptions = 0;
+    long resumed_at = 0; ///< step
+    Clock::time_point last_kept = Clock::now();
+  };
+
+  /** Seconds of wall time between the checkpoints that a method's options ask for; 0 of a
+   * method that keeps none. */
+  double checkpoint_interval(const cases::Options &options);
+} // namespace meltfront::verification
+
+#endif
