@@ -3,6 +3,7 @@
 
 #include <reference_fem/enthalpy/lattice_matrix.h>
 #include <reference_fem/enthalpy/line_search.h>
+#include <reference_fem/enthalpy/linear_solver.h>
 #include <reference_fem/enthalpy/truncated_newton.h>
 
 #include <algorithm>
@@ -11,12 +12,31 @@
 
 namespace meltfront::reference_fem
 {
+  /** Moves fronts by many cells at once: CoarseCorrection on levels of any kind. */
+  class FrontMover
+  {
+  public:
+    virtual ~FrontMover() = default;
+
+    /**
+     * @param on_graph by node: the heat V H that lies on the graph at u (J)
+     * @param heat by node: that which the balance asks for (J)
+     * @param transfer by node, to the surroundings (W/K); null: none
+     * @param correction P (v - u_c) is added to it
+     */
+    virtual void
+    correct(double c, const std::vector<char> &free, const std::vector<double> &on_graph,
+            const std::vector<double> &heat, const std::vector<double> *transfer,
+            std::vector<double> &correction)
+        = 0;
+  };
+
   /**
-   * A correction of the inclusion of a step from coarser lattices, which moves a front by
+   * A correction of the inclusion of a step from coarser meshes, which moves a front by
    * many cells at once: the full approximation scheme (Brandt 1977) for the enthalpy.
    *
    * A sweep of Gauss-Seidel moves a front by a cell or two, and the linear correction of
-   * truncated Newton does not move it at all. A coarse lattice poses the same inclusion
+   * truncated Newton does not move it at all. A coarse mesh poses the same inclusion
    * with its own volumes V_c = P'V, its conductances P'K P and the heat of its nodes:
    * H_c = P'(V H)/V_c, whose place on the graph is u_c. It is solved for
    *
@@ -29,23 +49,23 @@ namespace meltfront::reference_fem
    *
    * On coarse levels heats are over c, the factor of the step.
    */
-  template <class Graph>
-  class CoarseCorrection
+  template <class Graph, class Level>
+  class CoarseCorrection : public FrontMover
   {
   public:
     /** @param levels live as long as this */
-    CoarseCorrection(const std::vector<LatticeLevel> &levels, const StepProblem &problem,
+    CoarseCorrection(const std::vector<Level> &levels, const StepProblem &problem,
                      const Graph &graph)
       : levels(levels)
       , graph(graph)
       , states(levels.size())
     {
-      const LatticeMatrix finest(levels.front(), problem.conduction);
+      const Matrix finest(levels.front(), problem.conduction);
       matrices.reserve(levels.size() - 1);
       for(std::size_t l = 1; l < levels.size(); ++l)
       {
         const char *mask = l == 1 ? problem.free.data() : nullptr;
-        const LatticeMatrix &finer = l == 1 ? finest : matrices.back();
+        const Matrix &finer = l == 1 ? finest : matrices.back();
         matrices.emplace_back(levels[l]).restrict_from(finer, finer.diagonal, mask);
         State &state = states[l];
         levels[l - 1].restrict_to(l == 1 ? problem.volume : states[l - 1].volume, mask,
@@ -55,15 +75,10 @@ namespace meltfront::reference_fem
       }
     }
 
-    /**
-     * @param on_graph by node: the heat V H that lies on the graph at u (J)
-     * @param heat by node: that which the balance asks for (J)
-     * @param transfer by node, to the surroundings (W/K); null: none
-     * @param correction P (v - u_c) is added to it
-     */
     void correct(double c, const std::vector<char> &free,
                  const std::vector<double> &on_graph, const std::vector<double> &heat,
-                 const std::vector<double> *transfer, std::vector<double> &correction)
+                 const std::vector<double> *transfer,
+                 std::vector<double> &correction) override
     {
       factor = c;
       if(transfer)
@@ -75,6 +90,8 @@ namespace meltfront::reference_fem
     }
 
   private:
+    using Matrix = typename Level::Matrix;
+
     struct State
     {
       std::vector<double> volume, transfer;
@@ -100,10 +117,8 @@ namespace meltfront::reference_fem
                              : 0;
       below.u = below.start;
       // K u_c is added, and what the walls take.
-      const LatticeLevel &level = levels[l + 1];
-      const LatticeMatrix &matrix = matrices[l];
       std::fill(below.heat.begin(), below.heat.end(), 0);
-      add_inflow(level, matrix, below.u, below.heat);
+      add_inflow(matrices[l], below.u, below.heat);
       for(std::size_t i = 0; i < below.u.size(); ++i)
         below.right_side[i] = scale * below.right_side[i] - below.heat[i]
                               + transfer(below, i) * graph.temperature_excess(below.u[i]);
@@ -113,19 +128,16 @@ namespace meltfront::reference_fem
     }
 
     /** heat -= K u. */
-    static void add_inflow(const LatticeLevel &level, const LatticeMatrix &matrix,
-                           const std::vector<double> &u, std::vector<double> &heat)
+    static void add_inflow(const Matrix &matrix, const std::vector<double> &u,
+                           std::vector<double> &heat)
     {
-      std::size_t first = 0;
-      for(int z = 0; z < level.line[2].nodes(); ++z)
-        for(int y = 0; y < level.line[1].nodes(); ++y, first += level.row_length())
-          matrix.subtract_product(y, z, matrix.diagonal, u, heat.data() + first);
+      matrix.subtract_product(matrix.diagonal, u, heat);
     }
 
     void sweep(std::size_t l, bool forward)
     {
       State &state = states[l];
-      const LatticeMatrix &matrix = matrices[l - 1];
+      const Matrix &matrix = matrices[l - 1];
       matrix.sweep(forward, state.right_side, state.u,
                    [&](std::size_t i, double heat)
                    {
@@ -145,9 +157,7 @@ namespace meltfront::reference_fem
           sweep(l, k % 2 == 0);
         return;
       }
-      // Along a line two visits of each level by the one above would double its cost with
-      // every level.
-      const int visits = levels.front().rows() > 1 ? 2 : 1;
+      const int visits = levels.front().visits();
       State &state = states[l];
       std::vector<double> work(state.u.size());
       for(int visit = 0; visit < visits; ++visit)
@@ -164,7 +174,7 @@ namespace meltfront::reference_fem
     {
       State &state = states[l];
       state.heat = state.right_side;
-      add_inflow(levels[l], matrices[l - 1], state.u, state.heat);
+      add_inflow(matrices[l - 1], state.u, state.heat);
       std::vector<double> &on_graph = work, &direction = work;
       for(std::size_t i = 0; i < state.u.size(); ++i)
       {
@@ -186,19 +196,31 @@ namespace meltfront::reference_fem
       State &state = states[l];
       KinkedDerivative derivative;
       std::vector<double> inflow(direction.size());
-      add_inflow(levels[l], matrices[l - 1], direction, inflow);
+      add_inflow(matrices[l - 1], direction, inflow);
       for(std::size_t i = 0; i < direction.size(); ++i)
         derivative.add_node(graph, state.u[i], direction[i], state.volume[i] / factor,
                             transfer(state, i), state.heat[i], -inflow[i]);
       return derivative.lowest();
     }
 
-    const std::vector<LatticeLevel> &levels;
+    const std::vector<Level> &levels;
     const Graph &graph;
-    std::vector<LatticeMatrix> matrices; ///< K from the second level on
+    std::vector<Matrix> matrices; ///< K from the second level on
     std::vector<State> states;
     double factor = 1;
   };
+
+  template <class Graph>
+  std::unique_ptr<FrontMover> make_front_mover(const StepProblem &problem,
+                                               const Graph &graph)
+  {
+    return std::visit(
+        [&]<class Level>(const std::vector<Level> &levels) -> std::unique_ptr<FrontMover>
+        {
+          return std::make_unique<CoarseCorrection<Graph, Level>>(levels, problem, graph);
+        },
+        *problem.levels);
+  }
 } // namespace meltfront::reference_fem
 
 #endif

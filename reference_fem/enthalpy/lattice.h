@@ -73,9 +73,13 @@ namespace meltfront::reference_fem
     std::vector<Place> places; ///< of the nodes from -1 to nodes()
   };
 
+  class LatticeMatrix;
+
   /** A level of lattices: its directions. Rows are the nodes along x. */
   struct LatticeLevel
   {
+    using Matrix = LatticeMatrix;
+
     std::array<LatticeLine, 3> line;
 
     int row_length() const
@@ -89,6 +93,16 @@ namespace meltfront::reference_fem
     std::size_t size() const
     {
       return std::size_t(row_length()) * rows();
+    }
+    bool in_space() const
+    {
+      return line[2].nodes() > 1;
+    }
+    /** How often a coarser level is visited where fronts are moved: along a line two
+     * visits of each level by the one above would double its cost with every level. */
+    int visits() const
+    {
+      return rows() > 1 ? 2 : 1;
     }
     /** The row at a number of rows from another one, round periods. */
     int row(int y, int z) const

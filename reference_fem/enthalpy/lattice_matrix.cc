@@ -132,6 +132,39 @@ namespace meltfront::reference_fem
     subtract_other_rows(y, z, x, row);
   }
 
+  void LatticeMatrix::subtract_product(const std::vector<double> &diagonal_of,
+                                       const std::vector<double> &x,
+                                       std::vector<double> &y) const
+  {
+    std::size_t first = 0;
+    for(int z = 0; z < level.line[2].nodes(); ++z)
+      for(int row = 0; row < level.line[1].nodes(); ++row, first += level.row_length())
+        subtract_product(row, z, diagonal_of, x, y.data() + first);
+  }
+
+  void LatticeMatrix::restrict_residual(const std::vector<double> &diagonal_of,
+                                        const char *mask,
+                                        const std::vector<double> &right_side,
+                                        const std::vector<double> &x,
+                                        std::vector<double> &on_coarse) const
+  {
+    const auto n = static_cast<std::size_t>(level.row_length());
+    std::vector<double> row(n), work;
+    std::fill(on_coarse.begin(), on_coarse.end(), 0);
+    std::size_t first = 0;
+    for(int z = 0; z < level.line[2].nodes(); ++z)
+      for(int y = 0; y < level.line[1].nodes(); ++y, first += n)
+      {
+        std::copy_n(right_side.begin() + static_cast<std::ptrdiff_t>(first), n,
+                    row.begin());
+        subtract_product(y, z, diagonal_of, x, row.data());
+        if(mask)
+          for(std::size_t i = 0; i < n; ++i)
+            row[i] = mask[first + i] ? row[i] : 0;
+        level.restrict_row(y, z, row.data(), work, on_coarse);
+      }
+  }
+
   void LatticeMatrix::restrict_from(const LatticeMatrix &finer,
                                     const std::vector<double> &finer_diagonal,
                                     const char *mask)

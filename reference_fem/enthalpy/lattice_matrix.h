@@ -55,6 +55,16 @@ namespace meltfront::reference_fem
     void subtract_product(int y, int z, const std::vector<double> &diagonal,
                           const std::vector<double> &x, double *row) const;
 
+    /** y -= A x. @param diagonal of A, in the place of its own */
+    void subtract_product(const std::vector<double> &diagonal,
+                          const std::vector<double> &x, std::vector<double> &y) const;
+
+    /** P'(b - A x), without the rows where the mask is zero. */
+    void restrict_residual(const std::vector<double> &diagonal, const char *mask,
+                           const std::vector<double> &right_side,
+                           const std::vector<double> &x,
+                           std::vector<double> &on_coarse) const;
+
     /**
      * Gauss-Seidel: rows in turn, in each the even nodes, then the odd ones; the other
      * way round where not `forward`. relax(i, b) gives x_i, b being the right-hand side

@@ -3,9 +3,11 @@
 
 #include <reference_fem/enthalpy/conduction_matrix.h>
 #include <reference_fem/enthalpy/lattice.h>
+#include <reference_fem/enthalpy/nested_level.h>
 
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace meltfront::reference_fem
@@ -71,10 +73,21 @@ namespace meltfront::reference_fem
   std::unique_ptr<LinearSolver> make_krylov_solver(const ConductionMatrix &matrix,
                                                    Preconditioner preconditioner);
 
-  /** The same, preconditioned by LatticeMultigrid. @param levels of the nodes */
+  /** From the finest level, that of the nodes, to the coarsest. */
+  using Levels = std::variant<std::vector<LatticeLevel>, std::vector<NestedLevel>>;
+
+  /** None where there are no levels. */
+  inline std::size_t n_levels(const Levels *levels)
+  {
+    return levels
+               ? std::visit([](const auto &of_kind) { return of_kind.size(); }, *levels)
+               : 0;
+  }
+
+  /** The same, preconditioned by Multigrid. @param levels of the nodes */
   std::unique_ptr<LinearSolver>
-  make_lattice_solver(const ConductionMatrix &matrix,
-                      std::shared_ptr<const std::vector<LatticeLevel>> levels);
+  make_multigrid_solver(const ConductionMatrix &matrix,
+                        const std::shared_ptr<const Levels> &levels);
 } // namespace meltfront::reference_fem
 
 #endif

@@ -34,6 +34,7 @@ namespace meltfront::reference_fem
     std::vector<int> halvings_left() const override;
     std::vector<double> jumps(const std::vector<double> &values) const override;
     std::size_t cell_at(const cases::Position &point) const override;
+    std::vector<NestedLevel> levels(const ConductionMatrix &network) const override;
     bool adapt(const std::vector<Wish> &wishes,
                const std::vector<std::vector<double> *> &fields) override;
     void save(boost::archive::binary_oarchive &state) const override;

@@ -1,6 +1,7 @@
 #include <reference_fem/enthalpy/refinable_box.templates.h>
 
 #include <cases/error.h>
+#include <reference_fem/enthalpy/box_tree.h>
 
 #include <deal.II/grid/grid_generator.h>
 
@@ -223,6 +224,23 @@ namespace meltfront::reference_fem
         result[there] = std::max(result[there], size(neighbour, d) * jump);
       }
     return result;
+  }
+
+  template <int dim>
+  std::vector<NestedLevel>
+  RefinableBox<dim>::levels(const ConductionMatrix &network) const
+  {
+    std::vector<BoxTree::Cell> cells;
+    cells.reserve(local.triangulation.n_active_cells());
+    for(const auto &cell : local.triangulation.active_cell_iterators())
+    {
+      BoxTree::Cell box{{}, 1u << (most_halvings - cell->level())};
+      for(int d = 0; d < dim; ++d)
+        box.corner[d] = static_cast<std::uint32_t>(
+            std::lround((cell->vertex(0)[d] - lower[d]) / sizes[d]));
+      cells.push_back(box);
+    }
+    return nested_levels({dim, 1u << most_halvings, std::move(cells)}, dim, network);
   }
 
   template <int dim>

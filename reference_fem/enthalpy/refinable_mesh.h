@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_enthalpy_refinable_mesh_h
 
 #include <reference_fem/enthalpy/mesh.h>
+#include <reference_fem/enthalpy/nested_level.h>
 
 #include <memory>
 #include <vector>
@@ -39,6 +40,9 @@ namespace meltfront::reference_fem
 
     /** The cell that holds a point. @throws cases::InputError if none does. */
     virtual std::size_t cell_at(const cases::Position &point) const = 0;
+
+    /** From that of the nodes down to few nodes. @param network of the nodes */
+    virtual std::vector<NestedLevel> levels(const ConductionMatrix &network) const = 0;
 
     /**
      * Join and halve cells. What a field holds in all (the sum of volume times value)

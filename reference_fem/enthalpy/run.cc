@@ -107,13 +107,14 @@ namespace meltfront::reference_fem
   void EnthalpyRun::make_solver()
   {
     if(mesh.lattice)
-      levels = std::make_shared<const std::vector<LatticeLevel>>(
-          lattice_levels(*mesh.lattice));
+      levels = std::make_shared<const Levels>(lattice_levels(*mesh.lattice));
+    else if(refinable && options.preconditioner == Preconditioner::automatic)
+      levels = std::make_shared<const Levels>(refinable->levels(mesh.conduction));
     const auto make_linear_solver = [this](const ConductionMatrix &matrix)
     {
       auto result = options.dimension == 1 ? make_tridiagonal_solver(matrix)
                     : levels && options.preconditioner == Preconditioner::automatic
-                        ? make_lattice_solver(matrix, levels)
+                        ? make_multigrid_solver(matrix, levels)
                         : make_krylov_solver(matrix, options.preconditioner);
       linear_solver_in_words = result->description();
       return result;

@@ -148,7 +148,7 @@ namespace meltfront::reference_fem
 
     Discretisation mesh;
     std::vector<char> free;
-    std::shared_ptr<const std::vector<LatticeLevel>> levels; ///< null but on lattices
+    std::shared_ptr<const Levels> levels; ///< null where nodes have no coarser ones
     std::unique_ptr<NonlinearSolver> solver;
     AlloySolver *alloy = nullptr;          ///< the solver, where there is solute
     LinearSolver *linear_solver = nullptr; ///< of the pure solver

@@ -65,15 +65,13 @@ namespace meltfront::reference_fem
           if(!state.settled)
           {
             const cases::ScopedTimer timer(cost.seconds);
-            sweep_while_moving(c, rhs, u);
-            recover_heat(c, rhs, u, heat);
+            move_nodes(c, rhs, u, heat);
             if constexpr(Solver::moves_fronts)
-              if(problem.levels && problem.levels->size() > 1
-                 && outcome.iterations >= by_itself)
+              if(n_levels(problem.levels) > 1 && outcome.iterations >= by_itself)
               {
                 solver().correct_coarsely(c, u, heat);
-                sweep_while_moving(c, rhs, u);
                 recover_heat(c, rhs, u, heat);
+                move_nodes(c, rhs, u, heat);
               }
           }
         const bool front_moves = Solver::moves_fronts && !state.settled
@@ -134,18 +132,25 @@ namespace meltfront::reference_fem
                       const CompensatedVector &u, std::vector<double> &heat)
     {
       for(std::size_t i = 0; i < u.size(); ++i)
-        if(problem.free[i])
-          heat[i]
-              = static_cast<double>(rhs[i] + c * problem.conduction.exact_inflow(i, u));
+        recover_heat_of(i, c, rhs, u, heat);
       if constexpr(Solver::exchanges)
-        problem.exchange->visit(
-            [&](std::size_t i)
-            {
-              heat[i] += c
-                         * (problem.exchange->supply[i]
-                            - problem.exchange->transfer[i] * solver().excess(u[i]));
-            });
+        problem.exchange->visit([&](std::size_t i) { exchange_heat_of(i, c, u, heat); });
       entries_touched += problem.conduction.entries();
+    }
+
+    void recover_heat_of(std::size_t i, double c, const std::vector<double> &rhs,
+                         const CompensatedVector &u, std::vector<double> &heat) const
+    {
+      if(problem.free[i])
+        heat[i] = static_cast<double>(rhs[i] + c * problem.conduction.exact_inflow(i, u));
+    }
+
+    void exchange_heat_of(std::size_t i, double c, const CompensatedVector &u,
+                          std::vector<double> &heat) const
+    {
+      heat[i] += c
+                 * (problem.exchange->supply[i]
+                    - problem.exchange->transfer[i] * solver().excess(u[i]));
     }
 
     Consistency compare(const CompensatedVector &u, const std::vector<double> &heat) const
@@ -170,29 +175,107 @@ namespace meltfront::reference_fem
       return {largest > 0 ? distance / largest : distance, largest, settled};
     }
 
-    void sweep_while_moving(double c, const std::vector<double> &rhs,
-                            CompensatedVector &u)
+    /** Sweeps while nodes move to other regions; then the heats they lead to. */
+    void move_nodes(double c, const std::vector<double> &rhs, CompensatedVector &u,
+                    std::vector<double> &heat)
     {
-      constexpr int most_sweeps = 4;
-      for(int sweeps = 0; sweeps < most_sweeps && sweep(c, rhs, u);)
-        ++sweeps;
+      const auto relax = [&](std::size_t i)
+      { return problem.free[i] && solver().relax(i, c, rhs, u); };
+      if constexpr(Solver::moves_fronts)
+      {
+        const std::size_t swept = find_nodes_at_fronts(u, heat);
+        sweep_while_moving(swept, [&](std::size_t k) { return relax(at_fronts[k]); });
+        for(const unsigned int i : at_fronts)
+          recover_heat_of(i, c, rhs, u, heat);
+        if constexpr(Solver::exchanges)
+          problem.exchange->visit(
+              [&](std::size_t i)
+              {
+                if(near_front[i])
+                  exchange_heat_of(i, c, u, heat);
+              });
+      }
+      else
+      {
+        sweep_while_moving(u.size(), relax);
+        recover_heat(c, rhs, u, heat);
+      }
     }
 
-    /** A symmetric sweep of nonlinear Gauss-Seidel; true if a node moved to another
-     * region. */
-    bool sweep(double c, const std::vector<double> &rhs, CompensatedVector &u)
+    /**
+     * The nodes within some layers of those that are not in the region of their heat or
+     * that have a neighbour in another region. Sweeps elsewhere move no front: they do
+     * what Newton's step does better.
+     * @return how many of `at_fronts` are to be swept, the first ones; the others are
+     * their neighbours
+     */
+    std::size_t find_nodes_at_fronts(const CompensatedVector &u,
+                                     const std::vector<double> &heat)
     {
-      bool moved = false;
+      constexpr int layers = 4;
+      const ConductionMatrix &conduction = problem.conduction;
+      const auto neighbours_elsewhere = [&](std::size_t i)
+      {
+        for(std::size_t k = conduction.row_start[i]; k < conduction.row_start[i + 1]; ++k)
+          if(const double there = u[conduction.column[k]];
+             (there > 0) != (u[i] > 0) || (there < 0) != (u[i] < 0))
+            return true;
+        return false;
+      };
+      near_front.assign(u.size(), 0);
+      at_fronts.clear();
       for(std::size_t i = 0; i < u.size(); ++i)
-        if(problem.free[i])
-          moved = solver().relax(i, c, rhs, u) || moved;
-      for(std::size_t i = u.size(); i-- > 0;)
-        if(problem.free[i])
-          moved = solver().relax(i, c, rhs, u) || moved;
-      entries_touched += 2 * problem.conduction.entries();
-      ++cost.sweeps;
-      return moved;
+        if(neighbours_elsewhere(i)
+           || (problem.free[i]
+               && !solver().same_side(
+                   i, u[i], solver().excess_at_enthalpy(i, heat[i] / problem.volume[i]))))
+        {
+          near_front[i] = 1;
+          at_fronts.push_back(static_cast<unsigned int>(i));
+        }
+      std::size_t first = 0, swept = 0;
+      for(int layer = 0; layer <= layers; ++layer)
+      {
+        swept = at_fronts.size();
+        for(; first < swept; ++first)
+        {
+          const std::size_t i = at_fronts[first];
+          for(std::size_t k = conduction.row_start[i]; k < conduction.row_start[i + 1];
+              ++k)
+            if(const unsigned int j = conduction.column[k]; !near_front[j])
+            {
+              near_front[j] = 1;
+              at_fronts.push_back(j);
+            }
+        }
+      }
+      std::sort(at_fronts.begin(),
+                at_fronts.begin() + static_cast<std::ptrdiff_t>(swept));
+      return swept;
     }
+
+    /** Symmetric sweeps of nonlinear Gauss-Seidel, there and back.
+     * @param relax of the k-th node; true if it moved to another region */
+    template <typename Relax>
+    void sweep_while_moving(std::size_t nodes, const Relax &relax)
+    {
+      constexpr int most_sweeps = 4;
+      bool moved = true;
+      for(int sweeps = 0; sweeps < most_sweeps && moved; ++sweeps)
+      {
+        moved = false;
+        for(std::size_t k = 0; k < nodes; ++k)
+          moved |= relax(k);
+        for(std::size_t k = nodes; k-- > 0;)
+          moved |= relax(k);
+        entries_touched += static_cast<long>(2 * nodes * problem.conduction.entries()
+                                             / problem.conduction.size());
+        ++cost.sweeps;
+      }
+    }
+
+    std::vector<unsigned int> at_fronts; ///< find_nodes_at_fronts()
+    std::vector<char> near_front;        ///< by node: whether it is among them
   };
 } // namespace meltfront::reference_fem
 

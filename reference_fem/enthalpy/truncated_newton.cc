@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace meltfront::reference_fem
 {
@@ -125,7 +124,7 @@ namespace meltfront::reference_fem
       void advance(double length, CompensatedVector &u) const;
 
       Graph graph;
-      std::optional<CoarseCorrection<Graph>> coarse; ///< once a front has gone far
+      std::unique_ptr<FrontMover> coarse; ///< once a front has gone far
       std::unique_ptr<LinearSolver> owned_solver;
     };
 
@@ -314,7 +313,7 @@ namespace meltfront::reference_fem
         double c, CompensatedVector &u, const std::vector<double> &heat)
     {
       if(!coarse)
-        coarse.emplace(*problem.levels, problem, graph);
+        coarse = make_front_mover(problem, graph);
       std::vector<double> &on_graph = residual;
       for(std::size_t i = 0; i < u.size(); ++i)
         on_graph[i] = graph.heat_on_graph(u[i], problem.volume[i], heat[i]);

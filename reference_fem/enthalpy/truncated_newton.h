@@ -35,8 +35,8 @@ namespace meltfront::reference_fem
     const std::vector<double> &volume; ///< by node, the lumped mass
     const std::vector<char> &free;     ///< 0 where a wall prescribes the temperature
     WallExchange *exchange = nullptr;  ///< null: walls exchange no heat
-    /** Of the nodes, where they lie on a lattice: coarse levels move fronts far. */
-    const std::vector<LatticeLevel> *levels = nullptr;
+    /** Of the nodes, where there are coarser ones: these move fronts far. */
+    const Levels *levels = nullptr;
     /** The least volume over the typical one: what is left of the heat of a large node
      * would be much for a small one. */
     double least_volume = 1;

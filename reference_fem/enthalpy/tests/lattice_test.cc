@@ -94,9 +94,8 @@ namespace meltfront::reference_fem
         active[i] = a > 0 && b > 0 && std::abs(r - 0.25) > 0.7 * mesh.spacing;
         right[i] = std::sin(40 * a) + std::cos(7. * i);
       }
-      const auto solver = make_lattice_solver(
-          mesh.conduction, std::make_shared<const std::vector<LatticeLevel>>(
-                               lattice_levels(*mesh.lattice)));
+      const auto solver = make_multigrid_solver(
+          mesh.conduction, std::make_shared<const Levels>(lattice_levels(*mesh.lattice)));
       constexpr double long_step = 0.1;
       solver->solve({mesh.volume, long_step, active, right, 0}, 1e-12, x);
       double largest = 0, scale = 0;

@@ -150,9 +150,9 @@ namespace meltfront::reference_fem
         else
           for(const auto kind : {Preconditioner::ssor, Preconditioner::amg})
             solvers.push_back(make_krylov_solver(mesh.conduction, kind));
-        solvers.push_back(make_lattice_solver(
-            mesh.conduction, std::make_shared<const std::vector<LatticeLevel>>(
-                                 lattice_levels(*mesh.lattice))));
+        solvers.push_back(make_multigrid_solver(
+            mesh.conduction,
+            std::make_shared<const Levels>(lattice_levels(*mesh.lattice))));
         for(const auto &solver : solvers)
         {
           solver->solve(system, 1e-12, x);

@@ -1,12 +1,13 @@
-#include <reference_fem/enthalpy/lattice_multigrid.h>
+#include <reference_fem/enthalpy/multigrid.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace meltfront::reference_fem
 {
-  LatticeMultigrid::LatticeMultigrid(const std::vector<LatticeLevel> &levels,
-                                     const ConductionMatrix &network)
+  template <class Level>
+  Multigrid<Level>::Multigrid(const std::vector<Level> &levels,
+                              const ConductionMatrix &network)
     : levels(levels)
     , work(levels.size())
     , diagonal(levels.front().size())
@@ -24,15 +25,16 @@ namespace meltfront::reference_fem
       }
       work[l].inverse_diagonal.resize(levels[l].size());
     }
-    row.resize(static_cast<std::size_t>(levels.front().row_length()));
   }
 
-  void LatticeMultigrid::take(const ConductionMatrix &network)
+  template <class Level>
+  void Multigrid<Level>::take(const ConductionMatrix &network)
   {
     matrices.front().take(network);
   }
 
-  void LatticeMultigrid::set_up(const std::vector<double> &heat_capacity, double scale,
+  template <class Level>
+  void Multigrid<Level>::set_up(const std::vector<double> &heat_capacity, double scale,
                                 const std::vector<char> &active_nodes,
                                 bool with_coarse_levels)
   {
@@ -48,7 +50,8 @@ namespace meltfront::reference_fem
       set_up_below();
   }
 
-  void LatticeMultigrid::set_up_below()
+  template <class Level>
+  void Multigrid<Level>::set_up_below()
   {
     for(std::size_t l = 1; l < levels.size(); ++l)
     {
@@ -62,30 +65,24 @@ namespace meltfront::reference_fem
     factorise_coarsest();
   }
 
-  void LatticeMultigrid::multiply(const std::vector<double> &x,
+  template <class Level>
+  void Multigrid<Level>::multiply(const std::vector<double> &x,
                                   std::vector<double> &y) const
   {
-    const LatticeLevel &level = levels.front();
     std::fill(y.begin(), y.end(), 0);
-    std::size_t first = 0;
-    const auto n = static_cast<std::size_t>(level.row_length());
-    for(int z = 0; z < level.line[2].nodes(); ++z)
-      for(int y_row = 0; y_row < level.line[1].nodes(); ++y_row, first += n)
-      {
-        matrices.front().subtract_product(y_row, z, diagonal, x, y.data() + first);
-        for(std::size_t i = first; i < first + n; ++i)
-          y[i] = (*active)[i] ? -y[i] : 0;
-      }
+    matrices.front().subtract_product(diagonal, x, y);
+    for(std::size_t i = 0; i < y.size(); ++i)
+      y[i] = (*active)[i] ? -y[i] : 0;
   }
 
   /** Cholesky's factor; where truncation leaves coarse functions that depend on each
    * other a pivot vanishes, and its unknown is left out. */
-  void LatticeMultigrid::factorise_coarsest()
+  template <class Level>
+  void Multigrid<Level>::factorise_coarsest()
   {
-    const LatticeLevel &level = levels.back();
-    const LatticeMatrix &matrix = matrices.back();
+    const typename Level::Matrix &matrix = matrices.back();
     const std::vector<double> &of_level = levels.size() == 1 ? diagonal : matrix.diagonal;
-    const std::size_t n = level.size();
+    const std::size_t n = levels.back().size();
     constexpr double smallest_pivot = 1e-13;
     factor.assign(n * n, 0);
     std::vector<double> unit(n), column(n);
@@ -94,10 +91,7 @@ namespace meltfront::reference_fem
       unit.assign(n, 0);
       unit[j] = of_level[j] > 0 ? -1 : 0;
       column.assign(n, 0);
-      const auto nx = static_cast<std::size_t>(level.row_length());
-      for(int r = 0; r < level.rows(); ++r)
-        matrix.subtract_product(r % level.line[1].nodes(), r / level.line[1].nodes(),
-                                of_level, unit, column.data() + r * nx);
+      matrix.subtract_product(of_level, unit, column);
       for(std::size_t i = j; i < n; ++i)
         factor[i * n + j] = of_level[i] > 0 ? column[i] : 0;
     }
@@ -123,7 +117,8 @@ namespace meltfront::reference_fem
     }
   }
 
-  void LatticeMultigrid::solve_coarsest(const std::vector<double> &right_side,
+  template <class Level>
+  void Multigrid<Level>::solve_coarsest(const std::vector<double> &right_side,
                                         std::vector<double> &x) const
   {
     const std::size_t n = right_side.size();
@@ -144,13 +139,15 @@ namespace meltfront::reference_fem
     }
   }
 
-  void LatticeMultigrid::precondition(const std::vector<double> &right_side,
+  template <class Level>
+  void Multigrid<Level>::precondition(const std::vector<double> &right_side,
                                       std::vector<double> &x)
   {
     cycle(0, right_side, x);
   }
 
-  void LatticeMultigrid::cycle(std::size_t l, const std::vector<double> &right_side,
+  template <class Level>
+  void Multigrid<Level>::cycle(std::size_t l, const std::vector<double> &right_side,
                                std::vector<double> &x)
   {
     if(coarse && l + 1 == levels.size())
@@ -167,28 +164,19 @@ namespace meltfront::reference_fem
     matrices[l].sweep(false, right_side, x, relax);
   }
 
-  void LatticeMultigrid::correct_coarsely(std::size_t l,
+  template <class Level>
+  void Multigrid<Level>::correct_coarsely(std::size_t l,
                                           const std::vector<double> &right_side,
                                           std::vector<double> &x)
   {
-    const LatticeMatrix &matrix = matrices[l];
-    const LatticeLevel &level = levels[l];
     Work &below = work[l + 1];
-    std::fill(below.right_side.begin(), below.right_side.end(), 0);
-    const auto n = static_cast<std::size_t>(level.row_length());
-    std::size_t first = 0;
-    for(int z = 0; z < level.line[2].nodes(); ++z)
-      for(int y = 0; y < level.line[1].nodes(); ++y, first += n)
-      {
-        std::copy_n(right_side.begin() + static_cast<std::ptrdiff_t>(first), n,
-                    row.begin());
-        matrix.subtract_product(y, z, l == 0 ? diagonal : matrix.diagonal, x, row.data());
-        if(l == 0)
-          for(std::size_t i = 0; i < n; ++i)
-            row[i] = (*active)[first + i] ? row[i] : 0;
-        level.restrict_row(y, z, row.data(), coarse_row, below.right_side);
-      }
+    const char *mask = l == 0 ? active->data() : nullptr;
+    matrices[l].restrict_residual(l == 0 ? diagonal : matrices[l].diagonal, mask,
+                                  right_side, x, below.right_side);
     cycle(l + 1, below.right_side, below.x);
-    level.add_interpolated(below.x, l == 0 ? active->data() : nullptr, x);
+    levels[l].add_interpolated(below.x, mask, x);
   }
+
+  template class Multigrid<LatticeLevel>;
+  template class Multigrid<NestedLevel>;
 } // namespace meltfront::reference_fem

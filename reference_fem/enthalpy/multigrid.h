@@ -1,27 +1,30 @@
-#ifndef meltfront_reference_fem_enthalpy_lattice_multigrid_h
-#define meltfront_reference_fem_enthalpy_lattice_multigrid_h
+#ifndef meltfront_reference_fem_enthalpy_multigrid_h
+#define meltfront_reference_fem_enthalpy_multigrid_h
 
 #include <reference_fem/enthalpy/lattice_matrix.h>
+#include <reference_fem/enthalpy/nested_level.h>
 
 #include <vector>
 
 namespace meltfront::reference_fem
 {
   /**
-   * One V-cycle for A = D + K on the active nodes of a lattice, as a preconditioner:
+   * One V-cycle for A = D + K on the active nodes of a mesh, as a preconditioner:
    * symmetric and positive definite, since the sweep of Gauss-Seidel after the coarse
    * correction is that before it backwards.
    *
    * Truncated (Kornhuber 1994): the coarse spaces are those of linear interpolation with
    * zeros at inactive nodes, their matrices P'A P, so that a front, which is no line of
-   * any coarse lattice, costs no iterations.
+   * any coarse mesh, costs no iterations.
+   *
+   * @tparam Level LatticeLevel or NestedLevel
    */
-  class LatticeMultigrid
+  template <class Level>
+  class Multigrid
   {
   public:
     /** @param levels live as long as this */
-    LatticeMultigrid(const std::vector<LatticeLevel> &levels,
-                     const ConductionMatrix &network);
+    Multigrid(const std::vector<Level> &levels, const ConductionMatrix &network);
 
     /** The conductances of the network have changed. */
     void take(const ConductionMatrix &network);
@@ -54,14 +57,13 @@ namespace meltfront::reference_fem
     void cycle(std::size_t l, const std::vector<double> &right_side,
                std::vector<double> &x);
 
-    const std::vector<LatticeLevel> &levels;
-    std::vector<LatticeMatrix> matrices;
+    const std::vector<Level> &levels;
+    std::vector<typename Level::Matrix> matrices;
     std::vector<Work> work;
     std::vector<double> diagonal; ///< of the finest A
     const std::vector<char> *active = nullptr;
     bool coarse = true;         ///< levels below the finest are in use
     std::vector<double> factor; ///< Cholesky's, of the coarsest level, by rows
-    std::vector<double> row, coarse_row;
   };
 } // namespace meltfront::reference_fem
 

@@ -1,5 +1,5 @@
-#include <reference_fem/enthalpy/lattice_multigrid.h>
 #include <reference_fem/enthalpy/linear_solver.h>
+#include <reference_fem/enthalpy/multigrid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,14 +22,16 @@ namespace meltfront::reference_fem
     }
 
     /** Conjugate gradients for (D/c + K) x = r/c. */
-    class LatticeSolver : public LinearSolver
+    template <class Level>
+    class MultigridSolver : public LinearSolver
     {
     public:
-      LatticeSolver(const ConductionMatrix &conduction,
-                    std::shared_ptr<const std::vector<LatticeLevel>> levels)
+      MultigridSolver(const ConductionMatrix &conduction,
+                      std::shared_ptr<const Levels> levels)
         : conduction(conduction)
-        , levels(std::move(levels))
-        , multigrid(*this->levels, conduction)
+        , all_levels(std::move(levels))
+        , levels(std::get<std::vector<Level>>(*all_levels))
+        , multigrid(this->levels, conduction)
         , residual(conduction.size())
         , preconditioned(conduction.size())
         , direction(conduction.size())
@@ -56,17 +58,19 @@ namespace meltfront::reference_fem
       bool levels_pay(const NewtonSystem &system) const;
 
       const ConductionMatrix &conduction;
-      std::shared_ptr<const std::vector<LatticeLevel>> levels;
-      LatticeMultigrid multigrid;
+      std::shared_ptr<const Levels> all_levels;
+      const std::vector<Level> &levels;
+      Multigrid<Level> multigrid;
       std::vector<double> residual, preconditioned, direction, image;
     };
 
     /** Sweeps alone need iterations as the root of the largest Fourier number. Where both
      * take the same time was measured on block-melting-2d and -3d. */
-    bool LatticeSolver::levels_pay(const NewtonSystem &system) const
+    template <class Level>
+    bool MultigridSolver<Level>::levels_pay(const NewtonSystem &system) const
     {
       constexpr std::size_t few_nodes = 2000;
-      const double long_step = levels->front().line[2].nodes() > 1 ? 40 : 15;
+      const double long_step = levels.front().in_space() ? 40 : 15;
       if(conduction.size() < few_nodes)
         return false;
       for(std::size_t i = 0; i < conduction.size(); ++i)
@@ -77,8 +81,9 @@ namespace meltfront::reference_fem
       return false;
     }
 
-    void LatticeSolver::solve(const NewtonSystem &system, double reduction,
-                              std::vector<double> &x)
+    template <class Level>
+    void MultigridSolver<Level>::solve(const NewtonSystem &system, double reduction,
+                                       std::vector<double> &x)
     {
       // Stopping early is safe: the outer iteration goes on until the graph holds.
       constexpr int most_iterations = 200;
@@ -128,9 +133,12 @@ namespace meltfront::reference_fem
   } // namespace
 
   std::unique_ptr<LinearSolver>
-  make_lattice_solver(const ConductionMatrix &matrix,
-                      std::shared_ptr<const std::vector<LatticeLevel>> levels)
+  make_multigrid_solver(const ConductionMatrix &matrix,
+                        const std::shared_ptr<const Levels> &levels)
   {
-    return std::make_unique<LatticeSolver>(matrix, std::move(levels));
+    return std::visit(
+        [&]<class Level>(const std::vector<Level> &) -> std::unique_ptr<LinearSolver>
+        { return std::make_unique<MultigridSolver<Level>>(matrix, levels); },
+        *levels);
   }
 } // namespace meltfront::reference_fem
