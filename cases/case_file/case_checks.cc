@@ -73,7 +73,7 @@ namespace meltfront::cases
     constexpr int points_of_outline = 64;
 
     /** Of many points some that are spread over them. */
-    std::vector<Position> some_of(const std::vector<Position> &points)
+    std::vector<Position> spread_over(const std::vector<Position> &points)
     {
       constexpr std::size_t wanted = 256;
       std::vector<Position> result;
@@ -93,7 +93,7 @@ namespace meltfront::cases
         return points;
       }
       if(domain.mesh)
-        return some_of(domain.mesh->vertices());
+        return spread_over(domain.mesh->vertices());
       if(!domain.round())
         return grid(domain, {0.03, 0.03, 0.03}, {0.97, 0.97, 0.97});
       std::vector<Position> points;
@@ -111,7 +111,7 @@ namespace meltfront::cases
       {
         std::vector<Position> points;
         visit_wall(domain, side, [&points](const Position &p) { points.push_back(p); });
-        return some_of(points);
+        return spread_over(points);
       }
       if(domain.round())
         return directions(domain, wall_radius(domain, side));

@@ -1,4 +1,4 @@
-#include <reference_fem/enthalpy/deal_mesh.h>
+#include <reference_fem/enthalpy/deal_mesh.templates.h>
 
 #include <cases/error.h>
 #include <reference_fem/enthalpy/row_builder.h>

@@ -1,6 +1,8 @@
-#include <reference_fem/enthalpy/deal_mesh.h>
+#ifndef meltfront_reference_fem_enthalpy_deal_mesh_templates_h
+#define meltfront_reference_fem_enthalpy_deal_mesh_templates_h
 
 #include <cases/error.h>
+#include <reference_fem/enthalpy/deal_mesh.h>
 
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_tools.h>
@@ -11,8 +13,6 @@
 
 namespace meltfront::reference_fem
 {
-  using cases::Position;
-
   template <int dim>
   std::optional<typename DealMesh<dim>::Place>
   DealMesh<dim>::find(const dealii::Point<dim> &point) const
@@ -78,7 +78,7 @@ namespace meltfront::reference_fem
   }
 
   template <int dim>
-  Shares DealMesh<dim>::shares(const Position &point) const
+  Shares DealMesh<dim>::shares(const cases::Position &point) const
   {
     dealii::Point<dim> p;
     for(int d = 0; d < dim; ++d)
@@ -114,9 +114,9 @@ namespace meltfront::reference_fem
   }
 
   template <int dim>
-  std::vector<double>
-  DealMesh<dim>::node_averages(const std::function<double(const Position &)> &function,
-                               const std::function<bool(const Position &)> &solid) const
+  std::vector<double> DealMesh<dim>::node_averages(
+      const std::function<double(const cases::Position &)> &function,
+      const std::function<bool(const cases::Position &)> &solid) const
   {
     const auto flags = dealii::update_JxW_values | dealii::update_quadrature_points;
     dealii::FEValues<dim> in_phase(*rules.mapping, *rules.element, rules.smooth, flags),
@@ -161,8 +161,6 @@ namespace meltfront::reference_fem
       sum[i] /= measure_of[i];
     return sum;
   }
-
-  template class DealMesh<1>;
-  template class DealMesh<2>;
-  template class DealMesh<3>;
 } // namespace meltfront::reference_fem
+
+#endif
