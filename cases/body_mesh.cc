@@ -1,5 +1,6 @@
 #include <cases/body_mesh.h>
 #include <cases/error.h>
+#include <cases/hanging_vertices.h>
 
 #include <fmt/format.h>
 
@@ -42,6 +43,11 @@ namespace meltfront::cases
     {
       std::ranges::sort(vertices);
       return vertices;
+    }
+
+    double longest_side(const Position &lower, const Position &upper)
+    {
+      return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]});
     }
 
     std::string place_of(const Position &p, int dimension)
@@ -107,6 +113,12 @@ namespace meltfront::cases
     find_boundary();
     visit_volume(0, [this](const Position &, double part) { total_volume += part; });
     sort_cells_into_bins();
+    const double size = longest_side(lower_corner, upper_corner);
+    if(const auto vertex = hanging_vertex(*this, same_place * size))
+      throw InputError(
+          fmt::format("has a vertex on a face of a cell that lacks it, at {}: "
+                      "cells of two sizes do not hold together",
+                      place_of(*vertex, dimension())));
   }
 
   void BodyMesh::drop_unused_vertices()
@@ -149,9 +161,7 @@ namespace meltfront::cases
   /** Two of a place come of parts that were meshed one by one: heat would not pass. */
   void BodyMesh::require_separate_vertices() const
   {
-    double size = 0;
-    for(int d = 0; d < 3; ++d)
-      size = std::max(size, upper_corner[d] - lower_corner[d]);
+    const double size = longest_side(lower_corner, upper_corner);
     std::vector<Position> ordered = data.vertices;
     std::ranges::sort(ordered);
     for(std::size_t i = 0; i < ordered.size(); ++i)

@@ -163,6 +163,16 @@ namespace meltfront::cases
       mesh = good;
       mesh.faces.push_back({{0, 8}, 1});
       expect(mesh, "a face of 'x_max' that no cell has");
+      // Two small cells beside a large one: a vertex hangs between them.
+      mesh = {};
+      mesh.kind = CellKind::quadrilateral;
+      mesh.vertices
+          = {{0, 0, 0},   {1, 0, 0},   {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0},
+             {1, 0.5, 0}, {2, 0.5, 0}, {0, 2, 0}, {1, 2, 0}, {2, 2, 0}};
+      mesh.cells = {0, 1, 3, 4, 1, 2, 6, 7, 6, 7, 4, 5, 3, 4, 8, 9, 4, 5, 9, 10};
+      mesh.material_of_cell.assign(5, 0);
+      mesh.materials = {"body"};
+      expect(mesh, "on a face of a cell that lacks it, at (1, 0.5)");
       expect(lattice_mesh(CellKind::quadrilateral, 3, {},
                           [](const Position &p) { return std::abs(p[0] - 0.5) > 0.2; }),
              "falls apart");
