@@ -60,7 +60,7 @@ namespace meltfront::cases
           return fmt::format("takes no wall of the kind '{}' on a domain of the shape "
                              "'{}' ({} is one)",
                              to_string(kind), to_string(scene.domain.shape),
-                             to_string(side));
+                             name_of(scene.domain, side));
       return {};
     }
 

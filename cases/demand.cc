@@ -21,6 +21,8 @@ namespace meltfront::cases
   {
     if(dimension == 1 || domain.shape == DomainShape::slab)
       return n;
+    if(domain.mesh) // n divides the cells' edges
+      return static_cast<double>(domain.mesh->vertices().size()) * std::pow(n, dimension);
     const double spacing = domain.side() / n;
     if(domain.shape == DomainShape::outline)
       return domain.outline->area() / (spacing * spacing);

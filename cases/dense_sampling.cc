@@ -135,7 +135,7 @@ namespace meltfront::cases
                                        { return depends(*field, variable); });
       directions += matters[d];
     }
-    const bool tells_inside = domain.round() || domain.outline;
+    const bool tells_inside = domain.round() || domain.irregular();
     if(tells_inside && directions > 0)
     {
       if(domain.round() && scene.symmetry != Symmetry::none)
@@ -169,6 +169,9 @@ namespace meltfront::cases
     if(tells_inside && directions > 0)
       for(const Side side : scene.sides())
         visit_wall(domain, side, visit);
+    if(domain.mesh && directions > 0)
+      for(const Position &vertex : domain.mesh->vertices())
+        visit(vertex);
   }
 
   void visit_values_in_time(const Scene &scene, const Field &field,
@@ -227,7 +230,7 @@ namespace meltfront::cases
   {
     std::vector<Position> positions;
     const auto collect = [&](const Position &p) { positions.push_back(p); };
-    const bool flat = !scene.domain.round() && !scene.domain.outline;
+    const bool flat = scene.domain.rectangular();
     if(flat && !may_depend_on(field.expression, "t"))
     {
       // Along the wall only, and so more densely.

@@ -25,6 +25,8 @@ namespace meltfront::cases
       return volume_between(symmetry_of(domain), domain.inner_radius, domain.radius);
     case DomainShape::outline:
       return domain.outline->area();
+    case DomainShape::mesh:
+      return domain.mesh->volume();
     case DomainShape::axisymmetric:
       return volume_between(Symmetry::cylindrical, domain.lower[0], domain.upper[0])
              * (domain.upper[1] - domain.lower[1]);
@@ -53,6 +55,8 @@ namespace meltfront::cases
       return 1;
     case DomainShape::outline:
       return domain.outline->perimeter();
+    case DomainShape::mesh:
+      return domain.mesh->area(static_cast<int>(index_of_mesh_wall(side)));
     case DomainShape::axisymmetric:
       return direction == 1
                  ? volume_between(Symmetry::cylindrical, domain.lower[0], domain.upper[0])

@@ -21,7 +21,8 @@ namespace meltfront::cases::called_for
       std::string names;
       for(const Side side : scene.sides())
         if(scene.boundary(side).kind == kind)
-          names += fmt::format("{}{}", names.empty() ? "" : ", ", to_string(side));
+          names += fmt::format("{}{}", names.empty() ? "" : ", ",
+                               name_of(scene.domain, side));
       return decide(effect, !names.empty(),
                     fmt::format("{} is prescribed on {}", what, names),
                     fmt::format("no wall prescribes {}", what));

@@ -95,7 +95,7 @@ namespace meltfront::cases
       Position inside_of(Side side, Position wall) const
       {
         const Domain &domain = scene.domain;
-        if(side == Side::outer && domain.outline)
+        if(domain.irregular())
           return wall;
         if(side == Side::outer || side == Side::inner)
           for(double &component : wall)

@@ -8,6 +8,25 @@ namespace meltfront::cases
   {
     constexpr int samples_of_outline = 8 * samples_across;
 
+    /** Points on the faces of a mesh's wall, some hundreds at least: in the middle of
+     * parts of them, and their vertices. */
+    void visit_mesh_wall(const BodyMesh &mesh, unsigned int wall,
+                         const PointVisitor &visit)
+    {
+      std::size_t faces = 0;
+      for(const BodyMesh::Face &face : mesh.boundary())
+        if(face.wall == static_cast<int>(wall))
+        {
+          ++faces;
+          for(const unsigned int v : face.vertices)
+            visit(mesh.vertices()[v]);
+        }
+      int levels = 0;
+      while(faces > 0 && faces << ((mesh.dimension() - 1) * levels) < samples_of_outline)
+        ++levels;
+      mesh.visit_wall(wall, levels, [&](const Position &p, double) { visit(p); });
+    }
+
     bool on_side(const Domain &domain, Side side, const Position &p)
     {
       const double tolerance = 1e-9 * domain.side();
@@ -27,6 +46,8 @@ namespace meltfront::cases
   {
     if(domain.outline)
       return domain.outline->inside(p);
+    if(domain.mesh)
+      return domain.mesh->cell_at(p).has_value();
     if(!domain.round())
       return true;
     const double squared = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
@@ -58,6 +79,9 @@ namespace meltfront::cases
     if(domain.outline)
       for(const Position &point : domain.outline->points(samples_of_outline))
         visit(point);
+    if(domain.mesh)
+      for(const Position &vertex : domain.mesh->vertices())
+        visit(vertex);
   }
 
   void visit_wall(const Domain &domain, Side side, const PointVisitor &visit)
@@ -66,6 +90,11 @@ namespace meltfront::cases
     {
       for(const Position &point : domain.outline->points(samples_of_outline))
         visit(point);
+      return;
+    }
+    if(domain.mesh)
+    {
+      visit_mesh_wall(*domain.mesh, index_of_mesh_wall(side), visit);
       return;
     }
     visit_points(domain,

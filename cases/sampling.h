@@ -18,7 +18,7 @@ namespace meltfront::cases
   bool contains(const Domain &domain, const Position &p);
 
   /** Visit the sample points that lie in a domain, those on its walls included, and
-   * points along an outline. */
+   * points along an outline or the vertices of a mesh. */
   void visit_points(const Domain &domain, const PointVisitor &visit);
 
   /** Visit the sample points of a wall: of a round one those on the rays of the samples

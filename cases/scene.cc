@@ -21,7 +21,7 @@ namespace meltfront::cases
 
   double Domain::side() const
   {
-    if(shape == DomainShape::outline)
+    if(irregular())
       return reference_length;
     return round() ? 2 * radius : upper[0] - lower[0];
   }
@@ -29,6 +29,11 @@ namespace meltfront::cases
   bool Domain::round() const
   {
     return shape == DomainShape::ball || shape == DomainShape::shell;
+  }
+
+  bool Domain::irregular() const
+  {
+    return shape == DomainShape::outline || shape == DomainShape::mesh;
   }
 
   bool Domain::rectangular() const
@@ -41,14 +46,21 @@ namespace meltfront::cases
   {
     constexpr const char *names[]
         = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "outer", "inner"};
-    static_assert(std::size(names) == n_sides);
-    return names[static_cast<std::size_t>(side)];
+    static_assert(std::size(names) == n_named_sides);
+    return static_cast<std::size_t>(side) < n_named_sides
+               ? names[static_cast<std::size_t>(side)]
+               : "wall of a mesh";
+  }
+
+  std::string name_of(const Domain &domain, Side side)
+  {
+    return domain.mesh ? domain.mesh->walls()[index_of_mesh_wall(side)] : to_string(side);
   }
 
   const char *to_string(DomainShape shape)
   {
     constexpr const char *names[]
-        = {"slab", "box", "ball", "shell", "outline", "axisymmetric"};
+        = {"slab", "box", "ball", "shell", "outline", "axisymmetric", "mesh"};
     return names[static_cast<std::size_t>(shape)];
   }
 

@@ -2,6 +2,7 @@
 #define meltfront_cases_scene_h
 
 #include <cases/alloy.h>
+#include <cases/body_mesh.h>
 #include <cases/effects.h>
 #include <cases/exact_solution.h>
 #include <cases/material.h>
@@ -44,14 +45,15 @@ namespace meltfront::cases
   /** Shape of the domain. */
   enum class DomainShape
   {
-    slab,        ///< planar: 0 <= x <= length, unbounded (periodic) across
-    box,         ///< lower <= (x, y, z) <= upper in `dimension` dimensions
-    ball,        ///< distance from the origin <= radius: a disk in 2D, a ball in 3D
-    shell,       ///< inner radius <= distance from the origin <= radius: an annulus in 2D
-    outline,     ///< what a closed curve bounds in the plane
-    axisymmetric ///< a body about an axis, nothing varies around it: lower <= (x, y) <=
-                 ///< upper, x the distance from the axis and y along it; volumes and
-                 ///< walls are those of the whole body
+    slab,    ///< planar: 0 <= x <= length, unbounded (periodic) across
+    box,     ///< lower <= (x, y, z) <= upper in `dimension` dimensions
+    ball,    ///< distance from the origin <= radius: a disk in 2D, a ball in 3D
+    shell,   ///< inner radius <= distance from the origin <= radius: an annulus in 2D
+    outline, ///< what a closed curve bounds in the plane
+    axisymmetric, ///< a body about an axis, nothing varies around it: lower <= (x, y) <=
+                  ///< upper, x the distance from the axis and y along it; volumes and
+                  ///< walls are those of the whole body
+    mesh          ///< the cells of a mesh file
   };
 
   /** The word for a shape in case files. */
@@ -68,7 +70,10 @@ namespace meltfront::cases
     double inner_radius = 0; ///< of a shell (m)
     /** Of an outline, whose bounding box lies between `lower` and `upper`; else null. */
     std::shared_ptr<const Outline> outline{};
-    double reference_length = 0; ///< of an outline (m)
+    /** Of a mesh, whose bounding box lies between `lower` and `upper`; else null. */
+    std::shared_ptr<const BodyMesh> mesh{};
+    double reference_length = 0; ///< of an outline; of a mesh the longest side of its box
+                                 ///< (m)
 
     /** A ball or a shell. */
     bool round() const;
@@ -77,8 +82,12 @@ namespace meltfront::cases
      */
     bool rectangular() const;
 
+    /** Neither bounded by planes nor by circles: an outline or a mesh. */
+    bool irregular() const;
+
     /** The length that a resolution n divides: slab length, box side along x, outer
-     * diameter, or the reference length of an outline (m). */
+     * diameter, or the reference length of an outline; the longest side of a mesh's box,
+     * where n divides the cells' edges (m). */
     double side() const;
   };
 
@@ -111,7 +120,7 @@ namespace meltfront::cases
   };
 
   /** Names of the sides of a slab or a box; a ball and an outline have the one side
-   * `outer`, a shell `inner` and `outer`. */
+   * `outer`, a shell `inner` and `outer`. The walls of a mesh follow, see mesh_wall(). */
   enum class Side
   {
     x_min,
@@ -123,8 +132,27 @@ namespace meltfront::cases
     outer,
     inner
   };
-  inline constexpr std::size_t n_sides = 8;
+  inline constexpr std::size_t n_named_sides = 8;
+  inline constexpr std::size_t most_mesh_walls = 24;
+  inline constexpr std::size_t n_sides = n_named_sides + most_mesh_walls;
+
+  /** The side that is a wall of a mesh, by its index in BodyMesh::walls(). */
+  constexpr Side mesh_wall(std::size_t index)
+  {
+    return static_cast<Side>(n_named_sides + index);
+  }
+
+  /** The reverse. */
+  constexpr unsigned int index_of_mesh_wall(Side side)
+  {
+    return static_cast<unsigned int>(static_cast<std::size_t>(side) - n_named_sides);
+  }
+
+  /** The word for a side that has one of its own, `x_min`. */
   const char *to_string(Side side);
+
+  /** What a side of a domain is called: `x_min`; of a mesh the name of its wall. */
+  std::string name_of(const Domain &domain, Side side);
 
   /** Where something that moves is at a time. */
   struct Path
@@ -174,6 +202,8 @@ namespace meltfront::cases
   {
     Field level_set;         ///< negative inside; only its sign and its zeros matter
     double conductivity = 1; ///< inside, W/(m K)
+    /** Where it is all cells of one material of the domain's mesh: its index. */
+    std::optional<unsigned int> material{};
 
     bool contains(const Position &position) const
     {

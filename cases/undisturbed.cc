@@ -47,7 +47,8 @@ namespace meltfront::cases
                             disturbs = disturbs || !(std::abs(value - rest) <= allowed);
                           });
         if(disturbs)
-          return fmt::format("the wall {} gives or takes heat", to_string(side));
+          return fmt::format("the wall {} gives or takes heat",
+                             name_of(scene.domain, side));
       }
       return {};
     }

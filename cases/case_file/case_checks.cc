@@ -1,6 +1,7 @@
 #include <cases/case_file/alloy_reader.h>
 #include <cases/case_file/case_checks.h>
 #include <cases/case_file/key_builders.h>
+#include <cases/sampling.h>
 #include <cases/wall_law.h>
 
 #include <fmt/format.h>
@@ -71,6 +72,16 @@ namespace meltfront::cases
 
     constexpr int points_of_outline = 64;
 
+    /** Of many points some that are spread over them. */
+    std::vector<Position> spread_over(const std::vector<Position> &points)
+    {
+      constexpr std::size_t wanted = 256;
+      std::vector<Position> result;
+      for(std::size_t i = 0; i < points.size(); i += points.size() / wanted + 1)
+        result.push_back(points[i]);
+      return result;
+    }
+
     std::vector<Position> interior_points(const Domain &domain)
     {
       if(domain.outline)
@@ -81,6 +92,8 @@ namespace meltfront::cases
             points.push_back(p);
         return points;
       }
+      if(domain.mesh)
+        return spread_over(domain.mesh->vertices());
       if(!domain.round())
         return grid(domain, {0.03, 0.03, 0.03}, {0.97, 0.97, 0.97});
       std::vector<Position> points;
@@ -94,6 +107,12 @@ namespace meltfront::cases
     {
       if(domain.outline)
         return domain.outline->points(points_of_outline);
+      if(domain.mesh)
+      {
+        std::vector<Position> points;
+        visit_wall(domain, side, [&points](const Position &p) { points.push_back(p); });
+        return spread_over(points);
+      }
       if(domain.round())
         return directions(domain, wall_radius(domain, side));
       std::array<double, 3> from{0, 0, 0}, to{1, 1, 1};
@@ -118,7 +137,7 @@ namespace meltfront::cases
       for(const double temperature :
           {wall.value(p, time), scene.initial.temperature(p, scene.start_time)})
         if(!(temperature > wall.absolute_zero))
-          throw prm.error(wall_keys(side), "absolute zero",
+          throw prm.error(wall_keys(scene.domain, side), "absolute zero",
                           fmt::format("is {:.6g}, and the wall radiates between "
                                       "temperatures of which one is {:.6g}",
                                       wall.absolute_zero, temperature));
@@ -225,7 +244,7 @@ namespace meltfront::cases
           {
             const double time = sampled_time(scene, i);
             compare(exact.temperature(p, time), boundary.value(p, time), p, time,
-                    wall_keys(side), "temperature");
+                    wall_keys(scene.domain, side), "temperature");
           }
       }
 
@@ -234,11 +253,12 @@ namespace meltfront::cases
       void heated_wall(Side side) const
       {
         const Boundary &boundary = scene.boundary(side);
-        if(scene.domain.outline)
-          throw prm.error(wall_keys(side), "kind",
-                          "lets a flux through an outline, which no exact solution is "
-                          "held against: 'front floor' in subsection 'Measure' says by "
-                          "how much it is off");
+        if(scene.domain.irregular())
+          throw prm.error(
+              wall_keys(scene.domain, side), "kind",
+              "lets a flux through an outline or a mesh, which no exact solution is "
+              "held against: 'front floor' in subsection 'Measure' says by "
+              "how much it is off");
         for(const Position &p : wall_points(scene.domain, side))
           for(int i = times_sampled / 4; i <= times_sampled; ++i)
           {
@@ -248,7 +268,8 @@ namespace meltfront::cases
             const double conductivity = conductivity_at(p, time);
             if(!(std::abs(found - wanted)
                  <= 1e-3 * conductivity * span / scene.domain.side()))
-              complain(found, wanted, "heat flux", p, time, wall_keys(side), "kind");
+              complain(found, wanted, "heat flux", p, time, wall_keys(scene.domain, side),
+                       "kind");
           }
       }
 
@@ -364,14 +385,14 @@ namespace meltfront::cases
         const double time = sampled_time(scene, i);
         for(const Position &p : wall_points(scene.domain, side))
         {
-          check_finite(prm, scene, boundary.value, p, time, wall_keys(side),
+          check_finite(prm, scene, boundary.value, p, time, wall_keys(scene.domain, side),
                        value_key(boundary));
           if(boundary.kind == BoundaryKind::radiation)
             check_absolute(prm, scene, side, p, time);
         }
         if(round)
           check_symmetric(prm, scene, boundary.value, wall_radius(scene.domain, side),
-                          time, wall_keys(side), value_key(boundary));
+                          time, wall_keys(scene.domain, side), value_key(boundary));
       }
     }
   }

@@ -6,11 +6,14 @@
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/manufactured_reader.h>
 #include <cases/case_file/material_reader.h>
+#include <cases/case_file/mesh_reader.h>
 #include <cases/case_file/particle_solid_reader.h>
 #include <cases/effects.h>
 #include <cases/scene.h>
 
 #include <fmt/format.h>
+
+#include <functional>
 
 namespace meltfront::cases
 {
@@ -45,12 +48,12 @@ namespace meltfront::cases
       prm.declare(
           domain,
           word_key("shape", "",
-                   {"slab", "box", "ball", "shell", "outline", "axisymmetric"},
+                   {"slab", "box", "ball", "shell", "outline", "axisymmetric", "mesh"},
                    "slab: 0 <= x <= length; box: between two corners; ball: a disk or "
                    "a ball about the origin; shell: that outside of an inner radius; "
                    "outline: within a closed curve in the plane; axisymmetric: a body "
                    "about an axis, x the distance from it and y along it, between two "
-                   "corners."));
+                   "corners; mesh: the cells of a file."));
       prm.declare(
           domain,
           integer_key("dimension", "1", 1, 3,
@@ -85,6 +88,51 @@ namespace meltfront::cases
                      "Length of an outline that a resolution n divides; the larger "
                      "side of its bounding box where not given.",
                      above_zero));
+      declare_mesh(prm);
+    }
+
+    /** Keys of a wall. @param declare takes each of them */
+    void declare_wall(const std::function<void(const PrmEntry &)> &declare)
+    {
+      declare(
+          word_key("kind", "insulated",
+                   {"insulated", "fixed temperature", "exact", "flux", "periodic",
+                    "heat transfer", "radiation"},
+                   "What holds at the wall; exact: the exact solution's "
+                   "temperature; heat transfer: a flux that the wall's difference "
+                   "from the ambient temperature drives; radiation: the same with the "
+                   "fourth powers of the absolute temperatures."));
+      declare(expression_key("ambient temperature", temperature_units,
+                             "Temperature of the surroundings: expression of x, "
+                             "y, z, t; exact: that which makes the flux the exact "
+                             "solution's."));
+      declare(number_key("heat transfer coefficient", "", "W/(m^2 K)",
+                         "Heat flux per difference of temperature.", above_zero));
+      declare(number_key("emissivity", "", "",
+                         "Of a wall that radiates: the share of a black "
+                         "body's radiation.",
+                         above_zero));
+      declare(number_key("Stefan-Boltzmann constant", "5.670374419e-8", "W/(m^2 K^4)",
+                         "In normalised scenes another number.", above_zero));
+      declare(number_key("absolute zero", "", "K",
+                         "Of a wall that radiates: on the scene's scale of "
+                         "temperature, -273.15 for degrees Celsius."));
+      declare(
+          expression_key("temperature", temperature_units, "Expression of x, y, z, t."));
+      declare(expression_key("flux", "W/m^2",
+                             "Heat flux into the domain, expression of x, y, "
+                             "z, t; exact: that of the exact solution."));
+    }
+
+    void declare_walls(PrmFile &prm)
+    {
+      for(std::size_t s = 0; s < n_named_sides; ++s)
+        declare_wall(
+            [&](const PrmEntry &entry) {
+              prm.declare(all_wall_keys + "/" + to_string(static_cast<Side>(s)), entry);
+            });
+      declare_wall([&](const PrmEntry &entry)
+                   { prm.declare_in_each(all_wall_keys, "PHYSICAL GROUP", entry, 0); });
     }
 
     void declare_state_and_walls(PrmFile &prm)
@@ -105,43 +153,7 @@ namespace meltfront::cases
                   number_key("solid fraction at melting", "0", "",
                              "Solid fraction of points at the melting temperature.", 0,
                              1));
-      for(std::size_t s = 0; s < n_sides; ++s)
-      {
-        const std::string wall
-            = std::string("Scene/Walls/") + to_string(static_cast<Side>(s));
-        prm.declare(
-            wall,
-            word_key("kind", "insulated",
-                     {"insulated", "fixed temperature", "exact", "flux", "periodic",
-                      "heat transfer", "radiation"},
-                     "What holds at the wall; exact: the exact solution's "
-                     "temperature; heat transfer: a flux that the wall's difference "
-                     "from the ambient temperature drives; radiation: the same with the "
-                     "fourth powers of the absolute temperatures."));
-        prm.declare(wall,
-                    expression_key("ambient temperature", temperature_units,
-                                   "Temperature of the surroundings: expression of x, "
-                                   "y, z, t; exact: that which makes the flux the exact "
-                                   "solution's."));
-        prm.declare(wall,
-                    number_key("heat transfer coefficient", "", "W/(m^2 K)",
-                               "Heat flux per difference of temperature.", above_zero));
-        prm.declare(wall, number_key("emissivity", "", "",
-                                     "Of a wall that radiates: the share of a black "
-                                     "body's radiation.",
-                                     above_zero));
-        prm.declare(wall, number_key("Stefan-Boltzmann constant", "5.670374419e-8",
-                                     "W/(m^2 K^4)",
-                                     "In normalised scenes another number.", above_zero));
-        prm.declare(wall, number_key("absolute zero", "", "K",
-                                     "Of a wall that radiates: on the scene's scale of "
-                                     "temperature, -273.15 for degrees Celsius."));
-        prm.declare(wall, expression_key("temperature", temperature_units,
-                                         "Expression of x, y, z, t."));
-        prm.declare(wall, expression_key("flux", "W/m^2",
-                                         "Heat flux into the domain, expression of x, y, "
-                                         "z, t; exact: that of the exact solution."));
-      }
+      declare_walls(prm);
       for(int i = 1; i <= most_sources; ++i)
       {
         const std::string source = fmt::format("Scene/Source {}", i);

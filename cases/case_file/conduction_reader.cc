@@ -1,6 +1,7 @@
 #include <cases/case_file/conduction_reader.h>
 #include <cases/case_file/expression.h>
 #include <cases/case_file/key_builders.h>
+#include <cases/case_file/mesh_reader.h>
 #include <cases/exact/formula_solution.h>
 #include <cases/exact/lattice_reference.h>
 
@@ -96,6 +97,10 @@ namespace meltfront::cases
         inclusion_keys,
         text_key("level set",
                  "Level set of the region: expression of x, y, z, negative inside."));
+    prm.declare(inclusion_keys,
+                text_key("material",
+                         "In a domain of the shape 'mesh' in place of the level set: the "
+                         "physical group of its cells."));
     prm.declare(inclusion_keys, number_key("conductivity", "", "W/(m K)",
                                            "Thermal conductivity inside.", above_zero));
     prm.declare(
@@ -132,8 +137,13 @@ namespace meltfront::cases
           = field(prm, release_keys, "power density", variables(scene) + "t");
     if(!inclusion)
       return;
-    for(const char *key : {"level set", "conductivity"})
-      prm.require(inclusion_keys, key, "an inclusion needs it");
+    prm.require(inclusion_keys, "conductivity", "an inclusion needs it");
+    if(prm.given(inclusion_keys, "material"))
+    {
+      scene.inclusion = read_mesh_inclusion(prm, inclusion_keys, scene.domain);
+      return;
+    }
+    prm.require(inclusion_keys, "level set", "an inclusion needs it");
     scene.inclusion = Inclusion{field(prm, inclusion_keys, "level set", variables(scene)),
                                 prm.get_number(inclusion_keys, "conductivity")};
   }

@@ -1,5 +1,6 @@
 #include <cases/case_file/domain_reader.h>
 #include <cases/case_file/key_builders.h>
+#include <cases/case_file/mesh_reader.h>
 #include <cases/case_file/outline_reader.h>
 
 #include <fmt/format.h>
@@ -31,6 +32,8 @@ namespace meltfront::cases
       belongs("inner radius", "shell");
       if(shape != "outline")
         forbid_outline_keys(prm, shape);
+      if(shape != "mesh")
+        forbid_mesh_keys(prm, shape);
     }
 
     void read_rectangle(const PrmFile &prm, const std::string &shape, Domain &domain)
@@ -113,6 +116,8 @@ namespace meltfront::cases
       read_round_shape(prm, shape, domain);
     else if(shape == "outline")
       read_outline(prm, domain);
+    else if(shape == "mesh")
+      read_mesh(prm, domain);
     else
       read_rectangle(prm, shape, domain);
     return domain;
@@ -133,7 +138,7 @@ namespace meltfront::cases
     };
     if(domain.shape == DomainShape::slab && symmetry != Symmetry::planar)
       complain("planar");
-    if((domain.shape == DomainShape::box || domain.outline
+    if((domain.shape == DomainShape::box || domain.irregular()
         || domain.shape == DomainShape::axisymmetric)
        && symmetry != Symmetry::none)
       complain("none");

@@ -4,9 +4,9 @@
 
 namespace meltfront::cases
 {
-  std::string wall_keys(Side side)
+  std::string wall_keys(const Domain &domain, Side side)
   {
-    return std::string("Scene/Walls/") + to_string(side);
+    return all_wall_keys + "/" + name_of(domain, side);
   }
 
   PrmEntry text_key(const std::string &key, const std::string &description)
@@ -55,6 +55,13 @@ namespace meltfront::cases
     PrmEntry entry = text_key(key, description);
     entry.kind = PrmKind::numbers;
     entry.unit = unit;
+    return entry;
+  }
+
+  PrmEntry file_key(const std::string &key, const std::string &description)
+  {
+    PrmEntry entry = text_key(key, description);
+    entry.kind = PrmKind::file;
     return entry;
   }
 

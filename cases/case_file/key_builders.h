@@ -17,8 +17,9 @@ namespace meltfront::cases
   /** Stands for a value that is the exact solution's. */
   inline constexpr const char *exact_value = "exact";
 
-  /** The subsection of a wall. */
-  std::string wall_keys(Side side);
+  /** The subsection of all walls, and that of one. */
+  inline const std::string all_wall_keys = "Scene/Walls";
+  std::string wall_keys(const Domain &domain, Side side);
 
   /** Keys of the kinds that case files have, each declared in one line. */
   PrmEntry text_key(const std::string &key, const std::string &description);
@@ -37,6 +38,9 @@ namespace meltfront::cases
 
   PrmEntry numbers_key(const std::string &key, const std::string &unit,
                        const std::string &description);
+
+  /** The name of a file that becomes part of the text. */
+  PrmEntry file_key(const std::string &key, const std::string &description);
 
   PrmEntry integer_key(const std::string &key, const std::string &default_value,
                        double lower, double upper, const std::string &description);

@@ -215,7 +215,7 @@ namespace meltfront::cases
     for(const Side side : {Side::y_min, Side::y_max})
       if(scene.boundary(side).kind != BoundaryKind::insulated
          && scene.boundary(side).kind != BoundaryKind::periodic)
-        throw prm.error(wall_keys(side), "kind",
+        throw prm.error(wall_keys(scene.domain, side), "kind",
                         "must be insulated or periodic for the oracle, which knows "
                         "nothing that varies along the axis");
     Scene disk = scene;

@@ -70,6 +70,8 @@ namespace meltfront::cases
       return fmt::format("one to {} numbers separated by commas",
                          words.at(entry.most_values - 2));
     }
+    case PrmKind::file:
+      return "the name of a file";
     default:
       return entry.unit.empty() ? "a text"
                                 : fmt::format("an expression ({})", entry.unit);
@@ -78,7 +80,8 @@ namespace meltfront::cases
 
   std::string acceptable_text(const PrmEntry &entry)
   {
-    if(!entry.default_value.empty() || entry.kind == PrmKind::text)
+    if(!entry.default_value.empty() || entry.kind == PrmKind::text
+       || entry.kind == PrmKind::file)
       return entry.default_value;
     if(entry.kind == PrmKind::word)
       return entry.choices.front();

@@ -1,3 +1,4 @@
+#include <cases/case_file/prm_attachment.h>
 #include <cases/case_file/prm_entry.h>
 #include <cases/case_file/prm_file.h>
 #include <cases/case_file/value_units.h>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace meltfront::cases
 {
@@ -94,7 +96,10 @@ namespace meltfront::cases
   {
     for(const InEach &each : in_each)
       for(const std::string &name : subsections_of(each.subsection))
-        declare_numbered(each.subsection + "/" + name, each.entry, each.count);
+        if(each.count > 0)
+          declare_numbered(each.subsection + "/" + name, each.entry, each.count);
+        else
+          declare(each.subsection + "/" + name, each.entry);
   }
 
   void PrmFile::read(const std::string &path)
@@ -114,9 +119,46 @@ namespace meltfront::cases
       const PrmEntry &entry = entry_of(assignment);
       take_units_off(entry, assignment);
       check_assignment(entry, assignment);
+      if(entry.kind == PrmKind::file)
+        attach(assignment);
       const InSubsection here(*handler, assignment.subsection);
       handler->set(assignment.key, assignment.value);
     }
+  }
+
+  void PrmFile::attach(const PrmAssignment &assignment)
+  {
+    namespace fs = std::filesystem;
+    const std::string &name = assignment.value;
+    if(attachments.contains(name))
+      return;
+    if(const auto found = attachment_in(source.text, name))
+    {
+      attachments[name] = *found;
+      return;
+    }
+    const fs::path beside
+        = fs::path(
+              source.files[static_cast<std::size_t>(source.reading(assignment.line))])
+              .parent_path();
+    for(const fs::path &path : {beside / name, fs::path(library) / name})
+      if(std::error_code failure; fs::is_regular_file(path, failure))
+      {
+        attachments[name] = read_attachment(path.string());
+        source.text += attachment(name, attachments[name]);
+        return;
+      }
+    throw error(
+        assignment.subsection, assignment.key,
+        fmt::format("names the file '{}', which is neither beside this file nor in "
+                    "the library",
+                    quotable(name)));
+  }
+
+  const std::string &PrmFile::attached(const std::string &subsection,
+                                       const std::string &key) const
+  {
+    return attachments.at(get_text(subsection, key));
   }
 
   void PrmFile::comment_out_overridden()

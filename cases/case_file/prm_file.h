@@ -5,6 +5,7 @@
 #include <cases/error.h>
 
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,7 +25,8 @@ namespace meltfront::cases
     boolean, ///< true or false
     word,    ///< one of PrmEntry::choices
     numbers, ///< one to most_values numbers, separated by commas
-    text
+    text,
+    file ///< the name of a text file, which becomes part of the parameter file's text
   };
 
   /** A key of a parameter file, declared once and self-describing. */
@@ -72,7 +74,8 @@ namespace meltfront::cases
                           int count);
 
     /** Declare the keys `KEY 1` ... `KEY count` of every subsection of one, whatever its
-     * name; `shown_name` stands for that in the reference. */
+     * name, or with count 0 the key itself; `shown_name` stands for the name in the
+     * reference. */
     void declare_in_each(const std::string &subsection, const std::string &shown_name,
                          const PrmEntry &entry, int count);
 
@@ -85,8 +88,8 @@ namespace meltfront::cases
     /** Read a text; `file` is its name in messages. @throws InputError */
     void read_text(const std::string &text, const std::string &file);
 
-    /** The file's text by itself: what it includes stands in it, and what is set anew
-     * later is a comment. */
+    /** The file's text by itself: what it includes and the files that its keys name stand
+     * in it, and what is set anew later is a comment. */
     const std::string &text() const;
 
     /** Whether the file sets the key. */
@@ -109,6 +112,12 @@ namespace meltfront::cases
     std::string get_text(const std::string &subsection, const std::string &key) const;
     std::vector<double> get_numbers(const std::string &subsection,
                                     const std::string &key) const;
+
+    /** The text of the file that a key of PrmKind::file names: as it stands in this
+     * file's text if it does, else that beside the file in which the key is set, or in
+     * the library. */
+    const std::string &attached(const std::string &subsection,
+                                const std::string &key) const;
 
     /** Numbers of the keys `KEY 1`, `KEY 2`, ... that the file sets, ascending. */
     std::vector<int> given_numbers(const std::string &subsection,
@@ -152,6 +161,7 @@ namespace meltfront::cases
 
     void declare_opened();
     void comment_out_overridden();
+    void attach(const PrmAssignment &assignment);
     const PrmEntry &declaration(const std::string &subsection,
                                 const std::string &key) const;
     const PrmAssignment *assignment(const std::string &subsection,
@@ -170,7 +180,8 @@ namespace meltfront::cases
     std::string library;
     PrmText source;
     PrmScan scan;
-    std::string with_unit;         ///< see key_with_unit()
+    std::map<std::string, std::string> attachments; ///< texts by name
+    std::string with_unit;                          ///< see key_with_unit()
     std::string temperature_scale; ///< that a temperature has behind it; empty: none
   };
 } // namespace meltfront::cases

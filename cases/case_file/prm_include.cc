@@ -185,6 +185,12 @@ namespace meltfront::cases
 
   std::string read_prm_text(const std::string &path)
   {
+    return read_text_file(path, largest_text, "parameter file");
+  }
+
+  std::string read_text_file(const std::string &path, std::uintmax_t largest,
+                             const std::string &what)
+  {
     std::error_code failure;
     const auto status = fs::status(path, failure);
     if(!fs::exists(status))
@@ -192,10 +198,9 @@ namespace meltfront::cases
     if(!fs::is_regular_file(status))
       throw OutputError(
           fmt::format("{}: is not a file that can be read", quotable(path)));
-    if(fs::file_size(path, failure) > largest_text)
-      throw InputError(fmt::format("{}:1: the file is larger than 4 MB, which no "
-                                   "parameter file is",
-                                   quotable(path)));
+    if(fs::file_size(path, failure) > largest)
+      throw InputError(fmt::format("{}:1: the file is larger than {} MB, which no {} is",
+                                   quotable(path), largest >> 20, what));
     std::ifstream stream(path, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(stream), {}};
     if(!stream)

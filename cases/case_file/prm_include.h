@@ -1,6 +1,7 @@
 #ifndef meltfront_cases_case_file_prm_include_h
 #define meltfront_cases_case_file_prm_include_h
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,10 @@ namespace meltfront::cases
   /** The text of a file. @throws OutputError if it cannot be read, InputError if it is
    * too large for a parameter file. */
   std::string read_prm_text(const std::string &path);
+
+  /** The same of a file of up to so many bytes. @param what no such file is */
+  std::string read_text_file(const std::string &path, std::uintmax_t largest,
+                             const std::string &what);
 
   /**
    * Put the lines of the files that a text includes (`include FILE`, as deal.II has it)

@@ -8,6 +8,7 @@
 #include <cases/case_file/interface_reader.h>
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/material_reader.h>
+#include <cases/case_file/mesh_reader.h>
 #include <cases/case_file/particle_solid_reader.h>
 #include <cases/case_file/scene_reader.h>
 #include <cases/case_file/source_reader.h>
@@ -15,6 +16,7 @@
 #include <cases/sampling.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -70,11 +72,17 @@ namespace meltfront::cases
 
     std::vector<Side> sides_of(const Domain &domain)
     {
+      std::vector<Side> sides;
+      if(domain.mesh)
+      {
+        for(std::size_t wall = 0; wall < domain.mesh->walls().size(); ++wall)
+          sides.push_back(mesh_wall(wall));
+        return sides;
+      }
       if(domain.shape == DomainShape::ball || domain.outline)
         return {Side::outer};
       if(domain.shape == DomainShape::shell)
         return {Side::inner, Side::outer};
-      std::vector<Side> sides;
       for(int s = 0; s < 2 * domain.dimension; ++s)
         sides.push_back(static_cast<Side>(s));
       return sides;
@@ -95,7 +103,9 @@ namespace meltfront::cases
 
     Boundary read_wall(const PrmFile &prm, Side side, const Domain &domain)
     {
-      const std::string here = wall_keys(side);
+      const std::string here = wall_keys(domain, side);
+      if(!prm.opened(here))
+        return {};
       const std::string kind = prm.get_text(here, "kind");
       const std::string variables = coordinates(domain) + "t";
       const auto value = [&](const char *key, const char *owner)
@@ -137,44 +147,51 @@ namespace meltfront::cases
               Field()};
     }
 
+    /** Complain of a subsection that is no wall of the domain. */
+    void check_names_of_walls(const PrmFile &prm, const Domain &domain,
+                              const std::vector<Side> &sides)
+    {
+      std::vector<std::string> names;
+      for(const Side side : sides)
+        names.push_back(name_of(domain, side));
+      for(const std::string &name : prm.subsections_of(all_wall_keys))
+        if(std::ranges::find(names, name) == names.end())
+          throw prm.subsection_error(
+              all_wall_keys + "/" + name,
+              names.empty()
+                  ? "names a wall, and no part of the mesh's boundary has a name"
+                  : fmt::format("names a wall that the domain lacks; its walls "
+                                "are {}",
+                                fmt::join(names, ", ")));
+    }
+
     void read_walls(const PrmFile &prm, Scene &scene)
     {
       const std::vector<Side> sides = sides_of(scene.domain);
-      for(std::size_t s = 0; s < n_sides; ++s)
-      {
-        const auto side = static_cast<Side>(s);
-        if(std::find(sides.begin(), sides.end(), side) != sides.end())
-          scene.boundaries[s] = read_wall(prm, side, scene.domain);
-        else if(prm.opened(wall_keys(side)))
-        {
-          std::string names;
-          for(const Side valid : sides)
-            names += fmt::format("{}{}", names.empty() ? "" : ", ", to_string(valid));
-          throw prm.subsection_error(
-              wall_keys(side),
-              fmt::format("names a wall that the domain lacks; its walls are {}", names));
-        }
-      }
+      check_names_of_walls(prm, scene.domain, sides);
+      for(const Side side : sides)
+        scene.boundaries[static_cast<std::size_t>(side)]
+            = read_wall(prm, side, scene.domain);
       if(scene.domain.shape == DomainShape::axisymmetric && scene.domain.lower[0] == 0
          && scene.boundary(Side::x_min).kind != BoundaryKind::insulated)
-        throw prm.error(wall_keys(Side::x_min), "kind",
+        throw prm.error(wall_keys(scene.domain, Side::x_min), "kind",
                         "must be 'insulated': it is the axis, and no wall");
       for(const Side side : sides)
       {
         if(scene.boundary(side).kind != BoundaryKind::periodic)
           continue;
-        if(scene.domain.round() || scene.domain.outline)
-          throw prm.error(wall_keys(side), "kind",
-                          "cannot be periodic: walls of a ball, a shell or an outline "
-                          "face no other");
+        if(scene.domain.round() || scene.domain.irregular())
+          throw prm.error(wall_keys(scene.domain, side), "kind",
+                          "cannot be periodic: walls of a ball, a shell, an outline or a "
+                          "mesh face no other");
         if(scene.domain.shape == DomainShape::axisymmetric
            && (side == Side::x_min || side == Side::x_max))
-          throw prm.error(wall_keys(side), "kind",
+          throw prm.error(wall_keys(scene.domain, side), "kind",
                           "cannot be periodic across the axis of an axisymmetric domain");
         const auto opposite = static_cast<Side>(static_cast<int>(side) ^ 1);
         if(scene.boundary(opposite).kind != BoundaryKind::periodic)
           throw prm.error(
-              wall_keys(side), "kind",
+              wall_keys(scene.domain, side), "kind",
               fmt::format("is periodic but that of '{}' is not", to_string(opposite)));
       }
     }
@@ -231,9 +248,12 @@ namespace meltfront::cases
     void take_exact_flux(const PrmFile &prm, const KnownSolution &known, Side side,
                          const Domain &domain, Boundary &boundary)
     {
+      if(domain.irregular())
+        throw prm.error(wall_keys(domain, side), value_key(boundary),
+                        "cannot be 'exact' at a wall of an outline or a mesh");
       if(!known.heat_flux)
         throw prm.error(
-            wall_keys(side), value_key(boundary),
+            wall_keys(domain, side), value_key(boundary),
             "is 'exact', which has a meaning only where the exact solution is "
             "'manufactured'");
       const auto flux = [known, side, domain](const Position &p, double time)
@@ -273,6 +293,7 @@ namespace meltfront::cases
       read_initial_state(prm, scene);
       read_alloy(prm, scene);
       read_conduction(prm, scene);
+      check_mesh_materials(prm, scene);
       read_sources(prm, scene);
     }
 
@@ -344,7 +365,7 @@ namespace meltfront::cases
       Boundary &boundary = *scene.boundaries[static_cast<std::size_t>(side)];
       if(!boundary.exact)
         continue;
-      require_solution(wall_keys(side), "kind");
+      require_solution(wall_keys(scene.domain, side), "kind");
       if(boundary.kind == BoundaryKind::fixed_temperature)
         boundary.value = temperature();
       else
@@ -378,7 +399,7 @@ namespace meltfront::cases
       std::vector<Position> positions;
       visit_wall(scene.domain, side,
                  [&](const Position &wall) { positions.push_back(wall); });
-      find_breakpoints_of(prm, wall_keys(side), value_key(boundary), scene,
+      find_breakpoints_of(prm, wall_keys(scene.domain, side), value_key(boundary), scene,
                           some_of(positions), boundary.value);
     }
     if(scene.volumetric_source && scene.volumetric_source->expression != exact_value)

@@ -48,6 +48,7 @@ namespace meltfront::reference_fem
                             {DomainShape::ball, {2, 3}, walls},
                             {DomainShape::shell, {2, 3}, walls},
                             {DomainShape::outline, {2}, walls},
+                            {DomainShape::mesh, {2, 3}, walls},
                             {DomainShape::axisymmetric, {2}, walls}},
                  .front_origins
                  = {FrontOrigin::none, FrontOrigin::initial_front,

@@ -94,6 +94,11 @@ namespace meltfront::reference_fem
   /** The dimensions in which a scene can be meshed, the lowest first. */
   std::vector<int> mesh_dimensions(const cases::Scene &scene);
 
+  /** Cells along a scene's side at a resolution n: n itself, but of a mesh file's cells,
+   * whose edges n divides, the side over the side of a square or a cube of the mean
+   * volume of one (of two triangles, of six tetrahedra). */
+  double cells_along(const cases::Scene &scene, int n);
+
   /**
    * Mesh a scene with n cells along the domain's side.
    *
@@ -102,7 +107,8 @@ namespace meltfront::reference_fem
    * allow. Ball in 2D/3D: an unstructured mesh of 4 2^k cells along the diameter. Shell:
    * the interval between its radii, or rings of cells near to squares (2D) or layers of a
    * cube's faces (3D) as near to that size as they come. Axisymmetric body: its half
-   * section like a box, with the weight 2 pi r.
+   * section like a box, with the weight 2 pi r. Mesh file: its cells, all edges halved
+   * until there are n in place of one; n is a power of two.
    * On Cartesian meshes mass and stiffness are integrated at the vertices, which makes K
    * an M-matrix for any aspect ratio; elsewhere the masses are row sums, so that the
    * volumes add up to the mesh's volume. A cell that the surface of an inclusion cuts

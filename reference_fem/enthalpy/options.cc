@@ -38,7 +38,8 @@ namespace meltfront::reference_fem
                            "(front = within_cells) in one dimension only");
     if(options.steps == 0)
       options.steps
-          = std::max(fewest_steps, std::lround(options.steps_per_cell * resolution.n));
+          = std::max(fewest_steps, std::lround(options.steps_per_cell
+                                               * cells_along(scene, resolution.n)));
     return options;
   }
 

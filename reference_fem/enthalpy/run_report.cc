@@ -18,6 +18,7 @@ namespace meltfront::reference_fem
           : scene.domain.shape == cases::DomainShape::axisymmetric
               ? "Cartesian, weight 2 pi r"
           : scene.domain.outline ? "squares and a layer along the outline"
+          : scene.domain.mesh    ? cases::to_string(scene.domain.mesh->kind())
                                  : "Cartesian";
     return fmt::format("{} cells, {} nodes, {}D, {}{}",
                        mesh.cells.size() >> mesh.dimension, mesh.volume.size(),

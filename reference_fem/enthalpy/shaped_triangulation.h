@@ -3,6 +3,7 @@
 
 #include <cases/error.h>
 #include <cases/scene.h>
+#include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/outline_mesh.h>
 
 #include <deal.II/grid/grid_generator.h>
@@ -14,7 +15,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -22,6 +25,12 @@
 namespace meltfront::reference_fem
 {
   inline constexpr unsigned int strip_width = 4; ///< cells across a slab in 2D and 3D
+
+  inline bool of_simplices(const cases::BodyMesh &mesh)
+  {
+    return mesh.kind() == cases::CellKind::triangle
+           || mesh.kind() == cases::CellKind::tetrahedron;
+  }
 
   /** The cells of a scene's domain: see make_mesh. */
   template <int dim>
@@ -32,6 +41,7 @@ namespace meltfront::reference_fem
     dealii::Triangulation<dim> triangulation;
     bool cartesian;                        ///< cells are boxes along the axes
     bool curved;                           ///< the wall is a circle or a sphere
+    bool simplices;                        ///< triangles or tetrahedra
     double spacing = 0;                    ///< cell size along the domain's side (m)
     std::array<unsigned int, 3> n_cells{}; ///< where they are boxes, by direction
     std::pair<dealii::Point<dim>, dealii::Point<dim>> corners; ///< there
@@ -45,16 +55,24 @@ namespace meltfront::reference_fem
     void mesh_ball(const cases::Scene &scene, int n);
     void mesh_shell(const cases::Domain &domain, int n);
     void mesh_what_outline_bounds(const cases::Domain &domain, int n);
+    void take_mesh(const cases::BodyMesh &mesh, int n);
     void number_round_walls(const cases::Domain &domain);
+    void number_walls_of_mesh(const cases::BodyMesh &mesh);
   };
 
   template <int dim>
   ShapedTriangulation<dim>::ShapedTriangulation(const cases::Scene &scene, int n)
-    : cartesian(!scene.domain.round() && !scene.domain.outline)
+    : cartesian(scene.domain.rectangular())
     , curved(scene.domain.round() && dim > 1)
+    , simplices(scene.domain.mesh && of_simplices(*scene.domain.mesh))
   {
     if(cartesian)
       mesh_block(scene, n);
+    else if(scene.domain.mesh)
+    {
+      take_mesh(*scene.domain.mesh, n);
+      spacing = scene.domain.side() / cells_along(scene, n);
+    }
     else if(scene.domain.outline)
       mesh_what_outline_bounds(scene.domain, n);
     else if(curved && scene.domain.shape == cases::DomainShape::shell)
@@ -207,6 +225,66 @@ namespace meltfront::reference_fem
           face->set_boundary_id(static_cast<unsigned int>(cases::Side::outer));
       sides = {cases::Side::outer};
     }
+  }
+
+  /** The cells of a file, halved along their edges as often as n says. Their boundary
+   * numbers are those of the mesh's walls, their material numbers its own. */
+  template <int dim>
+  void ShapedTriangulation<dim>::take_mesh(const cases::BodyMesh &mesh, int n)
+  {
+    if constexpr(dim > 1)
+    {
+      if(!std::has_single_bit(static_cast<unsigned int>(n)))
+        throw cases::Refusal(
+            fmt::format("fem-enthalpy halves the edges of a mesh's cells: "
+                        "it takes n = 1, 2, 4, 8, ..., not {}",
+                        n));
+      std::vector<dealii::Point<dim>> vertices(mesh.vertices().size());
+      for(std::size_t v = 0; v < vertices.size(); ++v)
+        for(int d = 0; d < dim; ++d)
+          vertices[v][d] = mesh.vertices()[v][d];
+      const std::size_t corners = mesh.cells().size() / mesh.n_cells();
+      std::vector<dealii::CellData<dim>> cells(mesh.n_cells());
+      for(std::size_t c = 0; c < cells.size(); ++c)
+      {
+        const auto first
+            = mesh.cells().begin() + static_cast<std::ptrdiff_t>(c * corners);
+        cells[c].vertices.assign(first, first + static_cast<std::ptrdiff_t>(corners));
+        cells[c].material_id = mesh.material_of_cell(c);
+      }
+      if(dim == 2 && !simplices)
+        dealii::GridTools::consistently_order_cells(cells);
+      triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
+      number_walls_of_mesh(mesh);
+      triangulation.refine_global(std::countr_zero(static_cast<unsigned int>(n)));
+    }
+  }
+
+  template <int dim>
+  void ShapedTriangulation<dim>::number_walls_of_mesh(const cases::BodyMesh &mesh)
+  {
+    std::map<std::vector<unsigned int>, int> wall_of_face;
+    for(const cases::BodyMesh::Face &face : mesh.boundary())
+    {
+      std::vector<unsigned int> vertices = face.vertices;
+      std::ranges::sort(vertices);
+      wall_of_face[vertices] = face.wall;
+    }
+    for(const auto &face : triangulation.active_face_iterators())
+      if(face->at_boundary())
+      {
+        std::vector<unsigned int> vertices;
+        for(const unsigned int v : face->vertex_indices())
+          vertices.push_back(face->vertex_index(v));
+        std::ranges::sort(vertices);
+        const int wall = wall_of_face.at(vertices);
+        const std::size_t side = wall < 0
+                                     ? cases::n_sides
+                                     : static_cast<std::size_t>(cases::mesh_wall(wall));
+        face->set_boundary_id(static_cast<unsigned int>(side));
+      }
+    for(std::size_t wall = 0; wall < mesh.walls().size(); ++wall)
+      sides.push_back(cases::mesh_wall(wall));
   }
 
   template <int dim>

@@ -327,7 +327,8 @@ namespace meltfront::verification::external
                 {"walls", json::object()},
                 {"sources", sources_json(scene, tables)}};
     for(const cases::Side side : scene.sides())
-      result["walls"][to_string(side)] = wall_json(scene.boundary(side), side, tables);
+      result["walls"][name_of(scene.domain, side)]
+          = wall_json(scene.boundary(side), side, tables);
     if(scene.volumetric_source)
       result["volumetric_source"]
           = tables.field(*scene.volumetric_source, "W/m^3",

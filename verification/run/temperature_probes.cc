@@ -1,5 +1,5 @@
 #include <cases/numbers.h>
-#include <cases/outline.h>
+#include <cases/sampling.h>
 #include <verification/measure/formulas/front_reader.h>
 #include <verification/measure/formulas/site_coordinates.h>
 #include <verification/run/temperature_probes.h>
@@ -124,8 +124,8 @@ namespace meltfront::verification
 
     bool inside(const cases::Domain &domain, const cases::Position &place)
     {
-      if(domain.outline)
-        return domain.outline->inside(place);
+      if(domain.irregular())
+        return cases::contains(domain, place);
       if(!domain.round())
         return true;
       const double r = std::hypot(place[0], place[1], place[2]);

@@ -28,6 +28,8 @@ namespace meltfront::verification
   {
     if(domain.outline)
       return domain.outline->distance(point);
+    if(domain.mesh)
+      return domain.mesh->distance_from_boundary(point);
     if(domain.round())
     {
       const double radius = std::hypot(point[0], point[1], point[2]);

@@ -96,7 +96,7 @@ namespace meltfront::verification
       if(boundary.kind != BoundaryKind::flux)
       {
         unknown_walls = fmt::format("the heat through {} depends on the solution",
-                                    cases::to_string(side));
+                                    name_of(scene.domain, side));
         return;
       }
       walls_vary |= !boundary.value.constant;
@@ -107,7 +107,7 @@ namespace meltfront::verification
       {
         unknown_walls
             = fmt::format("no quadrature for a flux that varies as it does along {}",
-                          cases::to_string(side));
+                          name_of(scene.domain, side));
         return;
       }
       walls.emplace_back([&boundary, points](double time)

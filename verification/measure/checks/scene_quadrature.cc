@@ -1,6 +1,7 @@
 #include <verification/measure/checks/scene_quadrature.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -71,6 +72,12 @@ namespace meltfront::verification
       return result;
     }
 
+    /** How often parts of a mesh's cells are halved for so many divisions. */
+    int levels_of(int divisions)
+    {
+      return static_cast<int>(std::bit_width(static_cast<unsigned int>(divisions))) - 1;
+    }
+
     cases::Symmetry symmetry_of(const cases::Domain &domain)
     {
       return domain.dimension == 2 ? cases::Symmetry::cylindrical
@@ -82,6 +89,8 @@ namespace meltfront::verification
   {
     if(domain.outline)
       return domain.outline->area();
+    if(domain.mesh)
+      return domain.mesh->volume();
     if(domain.round())
       return cases::volume_between(symmetry_of(domain), domain.inner_radius,
                                    domain.radius);
@@ -99,6 +108,8 @@ namespace meltfront::verification
   {
     if(domain.outline)
       return domain.outline->perimeter();
+    if(domain.mesh)
+      return domain.mesh->area(static_cast<int>(index_of_mesh_wall(side)));
     if(domain.round())
     {
       const double radius
@@ -125,7 +136,12 @@ namespace meltfront::verification
   std::vector<QuadraturePoint> points_over(const cases::Domain &domain, int divisions)
   {
     std::vector<QuadraturePoint> points;
-    if(domain.rectangular())
+    if(domain.mesh)
+      domain.mesh->visit_volume(levels_of(divisions),
+                                [&points](const cases::Position &place, double weight) {
+                                  points.push_back({place, weight});
+                                });
+    else if(domain.rectangular())
     {
       points.push_back({{}, 1});
       for(int d = 0; d < domain.dimension; ++d)
@@ -149,6 +165,15 @@ namespace meltfront::verification
     if(domain.round() && domain.dimension == 2)
       return around(side == cases::Side::inner ? domain.inner_radius : domain.radius,
                     area_of(domain, side), divisions);
+    if(domain.mesh)
+    {
+      std::vector<QuadraturePoint> points;
+      domain.mesh->visit_wall(cases::index_of_mesh_wall(side), levels_of(divisions),
+                              [&points](const cases::Position &place, double weight) {
+                                points.push_back({place, weight});
+                              });
+      return points;
+    }
     if(!domain.rectangular())
       return {};
     const int normal = static_cast<int>(side) / 2;

@@ -22,13 +22,14 @@ namespace meltfront::verification
   double area_of(const cases::Domain &domain, cases::Side side);
 
   /** Points over a slab, a box, a disk or an annulus, two in each of 256 cells along a
-   * line, 16 along each direction of the plane, 64 around, 8 in space; none for other
-   * shapes. @param divisions of these cells along every direction */
+   * line, 16 along each direction of the plane, 64 around, 8 in space; one in each of the
+   * simplices that a mesh's cells are divided into; none for other shapes.
+   * @param divisions of these cells along every direction, a power of two */
   std::vector<QuadraturePoint> points_over(const cases::Domain &domain,
                                            int divisions = 1);
 
-  /** Points over a wall: 32 on a box's in the plane, 64 around a round one; none for
-   * walls of other shapes. */
+  /** Points over a wall: 32 on a box's in the plane, 64 around a round one, one on each
+   * edge or triangle of a mesh's; none for walls of other shapes. */
   std::vector<QuadraturePoint> points_on(const cases::Domain &domain, cases::Side side,
                                          int divisions = 1);
 

@@ -1,3 +1,4 @@
+#include <cases/case_file/prm_attachment.h>
 #include <verification/report/chapters/chapters.h>
 
 #include <fmt/format.h>
@@ -106,7 +107,8 @@ namespace meltfront::verification
             = text(record.name() + "  ")
               + element("span", {{"class", "hash"}}, text("SHA-256 " + record.hash));
         content += element("details",
-                           element("summary", summary) + element("pre", record.text));
+                           element("summary", summary)
+                               + element("pre", cases::without_attachments(record.text)));
       }
       return content;
     }

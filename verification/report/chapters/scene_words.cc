@@ -51,8 +51,8 @@ namespace meltfront::verification
   {
     std::vector<std::string> result;
     for(const cases::Side side : scene.sides())
-      result.push_back(
-          fmt::format("{}: {}", cases::to_string(side), words(scene.boundary(side))));
+      result.push_back(fmt::format("{}: {}", name_of(scene.domain, side),
+                                   words(scene.boundary(side))));
     return result;
   }
 
@@ -94,7 +94,8 @@ namespace meltfront::verification
 
   std::string words(const cases::Inclusion &inclusion)
   {
-    return fmt::format("conductivity {:.6g} where {} < 0", inclusion.conductivity,
-                       inclusion.level_set.expression);
+    return fmt::format(inclusion.material ? "conductivity {:.6g} in the {}"
+                                          : "conductivity {:.6g} where {} < 0",
+                       inclusion.conductivity, inclusion.level_set.expression);
   }
 } // namespace meltfront::verification

@@ -1,6 +1,7 @@
 #include <verification/report/pictures/scene_picture.h>
 
 #include <verification/report/chapters/scene_words.h>
+#include <verification/report/pictures/mesh_walls.h>
 #include <verification/report/pictures/tracked_front.h>
 #include <verification/report/plots/gnuplot.h>
 #include <verification/report/plots/method_styles.h>
@@ -91,16 +92,6 @@ namespace meltfront::verification
       return frame;
     }
 
-    /** How a wall is drawn. */
-    std::string look_of(cases::BoundaryKind kind)
-    {
-      if(kind == cases::BoundaryKind::insulated)
-        return fmt::format("lw 2 dt (3,3) lc rgb '{}'", plot_colours::axis);
-      if(kind == cases::BoundaryKind::periodic)
-        return fmt::format("lw 1 dt (8,6) lc rgb '{}'", plot_colours::axis);
-      return "lw 4 lc rgb 'black'";
-    }
-
     void write_canvas(Script out, const Frame &frame)
     {
       fmt::format_to(
@@ -122,6 +113,13 @@ namespace meltfront::verification
     {
       using cases::Side;
       const cases::Domain &domain = record.scene.domain;
+      if(domain.mesh)
+      {
+        fmt::format_to(out, "set label {} at graph 0.5,1 center offset 0,0.9\n",
+                       gnuplot_text(shortened(words_of_mesh_walls(record.scene),
+                                              std::size_t((canvas_width - 20) / 7.5))));
+        return;
+      }
       for(const Side side : record.scene.sides())
       {
         const cases::Boundary &boundary = record.scene.boundary(side);
@@ -129,7 +127,7 @@ namespace meltfront::verification
         {
           fmt::format_to(out,
                          "set arrow from graph {},{} to graph {},{} nohead front {}\n",
-                         x0, y0, x1, y1, look_of(boundary.kind));
+                         x0, y0, x1, y1, look_of_wall(boundary.kind));
         };
         const auto words = [&](double room)
         {
@@ -246,7 +244,7 @@ namespace meltfront::verification
       };
       if(record.scene.domain.round())
         circle(record.scene.domain.radius, outer);
-      else if(!record.scene.domain.outline)
+      else if(!record.scene.domain.irregular())
         fmt::format_to(out,
                        "set object rectangle from graph 0,0 to graph 1,1 fs solid "
                        "noborder fc rgb '{}' behind\n",
@@ -382,6 +380,9 @@ namespace meltfront::verification
       write_outline(out, *record.scene.domain.outline);
       plots.emplace_back("$outline with lines lw 4 lc rgb 'black'");
     }
+    if(record.scene.domain.mesh)
+      for(const std::string &plot : write_mesh_walls(script, record.scene))
+        plots.push_back(plot);
     if(std::isfinite(front))
       plots.push_back(write_front(out, record, frame, front));
     for(const std::string &plot : write_tracked_fronts(script, content.tracked))

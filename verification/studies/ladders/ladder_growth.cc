@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -51,7 +52,10 @@ namespace meltfront::verification
                              MethodLookup lookup, double within,
                              MethodSettings of_methods)
     : case_name(case_name)
-    , coarsest(domain.dimension == 3 ? coarsest_in_space : coarsest_level)
+    , coarsest(domain.mesh             ? 1
+               : domain.dimension == 3 ? coarsest_in_space
+                                       : coarsest_level)
+    , halves_cells(domain.mesh != nullptr)
     , whole_cells(cases::fewest_whole_cells(domain))
     , title(title)
     , options(options)
@@ -68,6 +72,8 @@ namespace meltfront::verification
 
   int LadderGrowth::fitting(const cases::Method &method, int n) const
   {
+    if(halves_cells)
+      return static_cast<int>(std::bit_ceil(static_cast<unsigned int>(n)));
     if(whole_cells == 1)
       return n;
     const auto values = cases::Options(method.option_declarations()).values();

@@ -98,8 +98,9 @@ namespace meltfront::verification
     std::filesystem::path folder_of(const RunRecord &run) const;
 
     std::string case_name;
-    int coarsest;    ///< level of every ladder, if its lattice fills the domain
-    int whole_cells; ///< fewest_whole_cells()
+    int coarsest;      ///< level of every ladder, if its lattice fills the domain
+    bool halves_cells; ///< those of a mesh file: levels are powers of two
+    int whole_cells;   ///< fewest_whole_cells()
     std::string title;
     std::vector<std::string> remarks;
     std::vector<GrowingLadder> growing;
