@@ -6,6 +6,7 @@
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/manufactured_reader.h>
 #include <cases/case_file/material_reader.h>
+#include <cases/case_file/output_reader.h>
 #include <cases/case_file/particle_solid_reader.h>
 #include <cases/effects.h>
 #include <cases/scene.h>
@@ -69,10 +70,10 @@ namespace meltfront::cases
       prm.declare(domain,
                   text_key("corners", "Corners of a polygonal outline: x, y; x, y; "
                                       "... in metres, either way round."));
-      prm.declare(domain,
-                  text_key("polar radius", "Any other outline: distance from its centre "
-                                           "(m), expression of the angle phi from -pi to "
-                                           "pi."));
+      prm.declare(domain, formula_key("polar radius",
+                                      "Any other outline: distance from its centre "
+                                      "(m), expression of the angle phi from -pi to "
+                                      "pi."));
       prm.declare(
           domain,
           numbers_key("centre", "m",
@@ -96,11 +97,11 @@ namespace meltfront::cases
       prm.declare(initial, expression_key("temperature", temperature_units,
                                           "Expression of x, y, z."));
       prm.declare(initial,
-                  text_key("front",
-                           "Level set of the front, expression of x, y, z: negative "
-                           "in solid, zero on the front. Where it is not given, "
-                           "what is colder than the melting temperature is "
-                           "solid."));
+                  formula_key("front",
+                              "Level set of the front, expression of x, y, z: negative "
+                              "in solid, zero on the front. Where it is not given, "
+                              "what is colder than the melting temperature is "
+                              "solid."));
       prm.declare(initial,
                   number_key("solid fraction at melting", "0", "",
                              "Solid fraction of points at the melting temperature.", 0,
@@ -119,10 +120,12 @@ namespace meltfront::cases
                      "from the ambient temperature drives; radiation: the same with the "
                      "fourth powers of the absolute temperatures."));
         prm.declare(wall,
-                    expression_key("ambient temperature", temperature_units,
+                    with_table(expression_key(
+                                   "ambient temperature", temperature_units,
                                    "Temperature of the surroundings: expression of x, "
                                    "y, z, t; exact: that which makes the flux the exact "
-                                   "solution's."));
+                                   "solution's."),
+                               "s"));
         prm.declare(wall,
                     number_key("heat transfer coefficient", "", "W/(m^2 K)",
                                "Heat flux per difference of temperature.", above_zero));
@@ -136,11 +139,14 @@ namespace meltfront::cases
         prm.declare(wall, number_key("absolute zero", "", "K",
                                      "Of a wall that radiates: on the scene's scale of "
                                      "temperature, -273.15 for degrees Celsius."));
-        prm.declare(wall, expression_key("temperature", temperature_units,
-                                         "Expression of x, y, z, t."));
-        prm.declare(wall, expression_key("flux", "W/m^2",
+        prm.declare(wall, with_table(expression_key("temperature", temperature_units,
+                                                    "Expression of x, y, z, t."),
+                                     "s"));
+        prm.declare(wall, with_table(expression_key(
+                                         "flux", "W/m^2",
                                          "Heat flux into the domain, expression of x, y, "
-                                         "z, t; exact: that of the exact solution."));
+                                         "z, t; exact: that of the exact solution."),
+                                     "s"));
       }
       for(int i = 1; i <= most_sources; ++i)
       {
@@ -157,11 +163,14 @@ namespace meltfront::cases
                        "fall as exp(-(d/radius)^2) with the distance d. What lies "
                        "outside of the domain is not released.",
                        above_zero));
-        prm.declare(source, expression_key(
-                                "power", "W or W/m",
-                                "Heat released per time, expression of t, negative for "
-                                "a sink; exact: that of the exact solution (W/m in two "
-                                "dimensions)."));
+        prm.declare(
+            source,
+            with_table(
+                expression_key("power", "W or W/m",
+                               "Heat released per time, expression of t, negative for "
+                               "a sink; exact: that of the exact solution (W/m in two "
+                               "dimensions)."),
+                "s"));
       }
     }
 
@@ -317,6 +326,7 @@ namespace meltfront::cases
   PrmFile case_keys()
   {
     PrmFile prm(MELTFRONT_CASE_LIBRARY);
+    prm.allow_constants();
     declare_head(prm);
     declare_domain(prm);
     declare_material(prm);
@@ -329,6 +339,7 @@ namespace meltfront::cases
     declare_exact_solution(prm);
     declare_manufactured(prm);
     declare_measures(prm);
+    declare_output(prm);
     return prm;
   }
 } // namespace meltfront::cases

@@ -71,8 +71,9 @@ namespace meltfront::cases
                          words.at(entry.most_values - 2));
     }
     default:
-      return entry.unit.empty() ? "a text"
-                                : fmt::format("an expression ({})", entry.unit);
+      return entry.formula        ? "an expression"
+             : entry.unit.empty() ? "a text"
+                                  : fmt::format("an expression ({})", entry.unit);
     }
   }
 

@@ -6,6 +6,8 @@
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
 #include <verification/app/methods.h>
+#include <verification/app/probe_writer.h>
+#include <verification/app/several_observers.h>
 #include <verification/judge/baseline.h>
 #include <verification/judge/coverage.h>
 #include <verification/judge/criteria.h>
@@ -96,10 +98,12 @@ namespace meltfront::verification
                                c.scene.problem == cases::ProblemKind::particle_solid
                                    ? c.scene.particle_solid->law.cutoff
                                    : 0);
+            ProbeWriter probes(directory, c);
+            SeveralObservers observers({&fields, &probes});
             RepeatPolicy once;
             once.most = 1;
             const RunRecord record
-                = run_one(c, method, resolution, label, provenance, &fields, once);
+                = run_one(c, method, resolution, label, provenance, &observers, once);
             if(record.status == RunStatus::finished)
               write_run_page(record, stored_case(c), directory);
             write_json(file, record);
@@ -118,6 +122,15 @@ namespace meltfront::verification
         write_json(file, failed);
       }
       return read_json(file).get<RunRecord>();
+    }
+
+    /** The files that a case asks for, `, probes.csv, line-1.csv`. */
+    std::string output_words(const cases::OutputRequest &output)
+    {
+      std::string words = output.probes.empty() ? "" : ", probes.csv";
+      for(std::size_t i = 1; i <= output.lines.size(); ++i)
+        words += fmt::format(", line-{}.csv", i);
+      return words;
     }
 
     /** Read settings of a method (sort_settings()) into its options. */
@@ -255,7 +268,7 @@ namespace meltfront::verification
     std::fputs(run_text(record, c).c_str(), stdout);
     fmt::print("Written to {}: run.json{}\n", directory,
                record.status == RunStatus::finished
-                   ? ", front.csv, picture.svg, fields.pvd"
+                   ? ", front.csv, picture.svg, fields.pvd" + output_words(c.output)
                    : "");
     switch(record.status)
     {

@@ -3,9 +3,11 @@
 #include <verification/app/answer_commands.h>
 #include <verification/app/calibrate.h>
 #include <verification/app/capability_list.h>
+#include <verification/app/command_descriptions.h>
 #include <verification/app/commands.h>
 #include <verification/app/crosscheck_command.h>
 #include <verification/app/list.h>
+#include <verification/app/manual/manual.h>
 #include <verification/app/new_case.h>
 #include <verification/app/study_commands.h>
 
@@ -35,6 +37,7 @@ namespace
     CalibrateArguments calibrate_arguments;
     StudyArguments study_arguments;
     NewCaseArguments new_case_arguments;
+    ManualArguments manual_arguments;
     std::string report_directory, kept_directory;
     std::string list_what;
     bool list_as_json = false;
@@ -52,6 +55,7 @@ namespace
     void declare_study(const char *name, const char *description,
                        int (*study)(const StudyArguments &));
     void declare_others();
+    void declare_manual();
   };
 
   CommandLine::CommandLine()
@@ -77,6 +81,8 @@ namespace
         sensitivity);
     declare_calibrate();
     declare_others();
+    declare_manual();
+    add_examples(app);
   }
 
   void add_settings(CLI::App *command, std::vector<std::string> &settings)
@@ -377,6 +383,27 @@ namespace
                     "the tests are run by the script: ./meltfront test");
               };
             });
+  }
+
+  void CommandLine::declare_manual()
+  {
+    auto *command = app.add_subcommand(
+        "manual",
+        "write the whole manual as one page, a man page, or what bash completes");
+    ManualArguments &a = manual_arguments;
+    command->add_option("--out", a.output,
+                        "file (results/manual.html; standard output for man and bash)");
+    command->add_option("--format", a.format, "html, man or bash (html)")
+        ->check(CLI::IsMember({"html", "man", "bash"}));
+    command->callback(
+        [this]
+        {
+          action = [this]
+          {
+            manual_arguments.commands = descriptions_of(app);
+            return manual(manual_arguments);
+          };
+        });
   }
 
   /** What the user may have meant by a first word that is no command; empty otherwise. */

@@ -1,0 +1,17 @@
+#ifndef meltfront_cases_case_file_output_reader_h
+#define meltfront_cases_case_file_output_reader_h
+
+#include <cases/case.h>
+#include <cases/case_file/prm_file.h>
+
+namespace meltfront::cases
+{
+  /** Keys of the subsection `Output`. */
+  void declare_output(PrmFile &prm);
+
+  /** What a run writes beside its fields.
+   * @throws InputError for places outside of the domain and times outside of the run */
+  OutputRequest read_output(const PrmFile &prm, const Scene &scene);
+} // namespace meltfront::cases
+
+#endif
