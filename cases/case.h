@@ -120,30 +120,6 @@ namespace meltfront::cases
     int picture_time = 0;
   };
 
-  /** A straight line along which temperatures are written. */
-  struct OutputLine
-  {
-    Position from{}, to{}; ///< m
-  };
-
-  /** What a run writes beside its fields: values at points over time, and along lines. */
-  struct OutputRequest
-  {
-    std::vector<Position> probes; ///< m
-    int probe_samples = 200;      ///< times over the run
-    std::vector<OutputLine> lines;
-    int line_points = 101;
-    std::vector<double> line_times; ///< s, ascending; the end among them
-
-    bool empty() const
-    {
-      return probes.empty() && lines.empty();
-    }
-  };
-
-  /** Most probes, and most lines, of a case. */
-  inline constexpr int most_probes = 40;
-
   /** A scene, what is known of its solution, what to measure and what to accept. */
   struct Case
   {
@@ -158,7 +134,6 @@ namespace meltfront::cases
     std::shared_ptr<const ExactSolution> exact;
     std::optional<Reference> reference; ///< where there is no exact solution
     Measurement measurement;
-    OutputRequest output;
     std::vector<Criterion> criteria;
     std::vector<PrintedValue> printed;
     /** By the plot, one of `figure_names`: `Monaghan et al. 2005, Fig. 6`. */

@@ -6,6 +6,7 @@
 #include <cases/case_file/criterion_parser.h>
 #include <cases/case_file/effect_checks.h>
 #include <cases/case_file/exact_reader.h>
+#include <cases/case_file/key_list.h>
 #include <cases/case_file/material_reader.h>
 #include <cases/case_file/output_reader.h>
 #include <cases/case_file/prm_library.h>
@@ -220,7 +221,7 @@ namespace meltfront::cases
       c.reference = read_reference(prm, c);
       check_measurement(prm, c);
       check_events(prm, c);
-      c.output = read_output(prm, c.scene);
+      read_output(prm, c.scene); // what is wrong with it is said now
       return c;
     }
   } // namespace

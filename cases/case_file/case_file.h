@@ -2,7 +2,6 @@
 #define meltfront_cases_case_file_case_file_h
 
 #include <cases/case.h>
-#include <cases/case_file/prm_file.h>
 
 #include <string>
 #include <vector>
@@ -37,9 +36,6 @@ namespace meltfront::cases
 
   /** All keys of case files with unit, default and a sentence each. */
   std::string case_file_reference();
-
-  /** The same one by one, in their order. */
-  std::vector<PrmKey> case_file_keys();
 } // namespace meltfront::cases
 
 #endif

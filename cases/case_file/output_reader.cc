@@ -1,3 +1,4 @@
+#include <cases/case_file/case_keys.h>
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/output_reader.h>
 #include <cases/sampling.h>
@@ -129,5 +130,12 @@ namespace meltfront::cases
     output.line_points = static_cast<int>(prm.get_integer(output_keys, "line points"));
     output.line_times = line_times(prm, scene);
     return output;
+  }
+
+  OutputRequest output_of(const Case &c)
+  {
+    PrmFile prm = case_keys();
+    prm.read_text(c.text, c.file);
+    return read_output(prm, c.scene);
   }
 } // namespace meltfront::cases

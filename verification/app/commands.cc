@@ -1,4 +1,5 @@
 #include <cases/case_file/case_file.h>
+#include <cases/case_file/output_reader.h>
 #include <cases/error.h>
 #include <verification/app/capability_list.h>
 #include <verification/app/case_settings.h>
@@ -268,7 +269,8 @@ namespace meltfront::verification
     std::fputs(run_text(record, c).c_str(), stdout);
     fmt::print("Written to {}: run.json{}\n", directory,
                record.status == RunStatus::finished
-                   ? ", front.csv, picture.svg, fields.pvd" + output_words(c.output)
+                   ? ", front.csv, picture.svg, fields.pvd"
+                         + output_words(cases::output_of(c))
                    : "");
     switch(record.status)
     {
@@ -281,18 +283,18 @@ namespace meltfront::verification
     }
   }
 
-  int conclude(MatrixResult &result, const std::string &directory)
+  int conclude(MatrixResult &result, const std::string &directory, bool details)
   {
     write_results(result, directory);
-    std::fputs(console_summary(result).c_str(), stdout);
+    std::fputs(console_summary(result, details).c_str(), stdout);
     print_place_of_report(directory);
     return result.passed ? all_well : criterion_failed;
   }
 
-  int report(const std::string &directory, const std::string &keep)
+  int report(const std::string &directory, const std::string &keep, bool details)
   {
     MatrixResult result = load_matrix_result(directory);
-    const int status = conclude(result, directory);
+    const int status = conclude(result, directory, details);
     if(!keep.empty())
       write_baseline(fmt::format("{}/{}.json", keep, result.name), baseline_of(result));
     return status;

@@ -1,4 +1,5 @@
 #include <cases/case_file/case_file.h>
+#include <cases/case_file/key_list.h>
 #include <verification/app/capability_list.h>
 #include <verification/app/list.h>
 #include <verification/app/methods.h>

@@ -40,7 +40,7 @@ namespace
     ManualArguments manual_arguments;
     std::string report_directory, kept_directory;
     std::string list_what;
-    bool list_as_json = false;
+    bool list_as_json = false, report_details = false;
     std::function<int()> action;
 
     CommandLine();
@@ -112,6 +112,12 @@ namespace
         ->check(CLI::PositiveNumber);
   }
 
+  void add_details_flag(CLI::App *command, bool &details)
+  {
+    command->add_flag("-v,--details", details,
+                      "print every criterion with its figure, and what was left out");
+  }
+
   void add_keep_option(CLI::App *command, std::string &keep)
   {
     command
@@ -132,6 +138,7 @@ namespace
                        "number of concurrent runs (one per core)")
           ->check(CLI::Range(0, 1024));
       add_memory_option(command, verify_arguments.memory);
+      add_details_flag(command, verify_arguments.details);
     };
     auto *verify_command
         = app.add_subcommand("verify", "run a verification matrix and write its report");
@@ -371,8 +378,13 @@ namespace
         ->add_option("directory", report_directory, "directory of a finished matrix")
         ->required();
     add_keep_option(report_command, kept_directory);
+    add_details_flag(report_command, report_details);
     report_command->callback(
-        [this] { action = [this] { return report(report_directory, kept_directory); }; });
+        [this]
+        {
+          action = [this]
+          { return report(report_directory, kept_directory, report_details); };
+        });
     app.add_subcommand("test", "build and run all tests (./meltfront test)")
         ->callback(
             [this]

@@ -1,3 +1,4 @@
+#include <cases/case_file/output_reader.h>
 #include <cases/error.h>
 #include <verification/app/probe_writer.h>
 #include <verification/run/temperature_probes.h>
@@ -53,10 +54,10 @@ namespace meltfront::verification
   } // namespace
 
   ProbeWriter::ProbeWriter(const std::string &directory, const cases::Case &c)
-    : the_case(c)
+    : scene(c.scene)
+    , output(cases::output_of(c))
   {
     remove_earlier_output(directory);
-    const cases::OutputRequest &output = c.output;
     if(!output.probes.empty())
     {
       std::string header = "time";
@@ -81,17 +82,16 @@ namespace meltfront::verification
   bool ProbeWriter::probes_due(double time) const
   {
     // A step may end a rounding error before the time.
-    const cases::Scene &scene = the_case.scene;
-    const int samples = the_case.output.probe_samples;
+    const int samples = output.probe_samples;
     const double share
         = (time - scene.start_time) / (scene.end_time - scene.start_time) + 1e-9;
-    return !the_case.output.probes.empty() && samples * share >= next_sample;
+    return !output.probes.empty() && samples * share >= next_sample;
   }
 
   bool ProbeWriter::lines_due(double time) const
   {
-    const std::vector<double> &times = the_case.output.line_times;
-    const double margin = 1e-9 * (the_case.scene.end_time - the_case.scene.start_time);
+    const std::vector<double> &times = output.line_times;
+    const double margin = 1e-9 * (scene.end_time - scene.start_time);
     return !lines.empty() && next_line_time < times.size()
            && time >= times[next_line_time] - margin;
   }
@@ -106,7 +106,7 @@ namespace meltfront::verification
     if(probes_due(snapshot.time))
     {
       write_probes(snapshot);
-      while(next_sample <= the_case.output.probe_samples && probes_due(snapshot.time))
+      while(next_sample <= output.probe_samples && probes_due(snapshot.time))
         ++next_sample;
     }
     if(lines_due(snapshot.time))
@@ -121,26 +121,26 @@ namespace meltfront::verification
   {
     std::string row = fmt::format("{:.16g}", snapshot.time);
     for(const PlaceReading &reading :
-        read_places(the_case.scene, snapshot, spacing, the_case.output.probes))
+        read_places(scene, snapshot, spacing, output.probes))
       row += fmt::format(",{:.12g},{:.12g}", reading.temperature, reading.solid_fraction);
     write_row(probes, row);
   }
 
   void ProbeWriter::write_lines(const cases::Snapshot &snapshot)
   {
-    const int points = the_case.output.line_points;
+    const int points = output.line_points;
     for(std::size_t k = 0; k < lines.size(); ++k)
     {
-      const cases::OutputLine &line = the_case.output.lines[k];
+      const cases::OutputLine &line = output.lines[k];
       std::vector<cases::Position> places;
       for(int i = 0; i < points; ++i)
         places.push_back(point_of(line, double(i) / (points - 1)));
       const std::vector<PlaceReading> readings
-          = read_places(the_case.scene, snapshot, spacing, places);
+          = read_places(scene, snapshot, spacing, places);
       for(int i = 0; i < points; ++i)
       {
         std::string row = fmt::format("{:.16g}", snapshot.time);
-        for(int d = 0; d < the_case.scene.domain.dimension; ++d)
+        for(int d = 0; d < scene.domain.dimension; ++d)
           row += fmt::format(",{:.12g}", places[i][d]);
         write_row(lines[k],
                   fmt::format("{},{:.12g},{:.12g},{:.12g}", row,

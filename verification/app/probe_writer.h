@@ -3,6 +3,7 @@
 
 #include <cases/case.h>
 #include <cases/method.h>
+#include <cases/output_request.h>
 
 #include <fstream>
 #include <string>
@@ -35,7 +36,8 @@ namespace meltfront::verification
     void write_probes(const cases::Snapshot &snapshot);
     void write_lines(const cases::Snapshot &snapshot);
 
-    const cases::Case &the_case;
+    const cases::Scene &scene;
+    cases::OutputRequest output;
     double spacing = 0;
     int next_sample = 0;
     std::size_t next_line_time = 0;

@@ -1,3 +1,4 @@
+#include <cases/case_file/output_reader.h>
 #include <cases/case_file/tests/sample_case.h>
 
 #include <gtest/gtest.h>
@@ -15,16 +16,16 @@ namespace
 
 TEST(Output, PlacesAndTimesAreRead)
 {
-  const OutputRequest output
-      = read(slab_with_output("  set probe 1 = 1 cm\n  set probe 3 = 0.1\n  set line 1 = "
-                              "0, 5 cm\n  set line times = 10, 1 min\n"))
-            .output;
+  const OutputRequest output = output_of(
+      read(slab_with_output("  set probe 1 = 1 cm\n  set probe 3 = 0.1\n  set line 1 = "
+                            "0, 5 cm\n  set line times = 10, 1 min\n")));
   ASSERT_EQ(output.probes.size(), 2u);
   EXPECT_DOUBLE_EQ(output.probes[0][0], 0.01);
   ASSERT_EQ(output.lines.size(), 1u);
   EXPECT_DOUBLE_EQ(output.lines[0].to[0], 0.05);
   EXPECT_EQ(output.line_times, (std::vector<double>{10, 60, 100}));
-  EXPECT_TRUE(read(slab).output.empty());
+  EXPECT_TRUE(output_of(read(slab)).probes.empty());
+  EXPECT_TRUE(output_of(read(slab)).lines.empty());
 }
 
 TEST(Output, WhatLiesOutsideIsRefused)

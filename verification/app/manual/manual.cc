@@ -1,4 +1,5 @@
 #include <cases/case_file/case_file.h>
+#include <cases/case_file/key_list.h>
 #include <verification/app/commands.h>
 #include <verification/app/manual/case_pages.h>
 #include <verification/app/manual/man_page.h>
