@@ -89,6 +89,11 @@ namespace meltfront::cases
     return numbers;
   }
 
+  bool is_table(const std::string &value)
+  {
+    return value.find(':') != std::string::npos && value.find('?') == std::string::npos;
+  }
+
   bool may_depend_on(const std::string &expression, const std::string &variables)
   {
     const std::vector<std::string> names = names_in(expression);

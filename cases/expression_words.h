@@ -16,6 +16,9 @@ namespace meltfront::cases
   /** The numbers written in an expression, without signs, in their order. */
   std::vector<double> numbers_in(const std::string &expression);
 
+  /** Whether a value is a table, points `a: b, c: d`, and no expression. */
+  bool is_table(const std::string &value);
+
   /**
    * Whether what an expression says may depend on one of some variables, each a letter.
    * Words that are no expression (`exact`) say nothing: what they stand for may depend on

@@ -15,15 +15,15 @@ namespace meltfront::cases
     , text(std::move(words))
   {
     if(knots.size() < 2 || knots.size() != ordinates.size())
-      throw InputError("needs two points or more, each a temperature and a value");
+      throw InputError("needs two points or more, with a value each");
     for(std::size_t i = 0; i < knots.size(); ++i)
     {
       if(!std::isfinite(knots[i]) || !std::isfinite(ordinates[i]))
-        throw InputError(fmt::format("is {} at T = {:.6g}", ordinates[i], knots[i]));
+        throw InputError(fmt::format("is {} at {:.6g}", ordinates[i], knots[i]));
       if(i > 0 && !(knots[i] > knots[i - 1]))
         throw InputError(
-            fmt::format("needs temperatures that ascend; {:.6g} comes after {:.6g}",
-                        knots[i], knots[i - 1]));
+            fmt::format("needs points that ascend; {:.6g} comes after {:.6g}", knots[i],
+                        knots[i - 1]));
     }
   }
 

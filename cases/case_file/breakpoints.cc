@@ -328,6 +328,16 @@ namespace meltfront::cases
   {
     if(field.constant || !may_depend_on(field.expression, "t"))
       return;
+    if(is_table(field.expression))
+    {
+      const double first = field.breakpoints.front(), last = field.breakpoints.back();
+      const double margin = 1e-9 * (end - start);
+      if(first > start + margin || last < end - margin)
+        throw InputError(fmt::format("is known from t = {:.6g} to {:.6g}, and the run "
+                                     "goes from {:.6g} to {:.6g}",
+                                     first, last, start, end));
+      return sort_times(field.breakpoints, start, end);
+    }
     const std::vector<double> candidates = named_times(field.expression, start, end);
     const bool everywhere_alike = !may_depend_on(field.expression, "xyz");
     for(const Position &position : positions)

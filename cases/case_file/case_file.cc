@@ -6,7 +6,9 @@
 #include <cases/case_file/criterion_parser.h>
 #include <cases/case_file/effect_checks.h>
 #include <cases/case_file/exact_reader.h>
+#include <cases/case_file/key_list.h>
 #include <cases/case_file/material_reader.h>
+#include <cases/case_file/output_reader.h>
 #include <cases/case_file/prm_library.h>
 #include <cases/case_file/prm_scan.h>
 #include <cases/case_file/scene_reader.h>
@@ -219,6 +221,7 @@ namespace meltfront::cases
       c.reference = read_reference(prm, c);
       check_measurement(prm, c);
       check_events(prm, c);
+      read_output(prm, c.scene); // what is wrong with it is said now
       return c;
     }
   } // namespace
@@ -267,5 +270,10 @@ namespace meltfront::cases
   std::string case_file_reference()
   {
     return case_keys().reference();
+  }
+
+  std::vector<PrmKey> case_file_keys()
+  {
+    return case_keys().declarations();
   }
 } // namespace meltfront::cases

@@ -7,6 +7,7 @@
 #include <cases/case_file/manufactured_reader.h>
 #include <cases/case_file/material_reader.h>
 #include <cases/case_file/mesh_reader.h>
+#include <cases/case_file/output_reader.h>
 #include <cases/case_file/particle_solid_reader.h>
 #include <cases/effects.h>
 #include <cases/scene.h>
@@ -72,10 +73,10 @@ namespace meltfront::cases
       prm.declare(domain,
                   text_key("corners", "Corners of a polygonal outline: x, y; x, y; "
                                       "... in metres, either way round."));
-      prm.declare(domain,
-                  text_key("polar radius", "Any other outline: distance from its centre "
-                                           "(m), expression of the angle phi from -pi to "
-                                           "pi."));
+      prm.declare(domain, formula_key("polar radius",
+                                      "Any other outline: distance from its centre "
+                                      "(m), expression of the angle phi from -pi to "
+                                      "pi."));
       prm.declare(
           domain,
           numbers_key("centre", "m",
@@ -102,10 +103,12 @@ namespace meltfront::cases
                    "temperature; heat transfer: a flux that the wall's difference "
                    "from the ambient temperature drives; radiation: the same with the "
                    "fourth powers of the absolute temperatures."));
-      declare(expression_key("ambient temperature", temperature_units,
-                             "Temperature of the surroundings: expression of x, "
-                             "y, z, t; exact: that which makes the flux the exact "
-                             "solution's."));
+      declare(
+          with_table(expression_key("ambient temperature", temperature_units,
+                                    "Temperature of the surroundings: expression of x, "
+                                    "y, z, t; exact: that which makes the flux the exact "
+                                    "solution's."),
+                     "s"));
       declare(number_key("heat transfer coefficient", "", "W/(m^2 K)",
                          "Heat flux per difference of temperature.", above_zero));
       declare(number_key("emissivity", "", "",
@@ -117,11 +120,13 @@ namespace meltfront::cases
       declare(number_key("absolute zero", "", "K",
                          "Of a wall that radiates: on the scene's scale of "
                          "temperature, -273.15 for degrees Celsius."));
-      declare(
-          expression_key("temperature", temperature_units, "Expression of x, y, z, t."));
-      declare(expression_key("flux", "W/m^2",
-                             "Heat flux into the domain, expression of x, y, "
-                             "z, t; exact: that of the exact solution."));
+      declare(with_table(
+          expression_key("temperature", temperature_units, "Expression of x, y, z, t."),
+          "s"));
+      declare(with_table(expression_key("flux", "W/m^2",
+                                        "Heat flux into the domain, expression of x, y, "
+                                        "z, t; exact: that of the exact solution."),
+                         "s"));
     }
 
     void declare_walls(PrmFile &prm)
@@ -144,11 +149,11 @@ namespace meltfront::cases
       prm.declare(initial, expression_key("temperature", temperature_units,
                                           "Expression of x, y, z."));
       prm.declare(initial,
-                  text_key("front",
-                           "Level set of the front, expression of x, y, z: negative "
-                           "in solid, zero on the front. Where it is not given, "
-                           "what is colder than the melting temperature is "
-                           "solid."));
+                  formula_key("front",
+                              "Level set of the front, expression of x, y, z: negative "
+                              "in solid, zero on the front. Where it is not given, "
+                              "what is colder than the melting temperature is "
+                              "solid."));
       prm.declare(initial,
                   number_key("solid fraction at melting", "0", "",
                              "Solid fraction of points at the melting temperature.", 0,
@@ -169,11 +174,14 @@ namespace meltfront::cases
                        "fall as exp(-(d/radius)^2) with the distance d. What lies "
                        "outside of the domain is not released.",
                        above_zero));
-        prm.declare(source, expression_key(
-                                "power", "W or W/m",
-                                "Heat released per time, expression of t, negative for "
-                                "a sink; exact: that of the exact solution (W/m in two "
-                                "dimensions)."));
+        prm.declare(
+            source,
+            with_table(
+                expression_key("power", "W or W/m",
+                               "Heat released per time, expression of t, negative for "
+                               "a sink; exact: that of the exact solution (W/m in two "
+                               "dimensions)."),
+                "s"));
       }
     }
 
@@ -329,6 +337,7 @@ namespace meltfront::cases
   PrmFile case_keys()
   {
     PrmFile prm(MELTFRONT_CASE_LIBRARY);
+    prm.allow_constants();
     declare_head(prm);
     declare_domain(prm);
     declare_material(prm);
@@ -341,6 +350,7 @@ namespace meltfront::cases
     declare_exact_solution(prm);
     declare_manufactured(prm);
     declare_measures(prm);
+    declare_output(prm);
     return prm;
   }
 } // namespace meltfront::cases

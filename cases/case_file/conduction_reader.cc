@@ -95,8 +95,8 @@ namespace meltfront::cases
                        "y, z, t; exact: that of the exact solution `manufactured`."));
     prm.declare(
         inclusion_keys,
-        text_key("level set",
-                 "Level set of the region: expression of x, y, z, negative inside."));
+        formula_key("level set",
+                    "Level set of the region: expression of x, y, z, negative inside."));
     prm.declare(inclusion_keys,
                 text_key("material",
                          "In a domain of the shape 'mesh' in place of the level set: the "
@@ -105,9 +105,10 @@ namespace meltfront::cases
                                            "Thermal conductivity inside.", above_zero));
     prm.declare(
         exact_keys,
-        text_key("temperature",
-                 "Temperature of the exact solution `formula`: expression of x, y, z, t "
-                 "(K)."));
+        formula_key(
+            "temperature",
+            "Temperature of the exact solution `formula`: expression of x, y, z, t "
+            "(K)."));
     prm.declare(exact_keys,
                 integer_key("intervals", "101", 4, 2000,
                             "Intervals of the five-point lattice along each side."));

@@ -3,6 +3,7 @@
 #include <cases/error.h>
 #include <cases/expression_words.h>
 #include <cases/options.h>
+#include <cases/property_curve.h>
 
 #include <deal.II/base/function_parser.h>
 
@@ -154,6 +155,36 @@ namespace meltfront::cases
       return value;
     }
 
+    /** A few of a table's points, after the one variable that it depends on. */
+    std::string words_of(const std::vector<std::pair<double, double>> &points)
+    {
+      constexpr std::size_t most = 6;
+      std::string words = "t: ";
+      for(std::size_t i = 0; i < points.size(); ++i)
+        if(points.size() <= most || i + 1 < most / 2 || i + 1 == points.size())
+          words += fmt::format("{}{:.10g}: {:.10g}", i == 0 ? "" : ", ", points[i].first,
+                               points[i].second);
+        else if(i + 1 == most / 2)
+          words += ", ...";
+      return words;
+    }
+
+    Field table_over_time(const std::string &text)
+    {
+      const std::vector<std::pair<double, double>> points
+          = parse_points(text, "time: value");
+      std::vector<double> times, values;
+      for(const auto &[time, value] : points)
+      {
+        times.push_back(time);
+        values.push_back(value);
+      }
+      const auto curve = std::make_shared<const PropertyCurve>(times, values, text);
+      return {words_of(points),
+              [curve](const Position &, double time) { return (*curve)(time); }, false,
+              times};
+    }
+
     /** What the parser says, on one line. */
     std::string reason(const dealii::ExceptionBase &error)
     {
@@ -169,6 +200,12 @@ namespace meltfront::cases
 
   Field parse_field(const std::string &expression, const std::string &variables)
   {
+    if(is_table(expression))
+    {
+      if(variables.find('t') == std::string::npos)
+        throw InputError("cannot be a table: it does not depend on the time");
+      return table_over_time(expression);
+    }
     check_characters(expression);
     const std::vector<std::string> names = names_in(expression);
     std::vector<std::string> letters;

@@ -12,7 +12,10 @@ namespace meltfront::cases
 {
   /**
    * Read an expression of the given variables (some of x, y, z, t) and pi, as deal.II's
-   * FunctionParser does. One without variables becomes a Field::uniform.
+   * FunctionParser does. One without variables becomes a Field::uniform. Where t is among
+   * the variables a table may stand, points `time: value, time: value` in seconds: linear
+   * between them, and its times are the field's breakpoints; add_breakpoints() refuses a
+   * run that goes beyond.
    *
    * @throws InputError with the reason alone (the caller knows file, line and key): a
    * name that is unknown (with the nearest one), a formula that cannot be parsed, a

@@ -155,8 +155,8 @@ namespace meltfront::cases
                            above_zero));
     for(const char axis : {'x', 'y', 'z'})
       prm.declare(velocity_keys,
-                  text_key(fmt::format("{} component", axis),
-                           "Velocity component, expression of x, y, z, t (m/s)."));
+                  formula_key(fmt::format("{} component", axis),
+                              "Velocity component, expression of x, y, z, t (m/s)."));
   }
 
   void read_interface(const PrmFile &prm, Scene &scene)

@@ -26,6 +26,22 @@ namespace meltfront::cases
     return entry;
   }
 
+  PrmEntry formula_key(const std::string &key, const std::string &description)
+  {
+    PrmEntry entry = text_key(key, description);
+    entry.formula = true;
+    return entry;
+  }
+
+  PrmEntry with_table(PrmEntry expression, const std::string &over)
+  {
+    expression.table_over = over;
+    expression.description += over == "s" ? " Or a table over the time: points, 0: -5, "
+                                            "3600: -10, or 'table FILE.csv'."
+                                          : " Or 'table FILE.csv'.";
+    return expression;
+  }
+
   PrmEntry word_key(const std::string &key, const std::string &default_value,
                     std::vector<std::string> choices, const std::string &description)
   {

@@ -28,6 +28,13 @@ namespace meltfront::cases
   PrmEntry expression_key(const std::string &key, const std::string &unit,
                           const std::string &description);
 
+  /** An expression of what has no unit, or whose unit does not matter. */
+  PrmEntry formula_key(const std::string &key, const std::string &description);
+
+  /** An expression in whose place a table may stand, over the temperature or the time.
+   * @param over the unit of that */
+  PrmEntry with_table(PrmEntry expression, const std::string &over);
+
   PrmEntry word_key(const std::string &key, const std::string &default_value,
                     std::vector<std::string> choices, const std::string &description);
 

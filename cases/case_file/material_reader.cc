@@ -3,6 +3,7 @@
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/material_reader.h>
 #include <cases/case_file/prm_scan.h>
+#include <cases/expression_words.h>
 #include <cases/numbers.h>
 
 #include <fmt/format.h>
@@ -37,11 +38,6 @@ namespace meltfront::cases
         throw prm.error(material_keys, "highest temperature",
                         "must exceed 'lowest temperature'");
       return span;
-    }
-
-    bool is_table(const std::string &text)
-    {
-      return text.find(':') != std::string::npos && text.find('?') == std::string::npos;
     }
 
     PropertyCurve curve_through(const std::string &text)
@@ -341,10 +337,14 @@ namespace meltfront::cases
       const std::string forms
           = " A number, an expression of the temperature T, or points "
             "of a table, T: value, T: value.";
-      prm.declare(here, expression_key(conductivity_key, "W/(m K)",
-                                       "Thermal conductivity." + forms + remark));
-      prm.declare(here, expression_key(heat_capacity_key, "J/(kg K)",
-                                       "Heat capacity per mass." + forms + remark));
+      prm.declare(here,
+                  with_table(expression_key(conductivity_key, "W/(m K)",
+                                            "Thermal conductivity." + forms + remark),
+                             temperature_units));
+      prm.declare(here,
+                  with_table(expression_key(heat_capacity_key, "J/(kg K)",
+                                            "Heat capacity per mass." + forms + remark),
+                             temperature_units));
       prm.declare(here,
                   number_key("density", "", "kg/m^3", "Density." + remark, above_zero));
     }

@@ -73,8 +73,9 @@ namespace meltfront::cases
     case PrmKind::file:
       return "the name of a file";
     default:
-      return entry.unit.empty() ? "a text"
-                                : fmt::format("an expression ({})", entry.unit);
+      return entry.formula        ? "an expression"
+             : entry.unit.empty() ? "a text"
+                                  : fmt::format("an expression ({})", entry.unit);
     }
   }
 

@@ -1,6 +1,9 @@
 #include <cases/case_file/prm_attachment.h>
 #include <cases/case_file/prm_entry.h>
 #include <cases/case_file/prm_file.h>
+#include <cases/case_file/prm_lines.h>
+#include <cases/case_file/prm_statement.h>
+#include <cases/case_file/prm_table.h>
 #include <cases/case_file/value_units.h>
 #include <cases/options.h>
 
@@ -114,9 +117,14 @@ namespace meltfront::cases
     comment_out_overridden();
     declare_opened();
     check_subsections();
+    read_constants();
     for(PrmAssignment &assignment : scan.assignments)
     {
+      if(with_constants && assignment.subsection == constant_keys)
+        continue;
       const PrmEntry &entry = entry_of(assignment);
+      put_table_in(entry, assignment);
+      put_constants_in(entry, assignment);
       take_units_off(entry, assignment);
       check_assignment(entry, assignment);
       if(entry.kind == PrmKind::file)
@@ -124,6 +132,98 @@ namespace meltfront::cases
       const InSubsection here(*handler, assignment.subsection);
       handler->set(assignment.key, assignment.value);
     }
+    check_constants();
+  }
+
+  void PrmFile::allow_constants()
+  {
+    with_constants = true;
+  }
+
+  void PrmFile::read_constants()
+  {
+    for(const PrmAssignment &assignment : scan.assignments)
+      if(with_constants && assignment.subsection == constant_keys)
+        try
+        {
+          constants.set(assignment.key, assignment.value);
+          if(const std::string unit = without_units(assignment.value).unit; !unit.empty())
+            with_unit = fmt::format(
+                "{} ({})", name_of_key(assignment.subsection, assignment.key), unit);
+        }
+        catch(const InputError &problem)
+        {
+          throw error(assignment.subsection, assignment.key, problem.what());
+        }
+  }
+
+  void PrmFile::put_constants_in(const PrmEntry &entry, PrmAssignment &assignment)
+  {
+    const bool numbers = entry.kind == PrmKind::number || entry.kind == PrmKind::numbers
+                         || entry.kind == PrmKind::integer;
+    const bool expression
+        = entry.kind == PrmKind::text && (entry.formula || !entry.unit.empty());
+    if(!scan.subsections.contains(constant_keys) || !(numbers || expression))
+      return;
+    try
+    {
+      const PlainFormula plain = numbers ? constants.in_numbers(assignment.value)
+                                         : constants.in_expressions(assignment.value);
+      assignment.value = plain.text;
+      for(const std::string &unit : plain.units)
+        note_unit(unit, assignment);
+    }
+    catch(const InputError &problem)
+    {
+      throw error(assignment.subsection, assignment.key, problem.what());
+    }
+  }
+
+  void PrmFile::check_constants() const
+  {
+    // A name that was mistyped where it is set would change nothing, and say nothing.
+    for(const std::string &name : constants.unused())
+      throw error(constant_keys, name, "is a constant that nothing names");
+  }
+
+  void PrmFile::put_table_in(const PrmEntry &entry, PrmAssignment &assignment)
+  {
+    const auto words = after_word(assignment.value, "table");
+    if(!words || entry.table_over.empty())
+      return;
+    try
+    {
+      const PrmTable table
+          = read_table(*words, source.path(assignment.line), library, entry);
+      for(const std::string &unit : table.units)
+        note_unit(unit, assignment);
+      assignment.value = table.points;
+      std::vector<std::string> lines = lines_of(source.text);
+      replace_statement(
+          lines, static_cast<std::size_t>(assignment.line - 1),
+          fmt::format("set {} = {} # {}", assignment.key, table.points, table.origin));
+      source.text = joined(lines);
+    }
+    catch(const InputError &problem)
+    {
+      throw error(assignment.subsection, assignment.key, problem.what());
+    }
+  }
+
+  void PrmFile::note_unit(const std::string &unit, const PrmAssignment &assignment)
+  {
+    with_unit = fmt::format("{} ({})", name_of_key(assignment.subsection, assignment.key),
+                            unit);
+    if(!is_temperature_scale(unit))
+      return;
+    if(temperature_scale.empty())
+      temperature_scale = unit;
+    if(temperature_scale != unit)
+      throw error(
+          assignment.subsection, assignment.key,
+          fmt::format("is in {}, and another temperature of this file is in {}: a "
+                      "scene has one scale",
+                      unit, temperature_scale));
   }
 
   void PrmFile::attach(const PrmAssignment &assignment)
@@ -192,6 +292,8 @@ namespace meltfront::cases
         children[parent(path)].push_back(path);
     for(const InEach &each : in_each)
       children[parent(each.subsection)].push_back(each.subsection);
+    if(with_constants)
+      children[""].push_back(constant_keys);
     // A parent is ordered before its children, so that the outermost mistake is named.
     for(const auto &[path, line] : scan.subsections)
     {
@@ -268,16 +370,7 @@ namespace meltfront::cases
     if(plain.unit.empty())
       return;
     assignment.value = plain.text;
-    with_unit = fmt::format("{} ({})", name_of_key(assignment.subsection, assignment.key),
-                            plain.unit);
-    if(!is_temperature_scale(plain.unit))
-      return;
-    if(temperature_scale.empty())
-      temperature_scale = plain.unit;
-    if(temperature_scale != plain.unit)
-      throw fail(fmt::format("is in {}, and another temperature of this file is in {}: a "
-                             "scene has one scale",
-                             plain.unit, temperature_scale));
+    note_unit(plain.unit, assignment);
   }
 
   std::string PrmFile::key_with_unit() const
@@ -427,25 +520,38 @@ namespace meltfront::cases
                                   quotable(subsection), problem));
   }
 
+  std::vector<PrmKey> PrmFile::declarations() const
+  {
+    std::vector<Declared> all = declared;
+    for(const InEach &each : in_each)
+      all.push_back({each.subsection + "/" + each.shown_name, each.entry, each.count});
+    std::vector<PrmKey> result;
+    for(const Declared &key : all)
+      result.push_back({key.subsection, key.entry.key, expectation(key.entry),
+                        key.entry.default_value, key.entry.description, key.count});
+    return result;
+  }
+
   std::string PrmFile::reference() const
   {
     std::string text = "# include FILE: the lines of FILE stand here; it is searched "
                        "beside this file, then in the library.\n";
+    if(with_constants)
+      text += fmt::format("\nsubsection {}\n  # Any name: a number, also with a unit, or "
+                          "a formula of the names before it. Values of keys name it.\n  "
+                          "set NAME = NUMBER\n",
+                          constant_keys);
     std::string current;
-    std::vector<Declared> all = declared;
-    for(const InEach &each : in_each)
-      all.push_back({each.subsection + "/" + each.shown_name, each.entry, each.count});
-    for(const Declared &key : all)
+    for(const PrmKey &key : declarations())
     {
       if(key.subsection != current)
         text += fmt::format("\nsubsection {}\n", key.subsection);
       current = key.subsection;
-      const PrmEntry &entry = key.entry;
-      text += fmt::format("  # {} It needs {}.\n", entry.description, expectation(entry));
-      text += fmt::format("  set {}{} = {}\n", entry.key,
+      text += fmt::format("  # {} It needs {}.\n", key.description, key.needs);
+      text += fmt::format("  set {}{} = {}\n", key.key,
                           key.count == 0 ? std::string()
                                          : fmt::format(" 1 .. {}", key.count),
-                          entry.default_value);
+                          key.default_value);
     }
     return text;
   }

@@ -1,6 +1,7 @@
 #ifndef meltfront_cases_case_file_prm_file_h
 #define meltfront_cases_case_file_prm_file_h
 
+#include <cases/case_file/prm_constants.h>
 #include <cases/case_file/prm_scan.h>
 #include <cases/error.h>
 
@@ -43,10 +44,26 @@ namespace meltfront::cases
     double upper = std::numeric_limits<double>::infinity();
     std::vector<std::string> choices{};
     unsigned int most_values = 3; ///< of PrmKind::numbers: 2 to 8
+    /** Of an expression in whose place a table may stand: the unit of what the table is
+     * over, `s` or that of temperatures; empty for others. */
+    std::string table_over{};
+    bool formula = false; ///< of a text without unit: an expression all the same
+  };
+
+  /** A key as it is declared, for pages that explain it. */
+  struct PrmKey
+  {
+    std::string subsection, key;
+    std::string needs; ///< in words: `a number greater than 0 (m)`
+    std::string default_value, description;
+    int count = 0; ///< of a numbered key, 0 otherwise
   };
 
   /** Lower bound of a number that must be greater than zero. */
   inline constexpr double above_zero = std::numeric_limits<double>::min();
+
+  /** The subsection of constants, PrmFile::allow_constants(). */
+  inline const std::string constant_keys = "Constants";
 
   /**
    * A parameter file (deal.II's format): keys are declared, the file is read, values are
@@ -139,6 +156,13 @@ namespace meltfront::cases
     InputError subsection_error(const std::string &subsection,
                                 const std::string &problem) const;
 
+    /** Let files name numbers in subsection `Constants` (PrmConstants), for the values of
+     * keys that hold numbers or expressions. */
+    void allow_constants();
+
+    /** All declared keys, in their order. */
+    std::vector<PrmKey> declarations() const;
+
     /** All declared keys with unit, default and sentence, as a commented file. */
     std::string reference() const;
 
@@ -160,6 +184,11 @@ namespace meltfront::cases
     };
 
     void declare_opened();
+    void read_constants();
+    void put_constants_in(const PrmEntry &entry, PrmAssignment &assignment);
+    void put_table_in(const PrmEntry &entry, PrmAssignment &assignment);
+    void note_unit(const std::string &unit, const PrmAssignment &assignment);
+    void check_constants() const;
     void comment_out_overridden();
     void attach(const PrmAssignment &assignment);
     const PrmEntry &declaration(const std::string &subsection,
@@ -178,6 +207,8 @@ namespace meltfront::cases
     std::vector<Declared> keys;     ///< numbered keys one by one
     std::vector<InEach> in_each;
     std::string library;
+    bool with_constants = false;
+    PrmConstants constants;
     PrmText source;
     PrmScan scan;
     std::map<std::string, std::string> attachments; ///< texts by name

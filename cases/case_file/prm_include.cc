@@ -65,6 +65,7 @@ namespace meltfront::cases
       {
         const int reading = static_cast<int>(result.files.size());
         result.files.push_back(quotable(file));
+        result.paths.push_back(file);
         open.push_back(same_file(file));
         const std::vector<std::string> lines = raw_lines(text);
         int next = 1;
@@ -178,6 +179,11 @@ namespace meltfront::cases
                        origin.line);
   }
 
+  const std::string &PrmText::path(int line) const
+  {
+    return paths[static_cast<std::size_t>(reading(line))];
+  }
+
   int PrmText::reading(int line) const
   {
     return origin_of(*this, line).reading;
@@ -210,7 +216,7 @@ namespace meltfront::cases
 
   PrmText plain_text(const std::string &text, const std::string &file)
   {
-    PrmText result{text, {quotable(file)}, {}};
+    PrmText result{text, {quotable(file)}, {file}, {}};
     const int lines = static_cast<int>(std::ranges::count(text, '\n')) + 1;
     for(int line = 1; line <= lines; ++line)
       result.origins.push_back({0, line});

@@ -19,10 +19,14 @@ namespace meltfront::cases
   {
     std::string text;
     std::vector<std::string> files; ///< as they were read; one may have been read twice
+    std::vector<std::string> paths; ///< of the same, where `files` is cut for messages
     std::vector<PrmOrigin> origins; ///< of each line of the text
 
     /** `FILE:LINE`, as the user wrote it, of a line of the text. */
     std::string place(int line) const;
+
+    /** The path of the file that a line is from. */
+    const std::string &path(int line) const;
 
     /** Which reading of which file a line is from. */
     int reading(int line) const;

@@ -13,6 +13,7 @@
 #include <cases/case_file/scene_reader.h>
 #include <cases/case_file/source_reader.h>
 #include <cases/case_file/times_reader.h>
+#include <cases/expression_words.h>
 #include <cases/sampling.h>
 
 #include <fmt/format.h>
@@ -389,11 +390,16 @@ namespace meltfront::cases
 
   void find_scene_breakpoints(const PrmFile &prm, Scene &scene)
   {
-    if(scene.problem == ProblemKind::poisson)
-      return;
     for(const Side side : scene.sides())
     {
       Boundary &boundary = *scene.boundaries[static_cast<std::size_t>(side)];
+      if(scene.problem == ProblemKind::poisson)
+      {
+        if(is_table(boundary.value.expression))
+          throw prm.error(wall_keys(side), value_key(boundary),
+                          "cannot be a table over the time: the scene is steady");
+        continue;
+      }
       if(boundary.exact || !boundary.value.value)
         continue;
       std::vector<Position> positions;
@@ -402,7 +408,8 @@ namespace meltfront::cases
       find_breakpoints_of(prm, wall_keys(scene.domain, side), value_key(boundary), scene,
                           some_of(positions), boundary.value);
     }
-    if(scene.volumetric_source && scene.volumetric_source->expression != exact_value)
+    if(scene.problem != ProblemKind::poisson && scene.volumetric_source
+       && scene.volumetric_source->expression != exact_value)
       find_breakpoints_of(prm, "Scene/Volumetric source", "power density", scene,
                           some_of(sample_points(scene.domain)), *scene.volumetric_source);
   }

@@ -3,6 +3,7 @@
 #include <cases/case_file/expression.h>
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/source_reader.h>
+#include <cases/expression_words.h>
 #include <cases/sampling.h>
 
 #include <fmt/format.h>
@@ -150,6 +151,8 @@ namespace meltfront::cases
                         "must lie on the axis: its first coordinate is 0");
       if(prm.get_text(here, "power") == exact_value)
         throw prm.error(here, "power", "cannot be 'exact' of a source with a radius");
+      if(is_table(prm.get_text(here, "power")))
+        throw prm.error(here, "power", "cannot be a table of a source with a radius");
       std::string squares;
       for(int d = 0; d < domain.dimension; ++d)
         squares

@@ -154,6 +154,12 @@ namespace meltfront::cases
     return convert(text, &wanted);
   }
 
+  bool is_number_with_unit(const std::string &text)
+  {
+    const auto split = split_number(text);
+    return split && known_unit(split->rest);
+  }
+
   bool is_temperature_scale(const std::string &unit)
   {
     const Unit *known = known_unit(unit);

@@ -29,6 +29,9 @@ namespace meltfront::cases
    */
   PlainValue in_units_of(const std::string &text, const std::string &unit);
 
+  /** Whether a text is one number with a known unit behind it. */
+  bool is_number_with_unit(const std::string &text);
+
   /** Whether a unit is one of the scales of temperature. */
   bool is_temperature_scale(const std::string &unit);
 } // namespace meltfront::cases

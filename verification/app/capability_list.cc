@@ -59,20 +59,15 @@ namespace meltfront::verification
 
     std::string form_text(const cases::Method &method, const cases::Capabilities &form)
     {
-      std::vector<std::string> shapes;
-      for(const cases::ShapeCapability &shape : form.shapes)
-        shapes.push_back(shape_text(shape));
-      std::string text = fmt::format("  {}\n      problems: {}\n", label_of(method, form),
-                                     fmt::join(words_of(form.problems), ", "));
-      if(!shapes.empty())
-        text += fmt::format("      domains:  {}\n",
-                            fmt::join(shapes, "\n                "));
-      if(!form.front_origins.empty())
-        text += fmt::format(
-            "      fronts:   {}{}\n", fmt::join(words_of(form.front_origins), ", "),
-            form.most_fronts > 0 ? fmt::format("; at most {}", form.most_fronts) : "");
-      if(form.most_threads < cases::any_number_of_threads)
-        text += fmt::format("      threads:  {}\n", form.most_threads);
+      std::string text = fmt::format("  {}\n", label_of(method, form));
+      std::string before;
+      for(const auto &[heading, words] : capability_facts(form))
+      {
+        if(heading != "effects") // which the table above shows
+          text += fmt::format("      {:10}{}\n", heading == before ? "" : heading + ":",
+                              words);
+        before = heading;
+      }
       return text;
     }
 
@@ -98,6 +93,29 @@ namespace meltfront::verification
           {"conserves_heat", form.conserves_heat}};
     }
   } // namespace
+
+  std::vector<std::pair<std::string, std::string>>
+  capability_facts(const cases::Capabilities &form)
+  {
+    std::vector<std::pair<std::string, std::string>> facts;
+    const auto add = [&facts](const char *heading, const std::string &words)
+    {
+      if(!words.empty())
+        facts.emplace_back(heading, words);
+    };
+    add("problems", fmt::format("{}", fmt::join(words_of(form.problems), ", ")));
+    add("effects", fmt::format("{}", fmt::join(words_of(form.effects), ", ")));
+    for(const cases::ShapeCapability &shape : form.shapes)
+      add("domains", shape_text(shape));
+    if(!form.front_origins.empty())
+      add("fronts",
+          fmt::format("{}{}", fmt::join(words_of(form.front_origins), ", "),
+                      form.most_fronts > 0 ? fmt::format("; at most {}", form.most_fronts)
+                                           : ""));
+    if(form.most_threads < cases::any_number_of_threads)
+      add("threads", std::to_string(form.most_threads));
+    return facts;
+  }
 
   std::string capability_text()
   {

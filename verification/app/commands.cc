@@ -1,4 +1,5 @@
 #include <cases/case_file/case_file.h>
+#include <cases/case_file/output_reader.h>
 #include <cases/error.h>
 #include <verification/app/capability_list.h>
 #include <verification/app/case_settings.h>
@@ -6,6 +7,8 @@
 #include <verification/app/console.h>
 #include <verification/app/field_writer.h>
 #include <verification/app/methods.h>
+#include <verification/app/probe_writer.h>
+#include <verification/app/several_observers.h>
 #include <verification/judge/baseline.h>
 #include <verification/judge/coverage.h>
 #include <verification/judge/criteria.h>
@@ -100,11 +103,13 @@ namespace meltfront::verification
                                c.scene.problem == cases::ProblemKind::particle_solid
                                    ? c.scene.particle_solid->law.cutoff
                                    : 0);
+            ProbeWriter probes(directory, c);
+            SeveralObservers observers({&fields, &probes});
             RepeatPolicy once;
             once.most = 1;
             const CheckpointFolder checkpoints = CheckpointFolder::in(directory);
             const RunRecord record = run_one(c, method, resolution, label, provenance,
-                                             &fields, once, &checkpoints);
+                                             &observers, once, &checkpoints);
             if(record.status == RunStatus::finished)
               write_run_page(record, stored_case(c), directory);
             write_json(file, record);
@@ -181,6 +186,15 @@ namespace meltfront::verification
         fmt::print("Its checkpoint after step {} (t = {:.6g} s): go on with `meltfront "
                    "run --resume {}`\n",
                    last->step, last->time, directory);
+    }
+
+    /** The files that a case asks for, `, probes.csv, line-1.csv`. */
+    std::string output_words(const cases::OutputRequest &output)
+    {
+      std::string words = output.probes.empty() ? "" : ", probes.csv";
+      for(std::size_t i = 1; i <= output.lines.size(); ++i)
+        words += fmt::format(", line-{}.csv", i);
+      return words;
     }
 
     /** Read settings of a method (sort_settings()) into its options. */
@@ -315,6 +329,7 @@ namespace meltfront::verification
       fmt::print("Written to {}: run.json{}\n", directory,
                  record.status == RunStatus::finished
                      ? ", front.csv, picture.svg, fields.pvd"
+                           + output_words(cases::output_of(c))
                      : "");
       conclude_checkpoints(record, directory);
       switch(record.status)
@@ -355,18 +370,18 @@ namespace meltfront::verification
     return run_case(c, arguments, directory);
   }
 
-  int conclude(MatrixResult &result, const std::string &directory)
+  int conclude(MatrixResult &result, const std::string &directory, bool details)
   {
     write_results(result, directory);
-    std::fputs(console_summary(result).c_str(), stdout);
+    std::fputs(console_summary(result, details).c_str(), stdout);
     print_place_of_report(directory);
     return result.passed ? all_well : criterion_failed;
   }
 
-  int report(const std::string &directory, const std::string &keep)
+  int report(const std::string &directory, const std::string &keep, bool details)
   {
     MatrixResult result = load_matrix_result(directory);
-    const int status = conclude(result, directory);
+    const int status = conclude(result, directory, details);
     if(!keep.empty())
       write_baseline(fmt::format("{}/{}.json", keep, result.name), baseline_of(result));
     return status;

@@ -33,6 +33,7 @@ namespace meltfront::verification
     std::string timing;     ///< `quick` or `careful`; empty: as the matrix says
     std::string against;    ///< directory of results that the figures are held against
     std::string keep;       ///< directory in which the figures are kept for that
+    bool details = false;   ///< print every criterion and what was left out
   };
 
   struct RunArguments
@@ -83,7 +84,7 @@ namespace meltfront::verification
   void judge_hard_cases(MatrixResult &result);
 
   /** write_results(), and print what came of it. @return an ExitStatus */
-  int conclude(MatrixResult &result, const std::string &directory);
+  int conclude(MatrixResult &result, const std::string &directory, bool details = false);
 
   /** Run a matrix, write the report, print every criterion with its figure; or list its
    * runs, or make one of them. */
@@ -95,8 +96,8 @@ namespace meltfront::verification
 
   /** Tables and plots again from finished runs; nothing is run.
    * @param keep directory in which the figures are kept (VerifyArguments::keep), or empty
-   */
-  int report(const std::string &directory, const std::string &keep);
+   * @param details as VerifyArguments::details */
+  int report(const std::string &directory, const std::string &keep, bool details);
 } // namespace meltfront::verification
 
 #endif

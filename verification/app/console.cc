@@ -5,8 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <map>
 
 namespace meltfront::verification
@@ -115,6 +119,25 @@ namespace meltfront::verification
                          table_value(*finest, "cpu_seconds"));
     }
 
+    enum class Colour
+    {
+      good = 32, // green
+      bad = 31   // red
+    };
+
+    std::string coloured(const std::string &words, Colour colour)
+    {
+      static const bool terminal
+          = isatty(fileno(stdout)) && std::getenv("NO_COLOR") == nullptr;
+      return terminal ? fmt::format("\033[{}m{}\033[0m", static_cast<int>(colour), words)
+                      : words;
+    }
+
+    std::string coloured(bool good, const char *if_good, const char *if_bad)
+    {
+      return coloured(good ? if_good : if_bad, good ? Colour::good : Colour::bad);
+    }
+
     std::string bound_text(const CriterionResult &criterion)
     {
       if(!std::isfinite(criterion.lower))
@@ -126,22 +149,39 @@ namespace meltfront::verification
 
     std::string criterion_line(const CriterionResult &criterion)
     {
-      return fmt::format(
-          "  {}  {}: {}: {} = {:.3g}, {}{}{}\n", criterion.passed ? "PASS" : "FAIL",
-          criterion.case_name, criterion.method, criterion.quantity, criterion.value,
-          bound_text(criterion), criterion.remark.empty() ? "" : "; " + criterion.remark,
-          criterion.expected_failure.empty()
-              ? ""
-              : "; expected failure: " + criterion.expected_failure);
+      return fmt::format("  {}  {}: {}: {} = {:.3g}, {}{}{}\n",
+                         coloured(criterion.passed, "PASS", "FAIL"), criterion.case_name,
+                         criterion.method, criterion.quantity, criterion.value,
+                         bound_text(criterion),
+                         criterion.remark.empty() ? "" : "; " + criterion.remark,
+                         criterion.expected_failure.empty()
+                             ? ""
+                             : "; expected failure: " + criterion.expected_failure);
     }
 
-    std::string findings_text(const MatrixResult &result)
+    std::string finding_line(const FindingResult &finding)
     {
-      std::string text = result.findings.empty() ? "" : "Findings:\n";
+      return fmt::format("  {}  {}\n", coloured(finding.holds(), "HOLDS", "FAILS"),
+                         claim_text(finding));
+    }
+
+    /** The verdict, and what does not hold. */
+    std::string verdict_text(const MatrixResult &result)
+    {
+      std::string failures;
+      for(const CriterionResult &criterion : result.criteria)
+        if(!criterion.passed)
+          failures += criterion_line(criterion);
       for(const FindingResult &finding : result.findings)
-        text += fmt::format("  {}  {}\n", finding.holds() ? "HOLDS" : "FAILS",
-                            claim_text(finding));
-      return text;
+        if(!finding.holds())
+          failures += finding_line(finding);
+      const auto held = std::ranges::count_if(result.criteria, &CriterionResult::passed);
+      return fmt::format(
+                 "{}: {}{}\n", result.name, coloured(result.passed, "PASSED", "FAILED"),
+                 result.criteria.empty() ? ""
+                                         : fmt::format(", {} of {} criteria hold", held,
+                                                       result.criteria.size()))
+             + failures;
     }
 
     /** The varied cases, which have too many rows for a terminal. */
@@ -216,36 +256,39 @@ namespace meltfront::verification
     }
   } // namespace
 
-  std::string console_summary(const MatrixResult &result)
+  std::string console_summary(const MatrixResult &result, bool details)
   {
-    std::string text;
+    std::string text = verdict_text(result);
+    if(result.hard_cases)
+      text += stability_text(result);
+    std::string lines;
     for(const StoredCase &c : result.cases)
     {
       if(!c.variation.empty())
         continue;
-      text += fmt::format("{}\n", c.name());
+      lines += fmt::format("{}\n", c.name());
       for(const std::string &label : labels_of(result, c.name()))
-        text += convergence_line(result, c, label);
+        lines += convergence_line(result, c, label);
     }
-    if(text.find(" +- ") != std::string::npos)
-      text += "Orders: +- is the half width of the 95 % confidence interval (Student's "
-              "t).\n";
-    text += variations_text(result);
-    if(result.hard_cases)
-      text += stability_text(result);
-    long passed = 0;
+    if(lines.find(" +- ") != std::string::npos)
+      lines += "Orders: +- is the half width of the 95 % confidence interval (Student's "
+               "t).\n";
+    text += lines + variations_text(result);
+    if(!details)
+      return text
+             + (result.omissions.empty()
+                    ? ""
+                    : fmt::format("{} remarks on what was left out or not judged: -v\n",
+                                  result.omissions.size()));
     if(!result.criteria.empty())
       text += "Criteria:\n";
     for(const CriterionResult &criterion : result.criteria)
-    {
-      passed += criterion.passed;
       text += criterion_line(criterion);
-    }
-    text += findings_text(result) + omissions_text(result);
-    if(!result.criteria.empty())
-      text += fmt::format("{} of {} criteria hold\n", passed, result.criteria.size());
-    text += fmt::format("{}: {}\n", result.name, result.passed ? "PASSED" : "FAILED");
-    return text;
+    if(!result.findings.empty())
+      text += "Findings:\n";
+    for(const FindingResult &finding : result.findings)
+      text += finding_line(finding);
+    return text + omissions_text(result);
   }
 
   std::string run_text(const RunRecord &record, const cases::Case &c)

@@ -1,4 +1,5 @@
 #include <cases/case_file/case_file.h>
+#include <cases/case_file/key_list.h>
 #include <verification/app/capability_list.h>
 #include <verification/app/list.h>
 #include <verification/app/methods.h>
@@ -24,16 +25,26 @@ namespace meltfront::verification
 
     std::string option_text(const cases::OptionDeclaration &option)
     {
-      std::string range;
-      if(!option.choices.empty())
-        range = fmt::format(", one of {}", fmt::join(option.choices, " | "));
-      else if(std::isfinite(option.lower) || std::isfinite(option.upper))
-        range = fmt::format(", {} to {}", option.lower, option.upper);
-      return fmt::format("      {} = {}{}{}{}\n          {}\n", option.key,
-                         cases::to_text(option.default_value),
-                         option.unit.empty() || option.unit == "1" ? "" : " ",
-                         option.unit == "1" ? "" : option.unit, range,
+      return fmt::format("      {} = {}\n          {}\n", option.key, value_text(option),
                          option.description);
+    }
+
+    /** The names of all keys, a paragraph for each subsection. */
+    std::string key_names()
+    {
+      std::string text = "Keys of a case file (meltfront list keys explains them):\n";
+      std::string current = "-";
+      for(const cases::PrmKey &key : cases::case_file_keys())
+      {
+        if(key.subsection != current)
+          text += fmt::format("{}  {}: ", current == "-" ? "" : "\n",
+                              key.subsection.empty() ? "top level" : key.subsection);
+        else
+          text += ", ";
+        current = key.subsection;
+        text += key.count == 0 ? key.key : fmt::format("{} 1 .. {}", key.key, key.count);
+      }
+      return text + "\n";
     }
 
     std::string method_list()
@@ -77,6 +88,18 @@ namespace meltfront::verification
     }
   } // namespace
 
+  std::string value_text(const cases::OptionDeclaration &option)
+  {
+    std::string range;
+    if(!option.choices.empty())
+      range = fmt::format(", one of {}", fmt::join(option.choices, " | "));
+    else if(std::isfinite(option.lower) || std::isfinite(option.upper))
+      range = fmt::format(", {} to {}", option.lower, option.upper);
+    return fmt::format("{}{}{}{}", cases::to_text(option.default_value),
+                       option.unit.empty() || option.unit == "1" ? "" : " ",
+                       option.unit == "1" ? "" : option.unit, range);
+  }
+
   std::string list_text(const std::string &what)
   {
     std::string text;
@@ -88,6 +111,8 @@ namespace meltfront::verification
       text += effect_list();
     if(what.empty() || what == "matrices")
       text += matrix_list();
+    if(what.empty())
+      text += key_names();
     if(what == "quantities")
       text += quantity_list();
     if(what == "capabilities")

@@ -1,6 +1,8 @@
 #ifndef meltfront_verification_app_list_h
 #define meltfront_verification_app_list_h
 
+#include <cases/options.h>
+
 #include <string>
 
 namespace meltfront::verification
@@ -11,6 +13,9 @@ namespace meltfront::verification
    * what is measured; keys: those of case files; capabilities: what each method takes
    */
   std::string list_text(const std::string &what);
+
+  /** An option's default with its unit, and what it may be: `0.8, 0 to 1`. */
+  std::string value_text(const cases::OptionDeclaration &option);
 } // namespace meltfront::verification
 
 #endif

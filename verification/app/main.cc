@@ -3,9 +3,11 @@
 #include <verification/app/answer_commands.h>
 #include <verification/app/calibrate.h>
 #include <verification/app/capability_list.h>
+#include <verification/app/command_descriptions.h>
 #include <verification/app/commands.h>
 #include <verification/app/crosscheck_command.h>
 #include <verification/app/list.h>
+#include <verification/app/manual/manual.h>
 #include <verification/app/new_case.h>
 #include <verification/app/study_commands.h>
 
@@ -35,9 +37,10 @@ namespace
     CalibrateArguments calibrate_arguments;
     StudyArguments study_arguments;
     NewCaseArguments new_case_arguments;
+    ManualArguments manual_arguments;
     std::string report_directory, kept_directory;
     std::string list_what;
-    bool list_as_json = false;
+    bool list_as_json = false, report_details = false;
     std::function<int()> action;
 
     CommandLine();
@@ -52,6 +55,7 @@ namespace
     void declare_study(const char *name, const char *description,
                        int (*study)(const StudyArguments &));
     void declare_others();
+    void declare_manual();
   };
 
   CommandLine::CommandLine()
@@ -77,6 +81,8 @@ namespace
         sensitivity);
     declare_calibrate();
     declare_others();
+    declare_manual();
+    add_examples(app);
   }
 
   void add_settings(CLI::App *command, std::vector<std::string> &settings)
@@ -106,6 +112,12 @@ namespace
         ->check(CLI::PositiveNumber);
   }
 
+  void add_details_flag(CLI::App *command, bool &details)
+  {
+    command->add_flag("-v,--details", details,
+                      "print every criterion with its figure, and what was left out");
+  }
+
   void add_keep_option(CLI::App *command, std::string &keep)
   {
     command
@@ -126,6 +138,7 @@ namespace
                        "number of concurrent runs (one per core)")
           ->check(CLI::Range(0, 1024));
       add_memory_option(command, verify_arguments.memory);
+      add_details_flag(command, verify_arguments.details);
     };
     auto *verify_command
         = app.add_subcommand("verify", "run a verification matrix and write its report");
@@ -374,8 +387,13 @@ namespace
         ->add_option("directory", report_directory, "directory of a finished matrix")
         ->required();
     add_keep_option(report_command, kept_directory);
+    add_details_flag(report_command, report_details);
     report_command->callback(
-        [this] { action = [this] { return report(report_directory, kept_directory); }; });
+        [this]
+        {
+          action = [this]
+          { return report(report_directory, kept_directory, report_details); };
+        });
     app.add_subcommand("test", "build and run all tests (./meltfront test)")
         ->callback(
             [this]
@@ -386,6 +404,27 @@ namespace
                     "the tests are run by the script: ./meltfront test");
               };
             });
+  }
+
+  void CommandLine::declare_manual()
+  {
+    auto *command = app.add_subcommand(
+        "manual",
+        "write the whole manual as one page, a man page, or what bash completes");
+    ManualArguments &a = manual_arguments;
+    command->add_option("--out", a.output,
+                        "file (results/manual.html; standard output for man and bash)");
+    command->add_option("--format", a.format, "html, man or bash (html)")
+        ->check(CLI::IsMember({"html", "man", "bash"}));
+    command->callback(
+        [this]
+        {
+          action = [this]
+          {
+            manual_arguments.commands = descriptions_of(app);
+            return manual(manual_arguments);
+          };
+        });
   }
 
   /** What the user may have meant by a first word that is no command; empty otherwise. */

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <sstream>
 
@@ -112,17 +113,29 @@ namespace meltfront::verification
       };
     }
 
-    int run_and_conclude(const Matrix &matrix, RunnerOptions options,
+    int run_and_conclude(const Matrix &matrix, RunnerOptions options, bool details,
                          const std::function<int(const MatrixResult &)> &then)
     {
       int status = all_well;
       options.conclude = [&](MatrixResult &result)
       {
-        conclude(result, options.directory);
+        conclude(result, options.directory, details);
         status = then(result);
       };
       run_matrix(matrix, options, load_checked_case, method_named);
       return status;
+    }
+
+    /** What the runs of a matrix took when its figures were last committed (s). */
+    std::map<std::string, double> known_seconds(const std::string &matrix)
+    {
+      std::map<std::string, double> seconds;
+      const std::string file
+          = fmt::format("{}/results/reference/{}.json", MELTFRONT_SOURCE, matrix);
+      if(std::filesystem::exists(file))
+        for(const auto &[run, figures] : read_baseline(file).runs)
+          seconds[run] = figures.cpu_seconds;
+      return seconds;
     }
 
     RunnerOptions options_of(const VerifyArguments &arguments, const Matrix &matrix)
@@ -131,6 +144,7 @@ namespace meltfront::verification
           = runner_options(directory_of(arguments), arguments.jobs, arguments.memory);
       if(matrix.hard_cases) // judged by what comes out, not by its time
         options.repeats.most = 1;
+      options.known_seconds = known_seconds(matrix.name);
       options.shared = arguments.shared;
       options.only = arguments.only;
       options.launcher = launcher_of(arguments);
@@ -195,6 +209,6 @@ namespace meltfront::verification
       make_one_run(matrix, options, load_checked_case, method_named);
       return all_well;
     }
-    return run_and_conclude(matrix, options, figures_check(arguments));
+    return run_and_conclude(matrix, options, arguments.details, figures_check(arguments));
   }
 } // namespace meltfront::verification

@@ -1,5 +1,6 @@
 #include <cases/domain_measure.h>
 #include <cases/error.h>
+#include <cases/expression_words.h>
 #include <cases/scene.h>
 #include <verification/external/protocol.h>
 #include <verification/external/sample_places.h>
@@ -185,7 +186,8 @@ namespace meltfront::verification::external
         }
         if(!of.breakpoints.empty())
           result["breakpoints"] = of.breakpoints;
-        if(sampling.expressions || of.expression == exact_word)
+        if(sampling.expressions || of.expression == exact_word
+           || cases::is_table(of.expression))
           result["samples"] = samples_json(of, places(), at_times);
         return result;
       }

@@ -1,6 +1,7 @@
 #include <verification/matrix/progress.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <unistd.h>
 
@@ -47,7 +48,15 @@ namespace meltfront::verification
       return;
     if(terminal)
       fmt::print(out, "{}", clear_line);
+    for(const auto &[reason, refused] : refusals)
+      fmt::print(out, "Refused: {} ({} run{} of {})\n", reason, refused.runs,
+                 refused.runs == 1 ? "" : "s", fmt::join(refused.cases, ", "));
     std::fflush(out);
+  }
+
+  void Progress::expect(const RunKind &run, double seconds)
+  {
+    estimate.expect(run, seconds);
   }
 
   double Progress::seconds_left() const
@@ -77,8 +86,21 @@ namespace meltfront::verification
   void Progress::run_ended(const RunKind &run, double seconds, const std::string &what,
                            const std::string &how, bool well)
   {
-    ++ended;
     estimate.add(run, seconds);
+    count(run);
+    if(!out)
+      return;
+    const std::size_t runs = ended + waiting.size();
+    if(!terminal)
+      fmt::print(out, "[{}/{}] {}: {}{}\n", ended, runs, what, how, time_left());
+    else if(!well)
+      fmt::print(out, "{}{}: {}\n", clear_line, what, how);
+    std::fflush(out);
+  }
+
+  void Progress::count(const RunKind &run)
+  {
+    ++ended;
     const auto done = std::ranges::find_if(waiting,
                                            [&run](const RunKind &other)
                                            {
@@ -89,14 +111,15 @@ namespace meltfront::verification
     if(done != waiting.end())
       waiting.erase(done);
     last_ended = std::chrono::steady_clock::now();
-    if(!out)
-      return;
-    const std::size_t runs = ended + waiting.size();
-    if(!terminal)
-      fmt::print(out, "[{}/{}] {}: {}{}\n", ended, runs, what, how, time_left());
-    else if(!well)
-      fmt::print(out, "{}{}: {}\n", clear_line, what, how);
-    std::fflush(out);
+  }
+
+  void Progress::run_refused(const RunKind &run, const std::string &reason)
+  {
+    count(run);
+    Refusals &refused = refusals[reason];
+    ++refused.runs;
+    if(std::ranges::find(refused.cases, run.case_name) == refused.cases.end())
+      refused.cases.push_back(run.case_name);
   }
 
   void Progress::show_running(const std::string &what)

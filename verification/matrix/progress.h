@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace meltfront::verification
   /**
    * Tells how far a matrix is: one line that changes in place on a terminal, one line for
    * each run that ends elsewhere. The time left is guessed from the measured times of the
-   * runs that have ended (TimeEstimate).
+   * runs that have ended (TimeEstimate), and of earlier calls. Refused runs are told at
+   * the end, once for each reason.
    */
   class Progress
   {
@@ -38,6 +40,12 @@ namespace meltfront::verification
     void run_ended(const RunKind &run, double seconds, const std::string &what,
                    const std::string &how, bool well);
 
+    /** What a run took another time (s). */
+    void expect(const RunKind &run, double seconds);
+
+    /** A run was refused for a reason, a sentence. */
+    void run_refused(const RunKind &run, const std::string &reason);
+
     /** Show which runs go on; at most four times a second, on a terminal only. */
     void show_running(const std::string &what);
 
@@ -46,7 +54,14 @@ namespace meltfront::verification
     double seconds_left() const;
 
   private:
+    struct Refusals
+    {
+      int runs = 0;
+      std::vector<std::string> cases;
+    };
+
     std::string time_left() const;
+    void count(const RunKind &run);
 
     std::FILE *out;
     bool terminal;
@@ -54,6 +69,7 @@ namespace meltfront::verification
     std::size_t ended = 0;
     std::vector<RunKind> waiting; ///< or running
     TimeEstimate estimate;
+    std::map<std::string, Refusals> refusals; ///< by reason
     std::chrono::steady_clock::time_point last_ended, last_shown;
   };
 

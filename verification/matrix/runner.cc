@@ -151,6 +151,10 @@ namespace meltfront::verification
         }
       std::ranges::stable_sort(missing, std::ranges::greater(), &Job::work);
       Progress progress(options.progress, kinds, all.size() - kinds.size(), options.jobs);
+      for(const Job &job : missing)
+        if(const auto known = options.known_seconds.find(job.run.identity());
+           known != options.known_seconds.end())
+          progress.expect(kind_of(job), known->second);
       Workers(options, prepared.matrix.time_limit, since, progress)
           .run(std::move(missing));
     }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ namespace meltfront::verification
     /** Directory of records that several matrices share: one that another of them has
      * made is taken over and not made again; empty: none. */
     std::string shared{};
+    /** What runs took another time (s), by their identity: for the time left. */
+    std::map<std::string, double> known_seconds{};
     /** What is to be done with the result while the directory is held against other
      * processes: the report, for one. */
     std::function<void(MatrixResult &)> conclude{};

@@ -43,6 +43,12 @@ namespace meltfront::verification
     constexpr double shortest = 1e-3; // a time of zero has no logarithm
     const double time = std::max(seconds, shortest);
     series[{run.case_name, run.label}][run.n] = time;
+    if(const auto found = expected.find({run.case_name, run.label});
+       found != expected.end() && found->second.contains(run.n))
+    {
+      expected_of_ended += found->second.at(run.n);
+      taken_by_these += time;
+    }
     for(Mean *mean : {&methods[run.method], &all})
     {
       mean->sum += scaled(time, run.n, 1, usual_exponent);
@@ -50,8 +56,17 @@ namespace meltfront::verification
     }
   }
 
+  void TimeEstimate::expect(const RunKind &run, double seconds)
+  {
+    expected[{run.case_name, run.label}][run.n] = seconds;
+  }
+
   double TimeEstimate::seconds(const RunKind &run) const
   {
+    if(const auto found = expected.find({run.case_name, run.label});
+       found != expected.end() && found->second.contains(run.n))
+      return found->second.at(run.n)
+             * (expected_of_ended > 0 ? taken_by_these / expected_of_ended : 1);
     if(const auto found = series.find({run.case_name, run.label}); found != series.end())
       return from_series(found->second, run.n);
     const auto method = methods.find(run.method);

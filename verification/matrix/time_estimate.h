@@ -21,10 +21,15 @@ namespace meltfront::verification
   public:
     void add(const RunKind &run, double seconds);
 
+    /** What a run took another time, on whatever machine. */
+    void expect(const RunKind &run, double seconds);
+
     /**
-     * From runs of the same case and label: a power of n through the two whose n are
-     * nearest; through one, the square of n. Else from those of the same method, else
-     * from all: the mean of their times, each scaled by the square of n.
+     * Of a run that took a known time once: that time, as many times as those that have
+     * ended took theirs. Else from runs of the same case and label: a power of n through
+     * the two whose n are nearest; through one, the square of n. Else from those of the
+     * same method, else from all: the mean of their times, each scaled by the square of
+     * n.
      *
      * @return s; NaN as long as no run has ended
      */
@@ -40,7 +45,8 @@ namespace meltfront::verification
       int count = 0;
     };
 
-    std::map<std::pair<std::string, std::string>, TimesByN> series;
+    std::map<std::pair<std::string, std::string>, TimesByN> series, expected;
+    double expected_of_ended = 0, taken_by_these = 0; ///< s, of runs that were expected
     std::map<std::string, Mean> methods;
     Mean all;
   };

@@ -221,6 +221,8 @@ namespace meltfront::verification
   {
     const auto record = read_json(job.path);
     const std::string status = record.at("status"), message = record.at("message");
+    if(status == to_string(RunStatus::refused))
+      return progress.run_refused(kind_of(job), message);
     // Repeats are made of short runs only, and say nothing of longer ones.
     const int repeats = std::max(1, record.at("repeats").get<int>());
     const std::string how = seconds > 0 ? fmt::format("{} in {:.2f} s", status, seconds)

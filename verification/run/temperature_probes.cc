@@ -24,7 +24,7 @@ namespace meltfront::verification
     /** Ascending coordinates, each once, with their temperature and phase. */
     struct Profile
     {
-      std::vector<double> coordinate, temperature;
+      std::vector<double> coordinate, temperature, fraction;
       std::vector<bool> solid;
     };
 
@@ -53,6 +53,7 @@ namespace meltfront::verification
         {
           profile.coordinate.push_back(places[i]);
           profile.temperature.push_back(temperatures[i]);
+          profile.fraction.push_back(fractions[i]);
           profile.solid.push_back(fractions[i] > 0.5);
         }
       return profile;
@@ -99,6 +100,20 @@ namespace meltfront::verification
         down_is_nearer ? --first : ++last;
       }
       return polynomial(profile, first, last - first + 1, place);
+    }
+
+    double fraction_at(const Profile &profile, double place)
+    {
+      const std::vector<double> &x = profile.coordinate, &f = profile.fraction;
+      if(x.empty())
+        return nan;
+      const auto above = std::ranges::lower_bound(x, place);
+      if(above == x.begin())
+        return f.front();
+      if(above == x.end())
+        return f.back();
+      const auto i = static_cast<std::size_t>(above - x.begin());
+      return f[i - 1] + (f[i] - f[i - 1]) * (place - x[i - 1]) / (x[i] - x[i - 1]);
     }
 
     std::vector<TemperatureProbe> along_line(const cases::Scene &scene,
@@ -169,8 +184,8 @@ namespace meltfront::verification
       return row;
     }
 
-    double fitted_temperature(const cases::Snapshot &snapshot,
-                              const cases::Position &place, double spacing)
+    PlaceReading fitted(const cases::Snapshot &snapshot, const cases::Position &place,
+                        double spacing)
     {
       constexpr double reach = 2.5; // in spacings
       const std::size_t sites = snapshot.temperature.size();
@@ -184,17 +199,27 @@ namespace meltfront::verification
         distance[i] = std::hypot(offsets[i][0], offsets[i][1], offsets[i][2]);
       }
       if(sites == 0)
-        return nan;
+        return {nan, nan};
       const auto nearest = static_cast<std::size_t>(std::ranges::min_element(distance)
                                                     - distance.begin());
       const bool solid = snapshot.solid_fraction[nearest] > 0.5;
       std::vector<std::size_t> near;
+      double fractions = 0, weights = 0;
       for(std::size_t i = 0; i < sites; ++i)
-        if(distance[i] < reach && (snapshot.solid_fraction[i] > 0.5) == solid)
+      {
+        if(!(distance[i] < reach))
+          continue;
+        fractions += (1 - distance[i] / reach) * snapshot.solid_fraction[i];
+        weights += 1 - distance[i] / reach;
+        if((snapshot.solid_fraction[i] > 0.5) == solid)
           near.push_back(i);
+      }
+      PlaceReading reading{snapshot.temperature[nearest],
+                           weights > 0 ? fractions / weights
+                                       : snapshot.solid_fraction[nearest]};
       const auto columns = monomials({}, snapshot.dimension).size();
       if(static_cast<Eigen::Index>(near.size()) < columns)
-        return snapshot.temperature[nearest];
+        return reading;
       Eigen::MatrixXd rows(near.size(), columns);
       Eigen::VectorXd values(near.size());
       for(std::size_t k = 0; k < near.size(); ++k)
@@ -203,7 +228,8 @@ namespace meltfront::verification
         rows.row(k) = weight * monomials(offsets[near[k]], snapshot.dimension);
         values[k] = weight * snapshot.temperature[near[k]];
       }
-      return rows.completeOrthogonalDecomposition().solve(values)[0];
+      reading.temperature = rows.completeOrthogonalDecomposition().solve(values)[0];
+      return reading;
     }
   } // namespace
 
@@ -232,10 +258,34 @@ namespace meltfront::verification
     {
       TemperatureProbe probe{{},
                              {place.begin(), place.begin() + scene.domain.dimension},
-                             fitted_temperature(snapshot, place, spacing),
+                             fitted(snapshot, place, spacing).temperature,
                              exact ? exact->temperature(place, snapshot.time) : nan};
       probes.push_back(std::move(probe));
     }
     return probes;
+  }
+
+  std::vector<PlaceReading> read_places(const cases::Scene &scene,
+                                        const cases::Snapshot &snapshot, double spacing,
+                                        const std::vector<cases::Position> &places)
+  {
+    std::vector<PlaceReading> readings;
+    if(scene.symmetry == cases::Symmetry::none && scene.domain.dimension > 1)
+    {
+      for(const cases::Position &place : places)
+        readings.push_back(fitted(snapshot, place, spacing));
+      return readings;
+    }
+    const cases::Symmetry symmetry = measured_symmetry(scene, nullptr);
+    const auto coordinate = [symmetry](const cases::Position &p)
+    { return symmetry == cases::Symmetry::planar ? p[0] : std::hypot(p[0], p[1], p[2]); };
+    std::vector<double> coordinates;
+    for(std::size_t i = 0; i < snapshot.temperature.size(); ++i)
+      coordinates.push_back(coordinate(site_position(snapshot, i)));
+    const Profile profile = profile_of(snapshot, coordinates, spacing);
+    for(const cases::Position &place : places)
+      readings.push_back({temperature_at(profile, coordinate(place)),
+                          fraction_at(profile, coordinate(place))});
+    return readings;
   }
 } // namespace meltfront::verification

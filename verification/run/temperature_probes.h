@@ -36,6 +36,25 @@ namespace meltfront::verification
                                             const std::vector<double> &coordinates,
                                             const cases::ExactSolution *exact,
                                             double spacing);
+
+  /** What a snapshot says of a place. */
+  struct PlaceReading
+  {
+    double temperature = 0;
+    double solid_fraction = 0;
+  };
+
+  /**
+   * Temperature and solid fraction at any places of the domain. The temperature is read
+   * as by read_probes(), of a smooth one to the third order in the spacing within a phase
+   * (to the sixth along a coordinate), on walls by going on from the sites next to them.
+   * The solid fraction is linear between the sites along a coordinate, and elsewhere
+   * their mean with weights that fall to zero at 2.5 spacings: of the first order, within
+   * 0 to 1.
+   */
+  std::vector<PlaceReading> read_places(const cases::Scene &scene,
+                                        const cases::Snapshot &snapshot, double spacing,
+                                        const std::vector<cases::Position> &places);
 } // namespace meltfront::verification
 
 #endif

@@ -231,7 +231,7 @@ TEST(App, ARunCanStandInForAnExactSolution)
       "sph[ step_factor = 0.4, dimension = 1 ]: solid_volume_2_error at n=64 <= 3e-3\n"
       "  set criterion 2 = any method: worst budget_defect <= 1e-9\n"
       "  set criterion 3 = sph: front_rms at n=64 <= 1");
-  const Outcome outcome = run_program(verify_in(directory.path()));
+  const Outcome outcome = run_program(verify_in(directory.path()) + " -v");
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   expect_text(outcome, "PASS  slab: sph[ step_factor = 0.4, dimension = 1 ]");
   expect_text(outcome, "PASS  slab: sph[dimension=1,step_factor=0.4]: worst budget");

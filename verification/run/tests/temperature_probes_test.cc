@@ -96,5 +96,51 @@ namespace meltfront::verification
       for(const TemperatureProbe &probe : probes)
         EXPECT_LT(std::hypot(probe.place[0], probe.place[1]), radius);
     }
+
+    TEST(PlaceReading, IsExactOfPolynomialsOnBothSidesOfAFront)
+    {
+      constexpr double front = 0.42;
+      const cases::Scene slab
+          = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+      State line = tests::slab_state(40, front);
+      const auto quintic = [&](double x)
+      { return (x < front ? 3 : 1) * (x - front) + std::pow(x - front, 5); };
+      for(std::size_t i = 0; i < line.temperature.size(); ++i)
+        line.temperature[i] = quintic(line.positions[0][i]);
+      for(const double x : {0., 0.013, 0.3, 0.41, 0.44, 0.77, 1.})
+      {
+        const PlaceReading reading
+            = read_places(slab, line.view(1, 1), 1. / 40, {{x, 0, 0}}).front();
+        EXPECT_NEAR(reading.temperature, quintic(x), 1e-11) << x;
+        EXPECT_GE(reading.solid_fraction, 0);
+        EXPECT_LE(reading.solid_fraction, 1);
+      }
+      const cases::Scene box
+          = tests::scene_of(cases::DomainShape::box, 2, cases::Symmetry::none);
+      const Field quadratic = [](const cases::Position &x)
+      { return 1 + x[0] - 2 * x[0] * x[1] + 0.5 * x[1] * x[1]; };
+      State plane = square_state(30, 0.13, quadratic);
+      for(const cases::Position &place :
+          {cases::Position{0, 0, 0}, {0.3, -0.2, 0}, {-0.5, 0.5, 0}, {0.1, 0.49, 0}})
+        EXPECT_NEAR(
+            read_places(box, plane.view(2, 1), 1. / 30, {place}).front().temperature,
+            quadratic(place), 1e-11);
+    }
+
+    TEST(PlaceReading, SolidFractionsAreThoseOfThePhaseAwayFromTheFront)
+    {
+      const cases::Scene box
+          = tests::scene_of(cases::DomainShape::box, 2, cases::Symmetry::none);
+      State plane = square_state(30, 0, [](const cases::Position &) { return 1.; });
+      const auto at = [&](double x)
+      {
+        return read_places(box, plane.view(2, 1), 1. / 30, {{x, 0.1, 0}})
+            .front()
+            .solid_fraction;
+      };
+      EXPECT_EQ(at(-0.3), 1);
+      EXPECT_EQ(at(0.3), 0);
+      EXPECT_NEAR(at(0), 0.5, 1e-12);
+    }
   } // namespace
 } // namespace meltfront::verification
