@@ -2,6 +2,7 @@
 
 #include <cases/demand.h>
 #include <cases/scene.h>
+#include <reference_fem/enthalpy/distributed/rank_run.h>
 #include <reference_fem/enthalpy/options.h>
 #include <reference_fem/enthalpy/run.h>
 #include <reference_fem/enthalpy/shaped_triangulation.h>
@@ -61,7 +62,19 @@ namespace meltfront::reference_fem
                              Effect::radiating_wall, Effect::liquid_motion},
                  .shapes = {{DomainShape::slab, {1}, walls}},
                  .front_origins = {FrontOrigin::initial_front, FrontOrigin::wall},
-                 .most_fronts = 1}};
+                 .most_fronts = 1},
+                rank_capabilities()};
+      }
+
+      std::vector<cases::Capabilities>
+      capabilities_with(const cases::Options &options) const override
+      {
+        if(options.declarations().empty()
+           || options.get_string("engine") != "distributed")
+          return capabilities();
+        cases::Capabilities on_ranks = rank_capabilities();
+        on_ranks.fewest_ranks = 1;
+        return {on_ranks};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -75,6 +88,7 @@ namespace meltfront::reference_fem
         // Of mesh, matrix, preconditioner and snapshots together, as measured.
         constexpr double per_node[] = {0, 1000, 1600, 2500};
         const RunOptions options = options_for(scene, resolution);
+        const bool shared = options.distributed || resolution.ranks > 1;
         double nodes
             = cases::lattice_points(scene.domain, options.dimension, resolution.n);
         if(scene.domain.shape == cases::DomainShape::slab)
@@ -86,7 +100,10 @@ namespace meltfront::reference_fem
           nodes = std::min(nodes,
                            times_boundary * std::pow(nodes, 1 - 1. / options.dimension));
         }
-        return {cases::program_bytes + nodes * per_node[options.dimension],
+        return {resolution.ranks * cases::program_bytes
+                    + nodes
+                          * (shared ? rank_bytes_per_node(options.dimension)
+                                    : per_node[options.dimension]),
                 double(options.steps)};
       }
 
@@ -94,6 +111,8 @@ namespace meltfront::reference_fem
       set_up(const cases::Scene &scene, const cases::EffectSet &effects,
              const cases::Resolution &resolution) const override
       {
+        if(resolution.ranks > 1 || options_for(scene, resolution).distributed)
+          return std::make_unique<RankRun>(scene, effects, resolution);
         return std::make_unique<EnthalpyRun>(scene, effects, resolution);
       }
     };

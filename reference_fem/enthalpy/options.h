@@ -27,6 +27,7 @@ namespace meltfront::reference_fem
     bool front_within_cells = false; ///< conductances as FrontConduction has them
     bool refine_at_front = false;    ///< see FrontRefinement
     Preconditioner preconditioner = Preconditioner::automatic;
+    bool distributed = false; ///< the engine of several ranks, also on one
   };
 
   /** Their values, made out for a scene.

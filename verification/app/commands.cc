@@ -14,6 +14,8 @@
 #include <verification/matrix/matrix_files.h>
 #include <verification/matrix/runner.h>
 #include <verification/measure/measure.h>
+#include <verification/ranks/agreement.h>
+#include <verification/ranks/ranked_run.h>
 #include <verification/record/json_values.h>
 #include <verification/record/label.h>
 #include <verification/report/page/report.h>
@@ -77,15 +79,27 @@ namespace meltfront::verification
       return process.end().problem();
     }
 
+    /** What the run command simulates. */
+    struct RunPlan
+    {
+      cases::Case the_case;
+      const cases::Method &method;
+      cases::Resolution resolution;
+      std::string label, directory;
+    };
+
+    std::map<std::string, std::string> provenance_of_command()
+    {
+      return {{"program_version", program_version}, {"command_line", command_line}};
+    }
+
     /** A run in a process of its own, which writes all files of the run to a directory.
      * @throws cases::OutputError if it cannot. */
-    RunRecord run_alone(const cases::Case &c, const cases::Method &method,
-                        const cases::Resolution &resolution, const std::string &label,
-                        const std::string &directory, const RunArguments &arguments)
+    RunRecord run_alone(const RunPlan &plan, const RunArguments &arguments)
     {
+      const auto &[c, method, resolution, label, directory] = plan;
       const std::string file = directory + "/run.json", log = directory + "/run.log";
-      const std::map<std::string, std::string> provenance{
-          {"program_version", program_version}, {"command_line", command_line}};
+      const std::map<std::string, std::string> provenance = provenance_of_command();
       std::filesystem::remove(file);
       ChildProcess process(
           [&]
@@ -118,6 +132,42 @@ namespace meltfront::verification
         write_json(file, failed);
       }
       return read_json(file).get<RunRecord>();
+    }
+
+    /** A run that all ranks of a session share; the first one writes its record. */
+    RunRecord run_shared(const RunPlan &plan, const RunArguments &arguments,
+                         const RankSession &session)
+    {
+      const std::string file = plan.directory + "/run.json";
+      const cases::Scene &scene = plan.the_case.scene;
+      const auto make_writer = [&]
+      {
+        return std::make_unique<FieldWriter>(
+            plan.directory, scene.start_time, scene.end_time, arguments.frames, 0,
+            FieldWriter::Piece{session.rank(), session.size()});
+      };
+      std::unique_ptr<FieldWriter> fields;
+      session.on_first(
+          [&]
+          {
+            std::filesystem::remove(file);
+            fields = make_writer();
+            return "";
+          });
+      if(!fields)
+        fields = make_writer();
+      const RunRecord record
+          = run_on_ranks(session, plan.the_case, plan.method, plan.resolution, plan.label,
+                         provenance_of_command(), *fields, arguments.time_limit, file);
+      session.on_first(
+          [&]
+          {
+            if(record.status == RunStatus::finished)
+              write_run_page(record, stored_case(plan.the_case), plan.directory);
+            write_json(file, record);
+            return "";
+          });
+      return record;
     }
 
     /** Read settings of a method (sort_settings()) into its options. */
@@ -229,7 +279,7 @@ namespace meltfront::verification
                                    .string());
   }
 
-  int run(const RunArguments &arguments)
+  int run(const RunArguments &arguments, const RankSession *session)
   {
     const cases::Method &method = method_named(arguments.method);
     const Settings settings = sort_settings(arguments.settings);
@@ -240,18 +290,24 @@ namespace meltfront::verification
                  : default_directory(
                      fmt::format("run-{}-{}-{}", case_name, method.name(), arguments.n));
     };
-    const cases::Case c = cases::load_case(
-        varied_case(arguments.case_name, settings.of_case, directory_of));
-    cases::Resolution resolution{
-        arguments.n, cases::Options(method.option_declarations()), arguments.seed,
-        arguments.threads, memory_limit(arguments.memory)};
-    const auto set = apply_settings(settings.of_method, method, resolution.options);
-    const std::string directory = directory_of(c.scene.name);
+    // A case with other values is written to a file, by one rank.
+    const auto vary = [&]
+    { return varied_case(arguments.case_name, settings.of_case, directory_of); };
+    const cases::Case c = cases::load_case(session ? session->on_first(vary) : vary());
+    RunPlan plan{c,
+                 method,
+                 {arguments.n, cases::Options(method.option_declarations()),
+                  arguments.seed, arguments.threads, session ? session->size() : 1,
+                  memory_limit(arguments.memory)},
+                 {},
+                 directory_of(c.scene.name)};
+    const auto set = apply_settings(settings.of_method, method, plan.resolution.options);
+    plan.label = run_label(method.name(), set, arguments.threads, plan.resolution.ranks);
+    const std::string &directory = plan.directory;
     make_directory(directory);
 
-    const RunRecord record = run_alone(c, method, resolution,
-                                       run_label(method.name(), set, arguments.threads),
-                                       directory, arguments);
+    const RunRecord record
+        = session ? run_shared(plan, arguments, *session) : run_alone(plan, arguments);
     std::fputs(run_text(record, c).c_str(), stdout);
     fmt::print("Written to {}: run.json{}\n", directory,
                record.status == RunStatus::finished

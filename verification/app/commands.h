@@ -3,6 +3,7 @@
 
 #include <verification/judge/matrix_result.h>
 #include <verification/matrix/runner.h>
+#include <verification/ranks/ranks.h>
 
 #include <string>
 #include <vector>
@@ -89,8 +90,9 @@ namespace meltfront::verification
   int verify(const VerifyArguments &arguments);
 
   /** One run, in a process of its own: run.json, front.csv, picture.svg and fields for
-   * ParaView. One that crashes or takes longer than it may is recorded as failed. */
-  int run(const RunArguments &arguments);
+   * ParaView. One that crashes or takes longer than it may is recorded as failed.
+   * @param session of the ranks that share the run, or null: a process of its own */
+  int run(const RunArguments &arguments, const RankSession *session);
 
   /** Tables and plots again from finished runs; nothing is run.
    * @param keep directory in which the figures are kept (VerifyArguments::keep), or empty

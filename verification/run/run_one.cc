@@ -74,13 +74,15 @@ namespace meltfront::verification
 
     void solve(const cases::Case &c, const cases::Method &method,
                const cases::Resolution &resolution, cases::Observer *second,
-               const RepeatPolicy &policy, RunRecord &record)
+               const RepeatPolicy &policy, const ThroughObserver &through,
+               RunRecord &record)
     {
       const cases::EffectSet effects = cases::effects_within(c.scene, c.effect_tolerance);
       record.effects = effects.decisions();
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
-      const cases::Capabilities capabilities = cases::require_capable(
-          method, scene, effects, resolution.threads, resolution.options);
+      const cases::Capabilities capabilities
+          = cases::require_capable(method, scene, effects, resolution.threads,
+                                   resolution.options, resolution.ranks);
       require_affordable(method, scene, effects, resolution, record);
       const auto observer
           = observer_of(c, scene, method, capabilities, second, resolution.seed == 1);
@@ -91,7 +93,9 @@ namespace meltfront::verification
       };
       try
       {
-        record.cost = method.solve(scene, effects, resolution, *observer);
+        const auto before = through ? through(*observer) : nullptr;
+        record.cost
+            = method.solve(scene, effects, resolution, before ? *before : *observer);
         observer->require_end();
       }
       catch(...)
@@ -112,13 +116,15 @@ namespace meltfront::verification
 
   std::string run_label(const std::string &method,
                         const std::map<std::string, std::string> &set_options,
-                        int threads)
+                        int threads, int ranks)
   {
     std::string inside;
     for(const auto &[key, value] : set_options)
       inside += fmt::format("{}{}={}", inside.empty() ? "" : ",", key, value);
     if(threads != 1)
       inside += fmt::format("{}threads={}", inside.empty() ? "" : ",", threads);
+    if(ranks != 1)
+      inside += fmt::format("{}ranks={}", inside.empty() ? "" : ",", ranks);
     return inside.empty() ? method : fmt::format("{}[{}]", method, inside);
   }
 
@@ -133,6 +139,7 @@ namespace meltfront::verification
     record.n = resolution.n;
     record.seed = resolution.seed;
     record.threads = resolution.threads;
+    record.ranks = resolution.ranks;
     record.options = resolution.options.values();
     record.provenance = build_provenance();
     for(const auto &[key, value] : method.further_provenance(resolution.options))
@@ -148,12 +155,13 @@ namespace meltfront::verification
   RunRecord run_one(const cases::Case &c, const cases::Method &method,
                     const cases::Resolution &resolution, const std::string &label,
                     const std::map<std::string, std::string> &provenance,
-                    cases::Observer *second, const RepeatPolicy &repeats)
+                    cases::Observer *second, const RepeatPolicy &repeats,
+                    const ThroughObserver &through)
   {
     RunRecord record = empty_record(c, method, resolution, label, provenance);
     try
     {
-      solve(c, method, resolution, second, repeats, record);
+      solve(c, method, resolution, second, repeats, through, record);
     }
     catch(const cases::Refusal &refusal)
     {
