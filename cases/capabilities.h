@@ -75,8 +75,7 @@ namespace meltfront::cases
     int most_fronts = 0;                      ///< 0: any number
     int most_threads = 1;
     Overshoot overshoot{};
-    bool conserves_heat = true;           ///< up to round-off, whatever the spacing
-    int fewest_ranks = 1, most_ranks = 1; ///< processes that share a run
+    bool conserves_heat = true; ///< up to round-off, whatever the spacing
 
     bool takes(Effect effect) const;
     bool takes(FrontOrigin origin) const;
@@ -84,9 +83,6 @@ namespace meltfront::cases
 
   /** Any number of threads that a user may ask for. */
   inline constexpr int any_number_of_threads = 1024;
-
-  /** Any number of ranks on which a run may be started. */
-  inline constexpr int any_number_of_ranks = 1 << 20;
 
   /**
    * Why a form of a method does not take a scene, in one clause that follows the method's

@@ -10,8 +10,7 @@ namespace meltfront::cases
   Cost Method::solve(const Scene &scene, const EffectSet &effects,
                      const Resolution &resolution, Observer &observer) const
   {
-    require_capable(*this, scene, effects, resolution.threads, resolution.options,
-                    resolution.ranks);
+    require_capable(*this, scene, effects, resolution.threads, resolution.options);
     Resolution complete = resolution;
     if(complete.options.declarations().empty())
       complete.options = Options(option_declarations());
@@ -28,14 +27,12 @@ namespace meltfront::cases
 
   Capabilities require_capable(const Method &method, const Scene &scene,
                                const EffectSet &effects, int threads,
-                               const Options &options, int ranks)
+                               const Options &options)
   {
     std::string reasons, first;
     bool alike = true;
     for(const Capabilities &form : method.capabilities_with(options))
     {
-      if(ranks < form.fewest_ranks || ranks > form.most_ranks)
-        continue;
       const std::string reason = reason_unsupported(form, scene, effects, threads);
       if(reason.empty())
         return form;
@@ -44,8 +41,6 @@ namespace meltfront::cases
       reasons += fmt::format("{}{}{}{}", reasons.empty() ? "" : "; ", form.form,
                              form.form.empty() ? "" : " it ", reason);
     }
-    if(first.empty() && ranks > 1)
-      throw Refusal(fmt::format("{} runs on one rank, not on {}", method.name(), ranks));
     throw Refusal(alike ? fmt::format("{} {}", method.name(), first)
                         : fmt::format("{}: {}", method.name(), reasons));
   }

@@ -25,7 +25,6 @@ namespace meltfront::cases
     Options options;
     std::uint64_t seed = 1; ///< for jittered or random arrangements
     int threads = 1;
-    int ranks = 1; ///< processes that share the run, of which this is one
     /** Most memory that the run may take (bytes); what is estimated to take more is
      * refused. */
     double memory_limit = std::numeric_limits<double>::infinity();
@@ -230,11 +229,10 @@ namespace meltfront::cases
 
   /** The capabilities of the form of a method that takes a scene.
    * @param options of the method; none at all: the defaults
-   * @param ranks on which the run is started: forms for other numbers are none
    * @throws Refusal in one sentence if none does. */
   Capabilities require_capable(const Method &method, const Scene &scene,
                                const EffectSet &effects, int threads,
-                               const Options &options = {}, int ranks = 1);
+                               const Options &options = {});
 
   /** @throws Refusal with the estimate if a run takes more than it may. */
   void require_affordable(const Method &method, const Demand &demand,

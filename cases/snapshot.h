@@ -4,7 +4,6 @@
 #include <cases/position.h>
 
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <span>
 
@@ -76,16 +75,6 @@ namespace meltfront::cases
      * order; empty for particles.
      */
     std::span<const unsigned int> cells;
-
-    /**
-     * Of a run on several ranks a snapshot is a rank's part: its own sites first, so
-     * many, then those of other ranks that its cells have, with weight zero; the cells
-     * are those of the rank. Each site has a number, the same on every rank and whatever
-     * the ranks are. Sums (heat, mass) are those of all ranks. Empty: the snapshot is
-     * whole.
-     */
-    std::span<const std::uint64_t> site_numbers;
-    std::size_t n_own_sites = 0;
 
     /** Points on the front (m), one array per dimension, of a method that tracks it;
      * empty for one that does not. */

@@ -2,6 +2,7 @@
 
 #include <cases/demand.h>
 #include <cases/scene.h>
+#include <cases/shared_run.h>
 #include <reference_fem/enthalpy/distributed/rank_run.h>
 #include <reference_fem/enthalpy/options.h>
 #include <reference_fem/enthalpy/run.h>
@@ -14,7 +15,7 @@ namespace meltfront::reference_fem
 {
   namespace
   {
-    class FemEnthalpy : public cases::Method
+    class FemEnthalpy : public cases::Method, public cases::SharedMethod
     {
     public:
       FemEnthalpy()
@@ -62,8 +63,7 @@ namespace meltfront::reference_fem
                              Effect::radiating_wall, Effect::liquid_motion},
                  .shapes = {{DomainShape::slab, {1}, walls}},
                  .front_origins = {FrontOrigin::initial_front, FrontOrigin::wall},
-                 .most_fronts = 1},
-                rank_capabilities()};
+                 .most_fronts = 1}};
       }
 
       std::vector<cases::Capabilities>
@@ -72,9 +72,7 @@ namespace meltfront::reference_fem
         if(options.declarations().empty()
            || options.get_string("engine") != "distributed")
           return capabilities();
-        cases::Capabilities on_ranks = rank_capabilities();
-        on_ranks.fewest_ranks = 1;
-        return {on_ranks};
+        return {rank_capabilities()};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -88,7 +86,8 @@ namespace meltfront::reference_fem
         // Of mesh, matrix, preconditioner and snapshots together, as measured.
         constexpr double per_node[] = {0, 1000, 1600, 2500};
         const RunOptions options = options_for(scene, resolution);
-        const bool shared = options.distributed || resolution.ranks > 1;
+        if(options.distributed)
+          return demand_on_ranks(scene, {}, resolution, 1);
         double nodes
             = cases::lattice_points(scene.domain, options.dimension, resolution.n);
         if(scene.domain.shape == cases::DomainShape::slab)
@@ -100,10 +99,7 @@ namespace meltfront::reference_fem
           nodes = std::min(nodes,
                            times_boundary * std::pow(nodes, 1 - 1. / options.dimension));
         }
-        return {resolution.ranks * cases::program_bytes
-                    + nodes
-                          * (shared ? rank_bytes_per_node(options.dimension)
-                                    : per_node[options.dimension]),
+        return {cases::program_bytes + nodes * per_node[options.dimension],
                 double(options.steps)};
       }
 
@@ -111,9 +107,32 @@ namespace meltfront::reference_fem
       set_up(const cases::Scene &scene, const cases::EffectSet &effects,
              const cases::Resolution &resolution) const override
       {
-        if(resolution.ranks > 1 || options_for(scene, resolution).distributed)
-          return std::make_unique<RankRun>(scene, effects, resolution);
+        if(options_for(scene, resolution).distributed)
+          return set_up_on_ranks(scene, effects, resolution, 1);
         return std::make_unique<EnthalpyRun>(scene, effects, resolution);
+      }
+
+      cases::Capabilities capabilities_on_ranks() const override
+      {
+        return rank_capabilities();
+      }
+
+      cases::Demand demand_on_ranks(const cases::Scene &scene, const cases::EffectSet &,
+                                    const cases::Resolution &resolution,
+                                    int ranks) const override
+      {
+        const RunOptions options = options_for(scene, resolution);
+        return {ranks * cases::program_bytes
+                    + cases::lattice_points(scene.domain, options.dimension, resolution.n)
+                          * rank_bytes_per_node(options.dimension),
+                double(options.steps)};
+      }
+
+      std::unique_ptr<cases::SharedRun>
+      set_up_on_ranks(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution, int ranks) const override
+      {
+        return std::make_unique<RankRun>(scene, effects, resolution, ranks);
       }
     };
   } // namespace

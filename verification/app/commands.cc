@@ -139,6 +139,7 @@ namespace meltfront::verification
                          const RankSession &session)
     {
       const std::string file = plan.directory + "/run.json";
+      const MethodOnRanks method(plan.method, session.size());
       const cases::Scene &scene = plan.the_case.scene;
       const auto make_writer = [&]
       {
@@ -157,7 +158,7 @@ namespace meltfront::verification
       if(!fields)
         fields = make_writer();
       const RunRecord record
-          = run_on_ranks(session, plan.the_case, plan.method, plan.resolution, plan.label,
+          = run_on_ranks(session, plan.the_case, method, plan.resolution, plan.label,
                          provenance_of_command(), *fields, arguments.time_limit, file);
       session.on_first(
           [&]
@@ -297,12 +298,12 @@ namespace meltfront::verification
     RunPlan plan{c,
                  method,
                  {arguments.n, cases::Options(method.option_declarations()),
-                  arguments.seed, arguments.threads, session ? session->size() : 1,
-                  memory_limit(arguments.memory)},
+                  arguments.seed, arguments.threads, memory_limit(arguments.memory)},
                  {},
                  directory_of(c.scene.name)};
     const auto set = apply_settings(settings.of_method, method, plan.resolution.options);
-    plan.label = run_label(method.name(), set, arguments.threads, plan.resolution.ranks);
+    plan.label
+        = run_label(method.name(), set, arguments.threads, session ? session->size() : 1);
     const std::string &directory = plan.directory;
     make_directory(directory);
 

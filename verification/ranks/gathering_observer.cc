@@ -8,7 +8,7 @@
 
 namespace meltfront::verification
 {
-  GatheringObserver::GatheringObserver(const std::string &method, MPI_Comm communicator,
+  GatheringObserver::GatheringObserver(const MethodOnRanks &method, MPI_Comm communicator,
                                        cases::Observer *whole, cases::Observer *part,
                                        double time_limit)
     : method(method)
@@ -43,7 +43,7 @@ namespace meltfront::verification
             wanted = whole->wants(step, time);
             if(time_limit > 0 && watch.elapsed().wall > time_limit)
               throw cases::NumericalError(
-                  method, step, time, "the run",
+                  method.name(), step, time, "the run",
                   fmt::format("took longer than its time limit of {} s", time_limit));
           }
           part_wanted = part && part->wants(step, time);
@@ -59,7 +59,7 @@ namespace meltfront::verification
     // The first and the last state come without having been wanted.
     if(part_wanted && !whole_wanted)
       return;
-    const cases::Snapshot gathered = gatherer.gather(snapshot);
+    const cases::Snapshot gathered = gatherer.gather(snapshot, method.part());
     together(communicator,
              [&]
              {

@@ -1,11 +1,9 @@
 #ifndef meltfront_verification_ranks_gathering_observer_h
 #define meltfront_verification_ranks_gathering_observer_h
 
-#include <cases/method.h>
 #include <cases/stopwatch.h>
+#include <verification/ranks/method_on_ranks.h>
 #include <verification/ranks/whole_snapshot.h>
-
-#include <string>
 
 namespace meltfront::verification
 {
@@ -23,7 +21,7 @@ namespace meltfront::verification
      * @param part observes this rank's parts, or null on all ranks
      * @param time_limit wall seconds from now on after which the run is ended; 0: none
      */
-    GatheringObserver(const std::string &method, MPI_Comm communicator,
+    GatheringObserver(const MethodOnRanks &method, MPI_Comm communicator,
                       cases::Observer *whole, cases::Observer *part, double time_limit);
 
     void begin(const cases::RunDescription &description) override;
@@ -33,7 +31,7 @@ namespace meltfront::verification
     void report(const std::string &name, double value) override;
 
   private:
-    std::string method;
+    const MethodOnRanks &method;
     MPI_Comm communicator;
     cases::Observer *whole, *part;
     double time_limit;

@@ -58,7 +58,7 @@ namespace meltfront::verification
     }
 
     /** What the first rank does: run_one(), the observer being that of all. */
-    RankEnd lead(MPI_Comm communicator, const cases::Case &c, const cases::Method &method,
+    RankEnd lead(MPI_Comm communicator, const cases::Case &c, const MethodOnRanks &method,
                  const cases::Resolution &resolution, const std::string &label,
                  const std::map<std::string, std::string> &provenance,
                  cases::Observer &part, double time_limit)
@@ -76,7 +76,7 @@ namespace meltfront::verification
                         begun = true;
                         together(communicator, [] {});
                         return std::make_unique<GatheringObserver>(
-                            method.name(), communicator, &whole, &part, time_limit);
+                            method, communicator, &whole, &part, time_limit);
                       });
         end.by_another = end.record.message == OtherRankFailed().what();
       }
@@ -92,7 +92,7 @@ namespace meltfront::verification
 
     /** What the others do: solve, and keep how that ended. */
     RankEnd follow(MPI_Comm communicator, const cases::Case &c,
-                   const cases::Method &method, const cases::Resolution &resolution,
+                   const MethodOnRanks &method, const cases::Resolution &resolution,
                    cases::Observer &part, double time_limit)
     {
       RankEnd end;
@@ -104,8 +104,7 @@ namespace meltfront::verification
         const cases::EffectSet effects
             = cases::effects_within(c.scene, c.effect_tolerance);
         const cases::Scene scene = cases::simulated_scene(c.scene, effects);
-        GatheringObserver observer(method.name(), communicator, nullptr, &part,
-                                   time_limit);
+        GatheringObserver observer(method, communicator, nullptr, &part, time_limit);
         record.cost = method.solve(scene, effects, resolution, observer);
         record.status = RunStatus::finished;
       }
@@ -169,7 +168,7 @@ namespace meltfront::verification
   } // namespace
 
   RunRecord run_on_ranks(const RankSession &session, const cases::Case &c,
-                         const cases::Method &method, const cases::Resolution &resolution,
+                         const MethodOnRanks &method, const cases::Resolution &resolution,
                          const std::string &label,
                          const std::map<std::string, std::string> &provenance,
                          cases::Observer &part, double time_limit,

@@ -2,7 +2,7 @@
 #define meltfront_verification_ranks_ranked_run_h
 
 #include <cases/case.h>
-#include <cases/method.h>
+#include <verification/ranks/method_on_ranks.h>
 #include <verification/ranks/ranks.h>
 #include <verification/record/run_record.h>
 
@@ -24,7 +24,7 @@ namespace meltfront::verification
    * @return the record; on other ranks than the first only its status
    */
   RunRecord run_on_ranks(const RankSession &session, const cases::Case &c,
-                         const cases::Method &method, const cases::Resolution &resolution,
+                         const MethodOnRanks &method, const cases::Resolution &resolution,
                          const std::string &label,
                          const std::map<std::string, std::string> &provenance,
                          cases::Observer &part, double time_limit,

@@ -30,7 +30,8 @@ namespace meltfront::verification
     return result;
   }
 
-  void WholeSnapshot::gather_mesh(const cases::Snapshot &part)
+  void WholeSnapshot::gather_mesh(const cases::Snapshot &snapshot,
+                                  const cases::RankPart &part)
   {
     const std::span<const std::uint64_t> own = part.site_numbers.first(part.n_own_sites);
     std::vector<std::uint64_t> numbers
@@ -39,15 +40,15 @@ namespace meltfront::verification
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::ranges::sort(order, {}, [&](std::size_t i) { return numbers[i]; });
     std::ranges::sort(numbers);
-    for(int d = 0; d < part.dimension; ++d)
-      positions[d] = in_order(part.positions[d].first(part.n_own_sites));
-    weights = in_order(part.weights.first(part.n_own_sites));
+    for(int d = 0; d < snapshot.dimension; ++d)
+      positions[d] = in_order(snapshot.positions[d].first(part.n_own_sites));
+    weights = in_order(snapshot.weights.first(part.n_own_sites));
 
     std::vector<std::uint64_t> corners;
-    for(const unsigned int site : part.cells)
+    for(const unsigned int site : snapshot.cells)
       corners.push_back(part.site_numbers[site]);
     corners = gathered(communicator, corners);
-    const std::size_t n_corners = std::size_t(1) << part.dimension;
+    const std::size_t n_corners = std::size_t(1) << snapshot.dimension;
     std::vector<std::size_t> first(corners.size() / n_corners);
     for(std::size_t c = 0; c < first.size(); ++c)
       first[c] = c * n_corners;
@@ -59,27 +60,26 @@ namespace meltfront::verification
             std::ranges::lower_bound(numbers, corners[corner + a]) - numbers.begin()));
   }
 
-  cases::Snapshot WholeSnapshot::gather(const cases::Snapshot &part)
+  cases::Snapshot WholeSnapshot::gather(const cases::Snapshot &snapshot,
+                                        const cases::RankPart &part)
   {
     const bool changed = !std::ranges::equal(part.site_numbers, numbers_sent)
-                         || !std::ranges::equal(part.cells, cells_sent);
+                         || !std::ranges::equal(snapshot.cells, cells_sent);
     if(dealii::Utilities::MPI::max(changed ? 1 : 0, communicator) > 0)
     {
-      gather_mesh(part);
+      gather_mesh(snapshot, part);
       numbers_sent.assign(part.site_numbers.begin(), part.site_numbers.end());
-      cells_sent.assign(part.cells.begin(), part.cells.end());
+      cells_sent.assign(snapshot.cells.begin(), snapshot.cells.end());
     }
-    temperature = in_order(part.temperature.first(part.n_own_sites));
-    solid_fraction = in_order(part.solid_fraction.first(part.n_own_sites));
-    cases::Snapshot whole = part;
-    for(int d = 0; d < part.dimension; ++d)
+    temperature = in_order(snapshot.temperature.first(part.n_own_sites));
+    solid_fraction = in_order(snapshot.solid_fraction.first(part.n_own_sites));
+    cases::Snapshot whole = snapshot;
+    for(int d = 0; d < snapshot.dimension; ++d)
       whole.positions[d] = positions[d];
     whole.weights = weights;
     whole.temperature = temperature;
     whole.solid_fraction = solid_fraction;
     whole.cells = cells;
-    whole.site_numbers = {};
-    whole.n_own_sites = 0;
     return whole;
   }
 } // namespace meltfront::verification

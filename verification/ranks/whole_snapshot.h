@@ -1,7 +1,7 @@
 #ifndef meltfront_verification_ranks_whole_snapshot_h
 #define meltfront_verification_ranks_whole_snapshot_h
 
-#include <cases/snapshot.h>
+#include <cases/shared_run.h>
 
 #include <mpi.h>
 
@@ -28,11 +28,11 @@ namespace meltfront::verification
      * To be called on all ranks. What it gives is whole on the first one, and lives until
      * the next call. Temperatures, solid fractions and budgets are taken over.
      */
-    cases::Snapshot gather(const cases::Snapshot &part);
+    cases::Snapshot gather(const cases::Snapshot &snapshot, const cases::RankPart &part);
 
   private:
     std::vector<double> in_order(std::span<const double> own) const;
-    void gather_mesh(const cases::Snapshot &part);
+    void gather_mesh(const cases::Snapshot &snapshot, const cases::RankPart &part);
 
     MPI_Comm communicator;
     std::vector<std::uint64_t> numbers_sent; ///< by this rank, of sites

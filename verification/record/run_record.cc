@@ -167,7 +167,6 @@ namespace meltfront::verification
     visit("n", record.n);
     visit("seed", record.seed);
     visit("threads", record.threads);
-    visit("ranks", record.ranks, since_later);
     visit("options", record.options);
     visit("status", record.status);
     visit("message", record.message);

@@ -96,7 +96,6 @@ namespace meltfront::verification
     int n = 0;
     std::uint64_t seed = 1;
     int threads = 1;
-    int ranks = 1;                              ///< processes that shared the run
     std::map<std::string, std::string> options; ///< all values in use, defaults included
 
     RunStatus status = RunStatus::failed;

@@ -82,7 +82,7 @@ namespace meltfront::verification
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
       const cases::Capabilities capabilities
           = cases::require_capable(method, scene, effects, resolution.threads,
-                                   resolution.options, resolution.ranks);
+                                   resolution.options);
       require_affordable(method, scene, effects, resolution, record);
       const auto observer
           = observer_of(c, scene, method, capabilities, second, resolution.seed == 1);
@@ -139,7 +139,6 @@ namespace meltfront::verification
     record.n = resolution.n;
     record.seed = resolution.seed;
     record.threads = resolution.threads;
-    record.ranks = resolution.ranks;
     record.options = resolution.options.values();
     record.provenance = build_provenance();
     for(const auto &[key, value] : method.further_provenance(resolution.options))

@@ -1,4 +1,5 @@
 #include <reference_fem/enthalpy/distributed/ghosts.h>
+#include <reference_fem/enthalpy/distributed/rank_correction.h>
 #include <reference_fem/enthalpy/distributed/rank_newton.h>
 #include <reference_fem/enthalpy/distributed/shared_search.h>
 #include <reference_fem/enthalpy/graph.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace meltfront::reference_fem
 {
@@ -23,6 +25,7 @@ namespace meltfront::reference_fem
                  const cases::Material &material,
                  std::unique_ptr<LinearSolver> linear_solver, Traffic &traffic)
         : problem(problem)
+        , levels(levels)
         , communicator(levels.front().communicator())
         , n(levels.front().n_own())
         , graph(material)
@@ -86,6 +89,8 @@ namespace meltfront::reference_fem
       bool project(const CompensatedVector &u);
       double line_search(double c, const CompensatedVector &u,
                          const std::vector<double> &heat);
+      void correct_coarsely(double c, CompensatedVector &u,
+                            const std::vector<double> &heat);
       void descend(double c, CompensatedVector &u, const std::vector<double> &heat,
                    bool over_jumps);
 
@@ -103,9 +108,11 @@ namespace meltfront::reference_fem
       }
 
       StepProblem problem;
+      const std::vector<RankLevel> &levels;
       MPI_Comm communicator;
       std::size_t n; ///< own nodes
       Graph graph;
+      std::optional<RankCorrection<Graph>> coarse; ///< once a front has gone far
       std::unique_ptr<LinearSolver> linear_solver;
       Traffic &traffic;
       Ghosts ghosts;
@@ -148,6 +155,12 @@ namespace meltfront::reference_fem
             const cases::ScopedTimer timer(cost.seconds);
             sweep_while_moving(c, rhs, u);
             recover_heat(c, rhs, u, heat);
+            if(levels.size() > 1 && outcome.iterations >= by_itself)
+            {
+              correct_coarsely(c, u, heat);
+              sweep_while_moving(c, rhs, u);
+              recover_heat(c, rhs, u, heat);
+            }
           }
         const bool front_moves = Graph::jumps && !state.settled
                                  && outcome.iterations >= by_itself
@@ -365,6 +378,27 @@ namespace meltfront::reference_fem
                               c * problem.conduction.product(i, direction));
       entries_touched += problem.conduction.entries();
       return lowest_of_all(derivative, communicator, traffic);
+    }
+
+    /** Correct from coarser meshes: fronts move by as many cells as it takes. */
+    template <class Graph, bool exchanges>
+    void RankNewton<Graph, exchanges>::correct_coarsely(double c, CompensatedVector &u,
+                                                        const std::vector<double> &heat)
+    {
+      if(!coarse)
+        coarse.emplace(levels, problem.volume, graph, traffic);
+      std::vector<double> &on_graph = residual;
+      for(std::size_t i = 0; i < n; ++i)
+        on_graph[i] = graph.heat_on_graph(u[i], problem.volume[i], heat[i]);
+      coarse->correct(c, on_graph, heat,
+                      exchanges ? &problem.exchange->transfer : nullptr, direction);
+      const double length = line_search(c, u, heat);
+      for(std::size_t i = 0; i < n; ++i)
+        u.add(i, length * direction[i]);
+      ghosts.update(u);
+      // The levels together take a third more than the finest one.
+      constexpr long passes = 8;
+      entries_touched += passes * problem.conduction.entries();
     }
 
     /** @param over_jumps else nodes stop at the jump */

@@ -32,9 +32,7 @@ namespace meltfront::reference_fem
         .front_origins
         = {FrontOrigin::none, FrontOrigin::initial_front, FrontOrigin::partly_melted,
            FrontOrigin::wall, FrontOrigin::source},
-        .overshoot = overshoot,
-        .fewest_ranks = 2,
-        .most_ranks = cases::any_number_of_ranks};
+        .overshoot = overshoot};
   }
 
   double rank_bytes_per_node(int dimension)
@@ -111,8 +109,6 @@ namespace meltfront::reference_fem
     snapshot.temperature = site_temperature;
     snapshot.solid_fraction = site_solid_fraction;
     snapshot.cells = mesh.cells;
-    snapshot.n_own_sites = n_own;
-    snapshot.site_numbers = site_numbers;
     snapshot.obeys_maximum_principle = true;
     snapshot.heat.latent = total([this](std::size_t i) { return latent_heat(i); });
     snapshot.heat.stored
@@ -139,7 +135,8 @@ namespace meltfront::reference_fem
         = {{"largest distance from the enthalpy graph", statistics.graph_inconsistency},
            {"largest defect of a step's heat balance", statistics.balance_defect},
            {"steps halved", double(statistics.halvings)},
-           {"steps left to backward Euler", double(statistics.euler_steps)}};
+           {"steps left to backward Euler", double(statistics.euler_steps)},
+           {"ranks", double(n_ranks)}};
     if(step_number > 0)
     {
       const auto steps = static_cast<double>(step_number);

@@ -26,12 +26,12 @@ namespace meltfront::reference_fem
   } // namespace
 
   RankRun::RankRun(const cases::Scene &scene, const cases::EffectSet &effects,
-                   const cases::Resolution &resolution)
+                   const cases::Resolution &resolution, int ranks)
     : scene(scene)
     , effects(effects)
     , options(options_for(scene, resolution))
-    , n_ranks(resolution.ranks)
-    , communicator(resolution.ranks > 1 ? MPI_COMM_WORLD : MPI_COMM_SELF)
+    , n_ranks(ranks)
+    , communicator(ranks > 1 ? MPI_COMM_WORLD : MPI_COMM_SELF)
     , bounds(cases::temperature_bounds(scene))
     , time(scene.start_time)
     , time_before(scene.start_time)

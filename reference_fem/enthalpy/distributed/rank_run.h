@@ -2,8 +2,8 @@
 #define meltfront_reference_fem_enthalpy_distributed_rank_run_h
 
 #include <cases/capabilities.h>
-#include <cases/run.h>
 #include <cases/scene.h>
+#include <cases/shared_run.h>
 #include <reference_fem/enthalpy/compensated_vector.h>
 #include <reference_fem/enthalpy/distributed/box_hierarchy.h>
 #include <reference_fem/enthalpy/distributed/ghosts.h>
@@ -36,13 +36,18 @@ namespace meltfront::reference_fem
    * EnthalpyRun, on a mesh that the ranks share. All ranks make, take and end it at the
    * same time, and what it throws by its own judgement it throws on all of them.
    *
-   * Its snapshots hold a rank's part: see cases::Snapshot::site_numbers.
+   * Its snapshots hold a rank's part: see cases::RankPart.
    */
-  class RankRun : public cases::Run
+  class RankRun : public cases::SharedRun
   {
   public:
     RankRun(const cases::Scene &scene, const cases::EffectSet &effects,
-            const cases::Resolution &resolution);
+            const cases::Resolution &resolution, int ranks);
+
+    cases::RankPart part() const override
+    {
+      return {enthalpy.size(), site_numbers};
+    }
 
     // In rank_report.cc:
     cases::RunDescription describe() const override;
