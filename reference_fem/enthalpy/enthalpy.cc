@@ -80,14 +80,14 @@ namespace meltfront::reference_fem
         return cases::options_of(RunOptions());
       }
 
-      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &effects,
                            const cases::Resolution &resolution) const override
       {
         // Of mesh, matrix, preconditioner and snapshots together, as measured.
         constexpr double per_node[] = {0, 1000, 1600, 2500};
         const RunOptions options = options_for(scene, resolution);
         if(options.distributed)
-          return demand_on_ranks(scene, {}, resolution, 1);
+          return demand_on_ranks(scene, effects, resolution, 1);
         double nodes
             = cases::lattice_points(scene.domain, options.dimension, resolution.n);
         if(scene.domain.shape == cases::DomainShape::slab)

@@ -62,7 +62,7 @@ namespace meltfront::verification::tests
       EXPECT_NEAR(front[k], serial_front[k], 1e-10);
     for(const char *file : {"fields.pvd", "fields-0002.pvtu", "fields-0002.0000.vtu",
                             "fields-0002.0001.vtu", "front.csv", "picture.svg"})
-      EXPECT_TRUE(fs::exists(shared.path("") + file)) << file;
+      EXPECT_TRUE(fs::exists(shared.path(file))) << file;
     std::ifstream in(shared.path("fields-0002.pvtu"));
     const std::string pvtu{std::istreambuf_iterator<char>(in), {}};
     EXPECT_NE(pvtu.find("fields-0002.0001.vtu"), std::string::npos) << pvtu;
