@@ -42,6 +42,19 @@ namespace meltfront::reference_fem
       remainder[i] = 0;
     }
 
+    /** What the rounded value leaves. */
+    double remainder_of(std::size_t i) const
+    {
+      return remainder[i];
+    }
+
+    /** Set both parts: a value that another process holds. */
+    void set(std::size_t i, double rounded, double rest)
+    {
+      leading[i] = rounded;
+      remainder[i] = rest;
+    }
+
     /** Add with the rounding error kept (Knuth 1969, TwoSum). */
     void add(std::size_t i, double increment)
     {

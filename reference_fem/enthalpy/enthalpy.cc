@@ -2,6 +2,8 @@
 
 #include <cases/demand.h>
 #include <cases/scene.h>
+#include <cases/shared_run.h>
+#include <reference_fem/enthalpy/distributed/rank_run.h>
 #include <reference_fem/enthalpy/options.h>
 #include <reference_fem/enthalpy/run.h>
 #include <reference_fem/enthalpy/shaped_triangulation.h>
@@ -13,7 +15,7 @@ namespace meltfront::reference_fem
 {
   namespace
   {
-    class FemEnthalpy : public cases::Method
+    class FemEnthalpy : public cases::Method, public cases::SharedMethod
     {
     public:
       FemEnthalpy()
@@ -65,17 +67,28 @@ namespace meltfront::reference_fem
                  .most_fronts = 1}};
       }
 
+      std::vector<cases::Capabilities>
+      capabilities_with(const cases::Options &options) const override
+      {
+        if(options.declarations().empty()
+           || options.get_string("engine") != "distributed")
+          return capabilities();
+        return {rank_capabilities()};
+      }
+
       std::vector<cases::OptionDeclaration> option_declarations() const override
       {
         return cases::options_of(RunOptions());
       }
 
-      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
+      cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &effects,
                            const cases::Resolution &resolution) const override
       {
         // Of mesh, matrix, preconditioner and snapshots together, as measured.
         constexpr double per_node[] = {0, 1000, 1600, 2500};
         const RunOptions options = options_for(scene, resolution);
+        if(options.distributed)
+          return demand_on_ranks(scene, effects, resolution, 1);
         double nodes
             = cases::lattice_points(scene.domain, options.dimension, resolution.n);
         if(scene.domain.shape == cases::DomainShape::slab)
@@ -95,7 +108,32 @@ namespace meltfront::reference_fem
       set_up(const cases::Scene &scene, const cases::EffectSet &effects,
              const cases::Resolution &resolution) const override
       {
+        if(options_for(scene, resolution).distributed)
+          return set_up_on_ranks(scene, effects, resolution, 1);
         return std::make_unique<EnthalpyRun>(scene, effects, resolution);
+      }
+
+      cases::Capabilities capabilities_on_ranks() const override
+      {
+        return rank_capabilities();
+      }
+
+      cases::Demand demand_on_ranks(const cases::Scene &scene, const cases::EffectSet &,
+                                    const cases::Resolution &resolution,
+                                    int ranks) const override
+      {
+        const RunOptions options = options_for(scene, resolution);
+        return {ranks * cases::program_bytes
+                    + cases::lattice_points(scene.domain, options.dimension, resolution.n)
+                          * rank_bytes_per_node(options.dimension),
+                double(options.steps)};
+      }
+
+      std::unique_ptr<cases::SharedRun>
+      set_up_on_ranks(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution, int ranks) const override
+      {
+        return std::make_unique<RankRun>(scene, effects, resolution, ranks);
       }
     };
   } // namespace

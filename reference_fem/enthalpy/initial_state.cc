@@ -123,6 +123,7 @@ namespace meltfront::reference_fem
     /** The same where the scene has none, but its temperature passes the melting one
      * between two nodes; what is at it must be one phase. */
     std::optional<cases::Field> temperature_front(const cases::Scene &scene,
+                                                  const Mesh &mesh,
                                                   const Discretisation &discretisation)
     {
       const double at_melting = scene.initial.solid_fraction_at_melting;
@@ -132,6 +133,8 @@ namespace meltfront::reference_fem
       bool solid = false, liquid = false;
       for(const Position &p : discretisation.positions)
         (level(p, scene.start_time) < 0 ? solid : liquid) = true;
+      solid = mesh.anywhere(solid);
+      liquid = mesh.anywhere(liquid);
       if(!solid || !liquid)
         return {};
       return level;
@@ -175,7 +178,7 @@ namespace meltfront::reference_fem
     const std::size_t n = discretisation.volume.size();
     std::optional<cases::Field> front = initial_front(scene);
     if(!front && !scene.initial.exact)
-      front = temperature_front(scene, discretisation);
+      front = temperature_front(scene, mesh, discretisation);
     std::vector<double> result
         = front ? averages(scene, Start(scene, *front), mesh, discretisation)
                 : std::vector<double>(n);

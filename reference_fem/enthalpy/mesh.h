@@ -79,6 +79,13 @@ namespace meltfront::reference_fem
     /** Make shares() faster where it is called many times. */
     virtual void expect_many_points() = 0;
 
+    /** Whether something holds anywhere. @param here whether it does in this part of a
+     * mesh that several processes share */
+    virtual bool anywhere(bool here) const
+    {
+      return here;
+    }
+
     /**
      * Averages of a function over the part of each cell nearest to a node: by a midpoint
      * rule of 8 points per cell and direction in cells that hold both phases or are

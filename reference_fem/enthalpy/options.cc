@@ -76,6 +76,11 @@ namespace meltfront::reference_fem
                 "at sources and where temperature bends, with larger ones elsewhere "
                 "(front; in boxes and half sections of axisymmetric bodies).",
                 {{"none", false}, {"front", true}});
+    options.add(
+        "engine", distributed,
+        "What makes the run: the engine of one process, and that of several where "
+        "there are (automatic), or the latter also on one (distributed).",
+        {{"automatic", false}, {"distributed", true}});
     options.add("preconditioner", preconditioner,
                 "Preconditioner of the conjugate gradients in 2D and 3D: ssor, amg "
                 "(Trilinos ML) or "

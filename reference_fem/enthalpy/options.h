@@ -28,6 +28,7 @@ namespace meltfront::reference_fem
     bool refine_at_front = false;    ///< see FrontRefinement
     Preconditioner preconditioner = Preconditioner::automatic;
     double checkpoint = 0; ///< between states that are kept (s of wall time); 0: none
+    bool distributed = false; ///< the engine of several ranks, also on one
   };
 
   /** Their values, made out for a scene.

@@ -1,4 +1,5 @@
 #include <cases/scene.h>
+#include <cases/shared_run.h>
 #include <verification/app/capability_list.h>
 #include <verification/app/methods.h>
 
@@ -19,6 +20,15 @@ namespace meltfront::verification
       return words;
     }
 
+    /** What a method takes, on several ranks too. */
+    std::vector<cases::Capabilities> forms_of(const cases::Method &method)
+    {
+      std::vector<cases::Capabilities> forms = method.capabilities();
+      if(const auto *shared = dynamic_cast<const cases::SharedMethod *>(&method))
+        forms.push_back(shared->capabilities_on_ranks());
+      return forms;
+    }
+
     std::string label_of(const cases::Method &method, const cases::Capabilities &form)
     {
       return form.form.empty() ? method.name()
@@ -31,14 +41,14 @@ namespace meltfront::verification
       const auto &effects = cases::all_effects();
       std::size_t width = 0;
       for(const auto &method : methods())
-        for(const cases::Capabilities &form : method->capabilities())
+        for(const cases::Capabilities &form : forms_of(*method))
           width = std::max(width, label_of(*method, form).size());
       std::string text = fmt::format("  {:{}}", "", width);
       for(std::size_t e = 0; e < effects.size(); ++e)
         text += fmt::format(" {:2}", e + 1);
       text += "\n";
       for(const auto &method : methods())
-        for(const cases::Capabilities &form : method->capabilities())
+        for(const cases::Capabilities &form : forms_of(*method))
         {
           text += fmt::format("  {:{}}", label_of(*method, form), width);
           for(const cases::Effect effect : effects)
@@ -124,7 +134,7 @@ namespace meltfront::verification
           + effect_table() + "\nDomains, walls and fronts:\n";
     for(const auto &method : methods())
     {
-      const auto forms = method->capabilities();
+      const auto forms = forms_of(*method);
       if(forms.empty())
         text += fmt::format("  {}\n      what its options say\n", method->name());
       for(const cases::Capabilities &form : forms)
@@ -139,7 +149,7 @@ namespace meltfront::verification
     for(const auto &method : methods())
     {
       nlohmann::json forms = nlohmann::json::array();
-      for(const cases::Capabilities &form : method->capabilities())
+      for(const cases::Capabilities &form : forms_of(*method))
         forms.push_back(form_json(form));
       list.push_back({{"name", method->name()}, {"forms", forms}});
     }

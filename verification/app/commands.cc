@@ -1,45 +1,30 @@
 #include <cases/case_file/case_file.h>
-#include <cases/case_file/output_reader.h>
 #include <cases/error.h>
 #include <verification/app/capability_list.h>
-#include <verification/app/case_settings.h>
 #include <verification/app/commands.h>
 #include <verification/app/console.h>
-#include <verification/app/field_writer.h>
 #include <verification/app/methods.h>
-#include <verification/app/probe_writer.h>
-#include <verification/app/several_observers.h>
 #include <verification/judge/baseline.h>
 #include <verification/judge/coverage.h>
 #include <verification/judge/criteria.h>
 #include <verification/judge/stability.h>
-#include <verification/matrix/directory_lock.h>
 #include <verification/matrix/matrix_file.h>
 #include <verification/matrix/matrix_files.h>
 #include <verification/matrix/runner.h>
 #include <verification/measure/measure.h>
-#include <verification/record/json_values.h>
 #include <verification/record/label.h>
-#include <verification/record/provenance.h>
 #include <verification/record/stored_case.h>
 #include <verification/report/page/report.h>
 #include <verification/report/plots/plot_folder.h>
-#include <verification/run/checkpoint/checkpoint_keeper.h>
-#include <verification/run/child_process.h>
 #include <verification/run/memory_limit.h>
-#include <verification/run/run_one.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <thread>
 
 namespace meltfront::verification
 {
@@ -47,174 +32,17 @@ namespace meltfront::verification
   {
     const char *const program_version = MELTFRONT_VERSION;
     std::string command_line;
-
-    /** Bytes that a run may take. @param gigabytes that were asked for; 0: all there is
-     */
-    double memory_limit(double gigabytes)
-    {
-      return gigabytes > 0 ? 1e9 * gigabytes : available_memory();
-    }
-
-    /** The text of a file, without white space at its end. */
-    std::string text_of(const std::string &file)
-    {
-      std::ifstream in(file);
-      std::string text{std::istreambuf_iterator<char>(in), {}};
-      text.erase(text.find_last_not_of(" \n\t") + 1);
-      return text;
-    }
-
-    /** Wait until a process ends, or end it after so many seconds (0: never).
-     * @return what went wrong, a clause; else empty */
-    std::string wait_for(ChildProcess &process, double time_limit)
-    {
-      using Clock = std::chrono::steady_clock;
-      constexpr std::chrono::milliseconds polling_pause{5};
-      const Clock::time_point start = Clock::now();
-      while(!process.ended())
-      {
-        const std::chrono::duration<double> spent = Clock::now() - start;
-        if(time_limit > 0 && spent.count() > time_limit)
-        {
-          process.kill();
-          return fmt::format("took longer than its time limit of {} s", time_limit);
-        }
-        std::this_thread::sleep_for(polling_pause);
-      }
-      return process.end().problem();
-    }
-
-    /** A run in a process of its own, which writes all files of the run to a directory.
-     * @throws cases::OutputError if it cannot. */
-    RunRecord run_alone(const cases::Case &c, const cases::Method &method,
-                        const cases::Resolution &resolution, const std::string &label,
-                        const std::string &directory, const RunArguments &arguments)
-    {
-      const std::string file = directory + "/run.json", log = directory + "/run.log";
-      const std::map<std::string, std::string> provenance{
-          {"program_version", program_version}, {"command_line", command_line}};
-      std::filesystem::remove(file);
-      ChildProcess process(
-          [&]
-          {
-            limit_memory(resolution.memory_limit, resolution.threads);
-            FieldWriter fields(directory, c.scene.start_time, c.scene.end_time,
-                               arguments.frames,
-                               c.scene.problem == cases::ProblemKind::particle_solid
-                                   ? c.scene.particle_solid->law.cutoff
-                                   : 0);
-            ProbeWriter probes(directory, c);
-            SeveralObservers observers({&fields, &probes});
-            RepeatPolicy once;
-            once.most = 1;
-            const CheckpointFolder checkpoints = CheckpointFolder::in(directory);
-            const RunRecord record = run_one(c, method, resolution, label, provenance,
-                                             &observers, once, &checkpoints);
-            if(record.status == RunStatus::finished)
-              write_run_page(record, stored_case(c), directory);
-            write_json(file, record);
-          },
-          log);
-      const std::string problem = wait_for(process, arguments.time_limit);
-      if(process.end().exit_status == 1)
-        throw cases::OutputError(text_of(log)); // all else is in the record
-      if(!std::filesystem::exists(file))
-      {
-        RunRecord failed = empty_record(c, method, resolution, label, provenance);
-        failed.message = fmt::format(
-            "{} {}", method.name(), problem.empty() ? "ended without a record" : problem);
-        failed.peak_memory_mb = process.end().peak_memory_mb;
-        failed.provenance["ended"] = "killed";
-        write_json(file, failed);
-      }
-      return read_json(file).get<RunRecord>();
-    }
-
-    /** What a run that is resumed has to be the same in. */
-    nlohmann::json this_program()
-    {
-      nlohmann::json program = build_provenance();
-      program["program_version"] = program_version;
-      return program;
-    }
-
-    /** The case and the arguments of a run that was left in a directory. @throws
-     * cases::InputError if there is none, or what there is is damaged */
-    std::pair<cases::Case, RunArguments> left_run(const RunArguments &arguments)
-    {
-      const CheckpointFolder folder = CheckpointFolder::in(arguments.resume);
-      const nlohmann::json request = folder.request(this_program());
-      folder.last(); // throws where the run could not go on from it
-      RunArguments result = arguments;
-      result.output = arguments.resume;
-      try
-      {
-        request.at("method").get_to(result.method);
-        request.at("n").get_to(result.n);
-        request.at("settings").get_to(result.settings);
-        request.at("seed").get_to(result.seed);
-        request.at("threads").get_to(result.threads);
-        request.at("frames").get_to(result.frames);
-        return {request.at("case").get<StoredCase>(), result};
-      }
-      catch(const nlohmann::json::exception &problem)
-      {
-        throw cases::InputError(fmt::format("{}/checkpoint/request.json is damaged: {}",
-                                            arguments.resume, problem.what()));
-      }
-    }
-
-    nlohmann::json request_of(const cases::Case &c, const RunArguments &arguments)
-    {
-      return {{"case", stored_case(c)},
-              {"method", arguments.method},
-              {"n", arguments.n},
-              {"settings", sort_settings(arguments.settings).of_method},
-              {"seed", arguments.seed},
-              {"threads", arguments.threads},
-              {"frames", arguments.frames},
-              {"program", this_program()}};
-    }
-
-    /** Where a run was interrupted its checkpoint stays, and is told. */
-    void conclude_checkpoints(const RunRecord &record, const std::string &directory)
-    {
-      const CheckpointFolder folder = CheckpointFolder::in(directory);
-      if(!record.provenance.contains("ended"))
-        folder.remove();
-      else if(const auto last = folder.last())
-        fmt::print("Its checkpoint after step {} (t = {:.6g} s): go on with `meltfront "
-                   "run --resume {}`\n",
-                   last->step, last->time, directory);
-    }
-
-    /** The files that a case asks for, `, probes.csv, line-1.csv`. */
-    std::string output_words(const cases::OutputRequest &output)
-    {
-      std::string words = output.probes.empty() ? "" : ", probes.csv";
-      for(std::size_t i = 1; i <= output.lines.size(); ++i)
-        words += fmt::format(", line-{}.csv", i);
-      return words;
-    }
-
-    /** Read settings of a method (sort_settings()) into its options. */
-    std::map<std::string, std::string>
-    apply_settings(const std::vector<std::string> &settings, const cases::Method &method,
-                   cases::Options &options)
-    {
-      std::map<std::string, std::string> set;
-      for(const std::string &setting : settings)
-      {
-        const Setting one = parse_setting(setting);
-        if(one.method != method.name())
-          throw cases::InputError(
-              fmt::format("--set {}: this run's method is '{}'", setting, method.name()));
-        set[one.key] = one.value;
-        options.set(one.key, one.value);
-      }
-      return set;
-    }
   } // namespace
+
+  double memory_limit(double gigabytes)
+  {
+    return gigabytes > 0 ? 1e9 * gigabytes : available_memory();
+  }
+
+  std::map<std::string, std::string> provenance_of_command()
+  {
+    return {{"program_version", program_version}, {"command_line", command_line}};
+  }
 
   void set_command_line(int argc, char **argv)
   {
@@ -304,70 +132,6 @@ namespace meltfront::verification
     fmt::print("Report: {}\n", std::filesystem::absolute(directory + "/report.html")
                                    .lexically_normal()
                                    .string());
-  }
-
-  namespace
-  {
-    int run_case(const cases::Case &c, const RunArguments &arguments,
-                 const std::string &directory)
-    {
-      const cases::Method &method = method_named(arguments.method);
-      cases::Resolution resolution{
-          arguments.n, cases::Options(method.option_declarations()), arguments.seed,
-          arguments.threads, memory_limit(arguments.memory)};
-      const auto set = apply_settings(sort_settings(arguments.settings).of_method, method,
-                                      resolution.options);
-      const DirectoryLock lock(directory);
-      if(arguments.resume.empty())
-        CheckpointFolder::in(directory).begin(checkpoint_interval(resolution.options) > 0
-                                                  ? request_of(c, arguments)
-                                                  : nlohmann::json());
-      const RunRecord record = run_alone(c, method, resolution,
-                                         run_label(method.name(), set, arguments.threads),
-                                         directory, arguments);
-      std::fputs(run_text(record, c).c_str(), stdout);
-      fmt::print("Written to {}: run.json{}\n", directory,
-                 record.status == RunStatus::finished
-                     ? ", front.csv, picture.svg, fields.pvd"
-                           + output_words(cases::output_of(c))
-                     : "");
-      conclude_checkpoints(record, directory);
-      switch(record.status)
-      {
-      case RunStatus::finished:
-        return all_well;
-      case RunStatus::refused:
-        return bad_input;
-      default:
-        return run_failed;
-      }
-    }
-  } // namespace
-
-  int run(const RunArguments &arguments)
-  {
-    if(!arguments.resume.empty())
-    {
-      if(!arguments.settings.empty())
-        throw cases::InputError("--resume takes no --set: the run goes on as it began");
-      const auto [c, of_left_run] = left_run(arguments);
-      return run_case(c, of_left_run, arguments.resume);
-    }
-    if(arguments.case_name.empty() || arguments.method.empty())
-      throw cases::InputError("run needs a case and --method, or --resume DIRECTORY");
-    const cases::Method &method = method_named(arguments.method);
-    const auto directory_of = [&](const std::string &case_name)
-    {
-      return !arguments.output.empty()
-                 ? arguments.output
-                 : default_directory(
-                     fmt::format("run-{}-{}-{}", case_name, method.name(), arguments.n));
-    };
-    const cases::Case c = cases::load_case(varied_case(
-        arguments.case_name, sort_settings(arguments.settings).of_case, directory_of));
-    const std::string directory = directory_of(c.scene.name);
-    make_directory(directory);
-    return run_case(c, arguments, directory);
   }
 
   int conclude(MatrixResult &result, const std::string &directory, bool details)

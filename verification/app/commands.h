@@ -3,7 +3,9 @@
 
 #include <verification/judge/matrix_result.h>
 #include <verification/matrix/runner.h>
+#include <verification/ranks/ranks.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -60,6 +62,12 @@ namespace meltfront::verification
   /** METHOD.KEY=VALUE. @throws cases::InputError for another form */
   Setting parse_setting(const std::string &text);
 
+  /** Bytes that a run may take. @param gigabytes that were asked for; 0: all there is */
+  double memory_limit(double gigabytes);
+
+  /** Of the program and the command line, as records have them. */
+  std::map<std::string, std::string> provenance_of_command();
+
   /** The command line as it was typed, for provenance. */
   void set_command_line(int argc, char **argv);
 
@@ -91,8 +99,9 @@ namespace meltfront::verification
   int verify(const VerifyArguments &arguments);
 
   /** One run, in a process of its own: run.json, front.csv, picture.svg and fields for
-   * ParaView. One that crashes or takes longer than it may is recorded as failed. */
-  int run(const RunArguments &arguments);
+   * ParaView. One that crashes or takes longer than it may is recorded as failed.
+   * @param session of the ranks that share the run, or null: a process of its own */
+  int run(const RunArguments &arguments, const RankSession *session);
 
   /** Tables and plots again from finished runs; nothing is run.
    * @param keep directory in which the figures are kept (VerifyArguments::keep), or empty

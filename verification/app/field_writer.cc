@@ -154,20 +154,24 @@ namespace meltfront::verification
   } // namespace
 
   FieldWriter::FieldWriter(const std::string &directory, double start_time,
-                           double end_time, int frames, double bond)
+                           double end_time, int frames, double bond, Piece piece)
     : directory(directory)
     , start_time(start_time)
     , end_time(end_time)
     , frames(frames)
     , bond(bond)
+    , piece(piece)
   {
+    if(piece.rank > 0)
+      return;
     // Fields of an earlier run in the same directory would mix with this one's.
     for(const auto &entry : std::filesystem::directory_iterator(directory))
     {
       const std::string name = entry.path().filename().string();
       for(const std::string collection : {"fields", "bonds"})
         if(name == collection + ".pvd"
-           || (name.starts_with(collection + "-") && name.ends_with(".vtu")))
+           || (name.starts_with(collection + "-")
+               && (name.ends_with(".vtu") || name.ends_with(".pvtu"))))
           std::filesystem::remove_all(entry.path());
     }
   }
@@ -185,10 +189,10 @@ namespace meltfront::verification
       return;
     while(next_frame <= frames && wants(snapshot.step, snapshot.time))
       ++next_frame;
-    write("fields", written, snapshot.time,
+    write("fields", written, snapshot,
           [&](std::ostream &out) { write_sites(snapshot, out); });
     if(bond > 0)
-      write("bonds", bonds_written, snapshot.time,
+      write("bonds", bonds_written, snapshot,
             [&](std::ostream &out)
             {
               const std::vector<std::size_t> pairs = bonds_of(snapshot, bond);
@@ -198,11 +202,14 @@ namespace meltfront::verification
 
   template <typename Write>
   void FieldWriter::write(const std::string &collection,
-                          std::vector<std::pair<double, std::string>> &list, double time,
-                          const Write &write_frame) const
+                          std::vector<std::pair<double, std::string>> &list,
+                          const cases::Snapshot &snapshot, const Write &write_frame) const
   {
-    const std::string name = fmt::format("{}-{:04}.vtu", collection, list.size());
-    list.emplace_back(time, name);
+    const std::string name = fmt::format("{}-{:04}", collection, list.size());
+    const bool in_pieces = piece.ranks > 1;
+    const auto name_of_piece
+        = [&](int rank) { return fmt::format("{}.{:04}.vtu", name, rank); };
+    list.emplace_back(snapshot.time, name + (in_pieces ? ".pvtu" : ".vtu"));
     const auto to_file = [this](const std::string &file, const auto &content)
     {
       const std::string path = directory + "/" + file;
@@ -213,7 +220,22 @@ namespace meltfront::verification
       if(!out.flush())
         throw cases::OutputError(fmt::format("cannot write {}", path));
     };
-    to_file(name, write_frame);
+    to_file(in_pieces ? name_of_piece(piece.rank) : list.back().second, write_frame);
+    if(piece.rank > 0)
+      return;
+    if(in_pieces)
+      to_file(list.back().second,
+              [&](std::ostream &out)
+              {
+                std::vector<std::string> pieces;
+                for(int rank = 0; rank < piece.ranks; ++rank)
+                  pieces.push_back(name_of_piece(rank));
+                std::vector<double> zeros;
+                const Fields fields = fields_of(snapshot, zeros);
+                dealii::DataOutBase::write_pvtu_record(
+                    out, pieces, fields.names, fields.vectors,
+                    dealii::DataOutBase::VtkFlags(snapshot.time, snapshot.step));
+              });
     to_file(collection + ".pvd", [&list](std::ostream &out)
             { dealii::DataOutBase::write_pvd_record(out, list); });
   }

@@ -20,13 +20,26 @@ namespace meltfront::verification
   class FieldWriter : public cases::Observer
   {
   public:
+    /** Which of the ranks that share a run this writer is for. */
+    struct Piece
+    {
+      int rank = 0, ranks = 1;
+    };
+
     /**
      * Write `frames` frames equidistant in time, and the initial state, into a directory
      * that exists; frames of an earlier run there are removed.
      * @param bond solid particles nearer than this are joined by a line; 0: none
+     * @param piece of several ranks, each writes its part of a frame, and the first one a
+     * `.pvtu` file that names them all. It removes earlier frames, too: make it first
      */
     FieldWriter(const std::string &directory, double start_time, double end_time,
-                int frames, double bond = 0);
+                int frames, double bond, Piece piece);
+    FieldWriter(const std::string &directory, double start_time, double end_time,
+                int frames, double bond = 0)
+      : FieldWriter(directory, start_time, end_time, frames, bond, {})
+    {
+    }
 
     bool wants(long step, double time) override;
 
@@ -37,14 +50,15 @@ namespace meltfront::verification
     /** Write one file of a collection; the collection is whole after each. */
     template <typename Write>
     void write(const std::string &collection,
-               std::vector<std::pair<double, std::string>> &list, double time,
-               const Write &write_frame) const;
+               std::vector<std::pair<double, std::string>> &list,
+               const cases::Snapshot &snapshot, const Write &write_frame) const;
 
     std::string directory;
     double start_time;
     double end_time;
     int frames;
     double bond;
+    Piece piece;
     int next_frame = 0;
     std::vector<std::pair<double, std::string>> written, bonds_written;
   };

@@ -10,6 +10,7 @@
 #include <verification/app/manual/manual.h>
 #include <verification/app/new_case.h>
 #include <verification/app/study_commands.h>
+#include <verification/ranks/ranks.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <optional>
 
 namespace
 {
@@ -42,6 +44,8 @@ namespace
     std::string list_what;
     bool list_as_json = false, report_details = false;
     std::function<int()> action;
+    bool is_run = false; ///< the one command that ranks share
+    std::optional<RankSession> session;
 
     CommandLine();
 
@@ -217,7 +221,12 @@ namespace
         ->add_option("--time-limit", a.time_limit,
                      "time limit of the run in seconds; 0: none (3600)")
         ->check(CLI::NonNegativeNumber);
-    command->callback([this] { action = [this] { return run(run_arguments); }; });
+    command->callback(
+        [this]
+        {
+          is_run = true;
+          action = [this] { return run(run_arguments, session ? &*session : nullptr); };
+        });
   }
 
   void CommandLine::declare_compare()
@@ -442,11 +451,59 @@ namespace
                        meltfront::cases::nearest_name(word, names));
   }
 
-  int say(const std::exception &error, int status)
+  /** How the program ends; `sentence` says what is wrong. */
+  struct End
   {
-    std::fflush(stdout);
-    fmt::print(stderr, "meltfront: {}\n", error.what());
-    return status;
+    int status;
+    std::string sentence{};
+  };
+
+  End carry_out(CommandLine &command_line, int ranks)
+  {
+    try
+    {
+      if(ranks > 1 && !command_line.is_run)
+        throw meltfront::cases::InputError(
+            fmt::format("'run' is the one command that several ranks share, and this is "
+                        "started on {}",
+                        ranks));
+      const int status = command_line.action ? command_line.action() : int(all_well);
+      if(std::fflush(stdout) != 0)
+        throw meltfront::cases::OutputError("standard output cannot be written to");
+      return {status};
+    }
+    catch(const meltfront::cases::InputError &error)
+    {
+      return {bad_input, error.what()};
+    }
+    catch(const meltfront::cases::Refusal &error)
+    {
+      return {bad_input, error.what()};
+    }
+    catch(const meltfront::cases::NumericalError &error)
+    {
+      return {run_failed, error.what()};
+    }
+    catch(const std::exception &error)
+    {
+      return {output_failed, error.what()};
+    }
+  }
+
+  End parse_and_carry_out(CommandLine &command_line, int argc, char **argv, int ranks)
+  {
+    if(const std::string problem = nearest_command(command_line.app, argc, argv);
+       !problem.empty())
+      return {bad_input, problem};
+    try
+    {
+      command_line.app.parse(argc, argv);
+    }
+    catch(const CLI::ParseError &error)
+    {
+      return {command_line.app.exit(error) == 0 ? all_well : bad_input};
+    }
+    return carry_out(command_line, ranks);
   }
 } // namespace
 
@@ -454,38 +511,16 @@ int main(int argc, char **argv)
 {
   set_command_line(argc, argv);
   CommandLine command_line;
-  if(const std::string problem = nearest_command(command_line.app, argc, argv);
-     !problem.empty())
-    return say(meltfront::cases::InputError(problem), bad_input);
-  try
+  const int ranks = started_ranks();
+  if(ranks > 1)
+    command_line.session.emplace(argc, argv);
+  const End end = parse_and_carry_out(command_line, argc, argv, ranks);
+  if(!end.sentence.empty())
   {
-    command_line.app.parse(argc, argv);
+    std::fflush(stdout);
+    fmt::print(stderr, "meltfront: {}\n", end.sentence);
   }
-  catch(const CLI::ParseError &error)
-  {
-    return command_line.app.exit(error) == 0 ? all_well : bad_input;
-  }
-  try
-  {
-    const int status = command_line.action ? command_line.action() : int(all_well);
-    if(std::fflush(stdout) != 0)
-      throw meltfront::cases::OutputError("standard output cannot be written to");
-    return status;
-  }
-  catch(const meltfront::cases::InputError &error)
-  {
-    return say(error, bad_input);
-  }
-  catch(const meltfront::cases::Refusal &error)
-  {
-    return say(error, bad_input);
-  }
-  catch(const meltfront::cases::NumericalError &error)
-  {
-    return say(error, run_failed);
-  }
-  catch(const std::exception &error)
-  {
-    return say(error, output_failed);
-  }
+  if(command_line.session)
+    command_line.session->end_together(end.sentence, end.status);
+  return end.status;
 }

@@ -10,8 +10,7 @@
 #include <verification/record/json_values.h>
 #include <verification/record/run_record.h>
 #include <verification/record/temporary_directory.h>
-#include <verification/run/checkpoint/checkpoint_folder.h>
-#include <verification/run/checkpoint/observation_log.h>
+#include <verification/run/checkpoint/checkpoint_keeper.h>
 #include <verification/run/run_one.h>
 
 #include <fmt/format.h>
@@ -83,11 +82,21 @@ namespace meltfront::verification
         const cases::Method &method = method_named(name);
         cases::Resolution resolution{10, cases::Options(method.option_declarations()), 1,
                                      1};
-        if(folder && method.name() == "fem-enthalpy")
+        if(folder && method.name() != "fem-enthalpy")
+          continue;
+        if(folder)
           resolution.options.set("checkpoint", "1e-9");
         RepeatPolicy once;
         once.most = 1;
-        result.push_back(run_one(c, method, resolution, name, {}, nullptr, once, folder));
+        std::map<std::string, double> evidence;
+        const auto keep
+            = [&](cases::Observer &observer) -> std::unique_ptr<cases::Observer>
+        {
+          if(!folder)
+            return nullptr;
+          return std::make_unique<CheckpointKeeper>(*folder, 1e-9, observer, evidence);
+        };
+        result.push_back(run_one(c, method, resolution, name, {}, nullptr, once, keep));
       }
       return result;
     }

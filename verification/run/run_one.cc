@@ -3,7 +3,6 @@
 #include <cases/out_of_memory.h>
 #include <verification/record/hash.h>
 #include <verification/record/provenance.h>
-#include <verification/run/checkpoint/checkpoint_keeper.h>
 #include <verification/run/heat_observer.h>
 #include <verification/run/motion_observer.h>
 #include <verification/run/run_one.h>
@@ -75,14 +74,15 @@ namespace meltfront::verification
 
     void solve(const cases::Case &c, const cases::Method &method,
                const cases::Resolution &resolution, cases::Observer *second,
-               const RepeatPolicy &policy, const CheckpointFolder *checkpoints,
+               const RepeatPolicy &policy, const ThroughObserver &through,
                RunRecord &record)
     {
       const cases::EffectSet effects = cases::effects_within(c.scene, c.effect_tolerance);
       record.effects = effects.decisions();
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
-      const cases::Capabilities capabilities = cases::require_capable(
-          method, scene, effects, resolution.threads, resolution.options);
+      const cases::Capabilities capabilities
+          = cases::require_capable(method, scene, effects, resolution.threads,
+                                   resolution.options);
       require_affordable(method, scene, effects, resolution, record);
       const auto observer
           = observer_of(c, scene, method, capabilities, second, resolution.seed == 1);
@@ -93,15 +93,9 @@ namespace meltfront::verification
       };
       try
       {
-        const double interval = checkpoint_interval(resolution.options);
-        if(checkpoints && interval > 0)
-        {
-          CheckpointKeeper keeper(*checkpoints, interval, *observer);
-          record.cost = method.solve(scene, effects, resolution, keeper);
-          record.cost.evidence.merge(keeper.evidence());
-        }
-        else
-          record.cost = method.solve(scene, effects, resolution, *observer);
+        const auto before = through ? through(*observer) : nullptr;
+        record.cost
+            = method.solve(scene, effects, resolution, before ? *before : *observer);
         observer->require_end();
       }
       catch(...)
@@ -122,13 +116,15 @@ namespace meltfront::verification
 
   std::string run_label(const std::string &method,
                         const std::map<std::string, std::string> &set_options,
-                        int threads)
+                        int threads, int ranks)
   {
     std::string inside;
     for(const auto &[key, value] : set_options)
       inside += fmt::format("{}{}={}", inside.empty() ? "" : ",", key, value);
     if(threads != 1)
       inside += fmt::format("{}threads={}", inside.empty() ? "" : ",", threads);
+    if(ranks != 1)
+      inside += fmt::format("{}ranks={}", inside.empty() ? "" : ",", ranks);
     return inside.empty() ? method : fmt::format("{}[{}]", method, inside);
   }
 
@@ -159,12 +155,12 @@ namespace meltfront::verification
                     const cases::Resolution &resolution, const std::string &label,
                     const std::map<std::string, std::string> &provenance,
                     cases::Observer *second, const RepeatPolicy &repeats,
-                    const CheckpointFolder *checkpoints)
+                    const ThroughObserver &through)
   {
     RunRecord record = empty_record(c, method, resolution, label, provenance);
     try
     {
-      solve(c, method, resolution, second, repeats, checkpoints, record);
+      solve(c, method, resolution, second, repeats, through, record);
     }
     catch(const cases::Refusal &refusal)
     {

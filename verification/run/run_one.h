@@ -4,9 +4,10 @@
 #include <cases/case.h>
 #include <cases/method.h>
 #include <verification/record/run_record.h>
-#include <verification/run/checkpoint/checkpoint_folder.h>
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
 namespace meltfront::verification
@@ -19,15 +20,19 @@ namespace meltfront::verification
     double total_seconds = 2; ///< no further repeat once so much is spent (wall s)
   };
 
-  /** The label of a run with all options at their defaults, of one thread: the method's
-   * name. Else `sph[step_factor=1.1]`, `sph[step_factor=1.1,threads=2]`. */
+  /** The label of a run with all options at their defaults, of one thread on one rank:
+   * the method's name. Else `sph[step_factor=1.1]`, `sph[step_factor=1.1,threads=2]`. */
   std::string run_label(const std::string &method,
                         const std::map<std::string, std::string> &set_options,
-                        int threads);
+                        int threads, int ranks = 1);
 
   /** The option by which a method is told its number of steps, `steps`, or the least
    * number, `fewest_steps`; empty where it has neither. */
   std::string steps_option(const cases::Options &options);
+
+  /** Makes an observer that stands before another. */
+  using ThroughObserver
+      = std::function<std::unique_ptr<cases::Observer>(cases::Observer &)>;
 
   /**
    * Run one method on one case and measure it.
@@ -44,14 +49,15 @@ namespace meltfront::verification
    * @param provenance is copied to the record and completed by the case's text and hash,
    * the date and what build_provenance() knows
    * @param second an observer of the same run, e.g. a writer of fields, or null
-   * @param checkpoints where those that the method's options ask for are kept, and where
-   * the run goes on from if one lies there; null: nowhere
+   * @param through makes what the method hands its states to, which hands them on to the
+   * observer that it gets; none: the observer itself. Only the first solution goes
+   * through it
    */
   RunRecord run_one(const cases::Case &c, const cases::Method &method,
                     const cases::Resolution &resolution, const std::string &label,
                     const std::map<std::string, std::string> &provenance,
                     cases::Observer *second = nullptr, const RepeatPolicy &repeats = {},
-                    const CheckpointFolder *checkpoints = nullptr);
+                    const ThroughObserver &through = {});
 
   /** A record of that run which holds no result yet: status failed, no message. */
   RunRecord empty_record(const cases::Case &c, const cases::Method &method,

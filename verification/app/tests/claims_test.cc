@@ -4,6 +4,7 @@
 // themselves.
 
 #include <cases/error.h>
+#include <cases/shared_run.h>
 #include <verification/app/methods.h>
 #include <verification/app/tests/claims/conduction.h>
 #include <verification/app/tests/claims/fronts.h>
@@ -101,7 +102,8 @@ namespace meltfront::verification::claims
       bool solves_in_more_dimensions() const
       {
         return capabilities.form == "in the plane"
-               || capabilities.form == "in more dimensions";
+               || capabilities.form == "in more dimensions"
+               || capabilities.form == "on several ranks";
       }
 
       std::string name() const
@@ -118,12 +120,17 @@ namespace meltfront::verification::claims
     {
       std::vector<Form> result;
       for(const auto &method : methods())
+      {
+        // By the engine of several ranks, on one: tests in ranks/ compare one with two.
+        if(const auto *shared = dynamic_cast<const cases::SharedMethod *>(method.get()))
+          result.push_back({method.get(), shared->capabilities_on_ranks()});
         for(const cases::Capabilities &capabilities : method->capabilities())
         {
           result.push_back({method.get(), capabilities});
           if(method->name() == "fem-cut")
             result.push_back({method.get(), capabilities, "conservative"});
         }
+      }
       return result;
     }
 

@@ -6,10 +6,12 @@
 namespace meltfront::verification
 {
   CheckpointKeeper::CheckpointKeeper(CheckpointFolder folder, double interval,
-                                     cases::Observer &observer)
+                                     cases::Observer &observer,
+                                     std::map<std::string, double> &evidence)
     : folder(std::move(folder))
     , interval(interval)
     , observer(observer)
+    , evidence(evidence)
   {
   }
 
@@ -65,7 +67,8 @@ namespace meltfront::verification
     log.emplace(folder.observations(), last->observed_bytes);
     kept = last->kept;
     resumptions = last->resumptions + 1;
-    resumed_at = last->step;
+    evidence["times resumed"] = resumptions;
+    evidence["last resumed after step"] = double(last->step);
     return std::make_unique<std::istringstream>(std::move(last->state));
   }
 
@@ -78,18 +81,8 @@ namespace meltfront::verification
     std::ostringstream state;
     save(state);
     folder.write({step, time, log->bytes(), ++kept, resumptions, std::move(state).str()});
+    evidence["checkpoints"] = double(kept);
     last_kept = Clock::now();
-  }
-
-  std::map<std::string, double> CheckpointKeeper::evidence() const
-  {
-    std::map<std::string, double> result{{"checkpoints", double(kept)}};
-    if(resumptions > 0)
-    {
-      result["times resumed"] = resumptions;
-      result["last resumed after step"] = double(resumed_at);
-    }
-    return result;
   }
 
   double checkpoint_interval(const cases::Options &options)

@@ -21,8 +21,10 @@ namespace meltfront::verification
     /**
      * Goes on from the folder's last checkpoint where there is one.
      * @param interval between checkpoints (s of wall time)
+     * @param evidence what was done is put there, for the record
      */
-    CheckpointKeeper(CheckpointFolder folder, double interval, cases::Observer &observer);
+    CheckpointKeeper(CheckpointFolder folder, double interval, cases::Observer &observer,
+                     std::map<std::string, double> &evidence);
 
     void begin(const cases::RunDescription &description) override;
     bool wants(long step, double time) override;
@@ -31,9 +33,6 @@ namespace meltfront::verification
     void note(double time, const std::string &event) override;
     void report(const std::string &name, double value) override;
     cases::StateKeeper *state_keeper() override;
-
-    /** For the record, by a name in plain words. */
-    std::map<std::string, double> evidence() const;
 
   private:
     std::unique_ptr<std::istream> state_to_resume() override;
@@ -45,10 +44,10 @@ namespace meltfront::verification
     CheckpointFolder folder;
     double interval;
     cases::Observer &observer;
+    std::map<std::string, double> &evidence;
     std::optional<ObservationLog> log;
     long kept = 0;
     int resumptions = 0;
-    long resumed_at = 0; ///< step
     Clock::time_point last_kept = Clock::now();
   };
 

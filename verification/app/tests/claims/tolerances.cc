@@ -44,6 +44,11 @@ namespace meltfront::verification::claims
       trial.n = trial.scene.material.gibbs_thomson_coefficient != 0 ? 24
                 : trial.scene.sources.empty()                       ? 18
                                                                     : 28;
+    if(form == "on several ranks")
+    {
+      trial.n = dimension == 2 ? 48 : 24;
+      trial.options.emplace_back("engine", "distributed");
+    }
     if(method == "fem-enthalpy" && shape == DomainShape::axisymmetric)
       trial.n = 36;
     if(method == "fem-enthalpy" && form == "where liquid is displaced")

@@ -1,0 +1,111 @@
+// The program as a user starts it on two ranks.
+
+#include <verification/app/tests/run_program.h>
+
+#include <fmt/format.h>
+
+namespace meltfront::verification::tests
+{
+  namespace
+  {
+    /** With mpirun, which adds lines of its own where the status is not zero. */
+    Outcome run_on_two_ranks(const std::string &arguments)
+    {
+      Outcome outcome;
+      const std::string command = fmt::format(
+          "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+          "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 "
+          "{} -np 2 {} {} 2>&1",
+          MELTFRONT_MPIRUN, MELTFRONT_PROGRAM, arguments);
+      std::FILE *pipe = popen(command.c_str(), "r");
+      if(pipe == nullptr)
+        return outcome;
+      char buffer[4096];
+      while(const std::size_t size = std::fread(buffer, 1, sizeof(buffer), pipe))
+        outcome.output.append(buffer, size);
+      const int status = pclose(pipe);
+      outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+      return outcome;
+    }
+
+    std::size_t times_in(const std::string &text, const std::string &word)
+    {
+      std::size_t count = 0;
+      for(auto at = text.find(word); at != std::string::npos;
+          at = text.find(word, at + 1))
+        ++count;
+      return count;
+    }
+
+    const std::string line_sink = "run line-sink --method fem-enthalpy --n 32 --set "
+                                  "'Scene/end time=1e5' --frames 2 --out ";
+  } // namespace
+
+  TEST(SharedRun, LeavesOneRecordLikeThatOfOneProcess)
+  {
+    const TemporaryDirectory shared, alone;
+    const Outcome outcome = run_on_two_ranks(line_sink + shared.path().string());
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_EQ(times_in(outcome.output, "Written to"), 1u) << outcome.output;
+    const auto record = read_json(shared.path("run.json"));
+    EXPECT_EQ(record["status"], "finished");
+    EXPECT_EQ(record["cost"]["evidence"]["ranks"], 2);
+    EXPECT_GT(record["cost"]["evidence"]["iterations_per_step"], 0);
+    EXPECT_EQ(record["label"], "fem-enthalpy[ranks=2]");
+
+    ASSERT_EQ(run_program(line_sink + alone.path().string()).status, 0);
+    const auto serial = read_json(alone.path("run.json"));
+    const std::vector<double> front = record["series"]["front"],
+                              serial_front = serial["series"]["front"];
+    ASSERT_EQ(front.size(), serial_front.size());
+    for(std::size_t k = 0; k < front.size(); ++k)
+      EXPECT_NEAR(front[k], serial_front[k], 1e-10);
+    for(const char *file : {"fields.pvd", "fields-0002.pvtu", "fields-0002.0000.vtu",
+                            "fields-0002.0001.vtu", "front.csv", "picture.svg"})
+      EXPECT_TRUE(fs::exists(shared.path(file))) << file;
+    std::ifstream in(shared.path("fields-0002.pvtu"));
+    const std::string pvtu{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_NE(pvtu.find("fields-0002.0001.vtu"), std::string::npos) << pvtu;
+    EXPECT_NE(pvtu.find("temperature"), std::string::npos) << pvtu;
+  }
+
+  TEST(SharedRun, RefusesOtherCommandsAndMethodsInOneSentence)
+  {
+    const Outcome list = run_on_two_ranks("list cases");
+    EXPECT_EQ(list.status, 2) << list.output;
+    EXPECT_EQ(times_in(list.output, "meltfront: 'run' is the one command"), 1u)
+        << list.output;
+    const TemporaryDirectory directory;
+    const Outcome sph = run_on_two_ranks("run line-sink --method sph --n 20 --out "
+                                         + directory.path().string());
+    EXPECT_EQ(sph.status, 2) << sph.output;
+    EXPECT_EQ(times_in(sph.output, "sph runs on one rank, not on 2"), 1u) << sph.output;
+    const Outcome shape = run_on_two_ranks("run plane-freezing --method fem-enthalpy "
+                                           "--n 20 --out "
+                                           + directory.path().string());
+    EXPECT_EQ(shape.status, 2) << shape.output;
+    expect_text(shape, "takes no domain of the shape 'slab'");
+    const Outcome unknown = run_on_two_ranks("run no-such-case --method fem-enthalpy");
+    EXPECT_EQ(unknown.status, 2) << unknown.output;
+    EXPECT_EQ(times_in(unknown.output, "meltfront: "), 1u) << unknown.output;
+  }
+
+  TEST(SharedRun, EndsAtItsTimeLimit)
+  {
+    const TemporaryDirectory directory;
+    const Outcome outcome = run_on_two_ranks(
+        "run line-sink --method fem-enthalpy --n 256 --time-limit 2 --out "
+        + directory.path().string());
+    EXPECT_EQ(outcome.status, 3) << outcome.output;
+    EXPECT_EQ(read_json(directory.path("run.json"))["status"], "failed");
+    expect_text(outcome, "took longer than its time limit of 2 s");
+  }
+
+  TEST(SharedRun, SaysWhatCannotBeWritten)
+  {
+    const Outcome outcome = run_on_two_ranks(
+        "run line-sink --method fem-enthalpy --n 16 --out /proc/no-such-directory");
+    EXPECT_EQ(outcome.status, 4) << outcome.output;
+    EXPECT_EQ(times_in(outcome.output, "meltfront: "), 1u) << outcome.output;
+  }
+} // namespace meltfront::verification::tests
