@@ -12,6 +12,7 @@
 #include <verification/matrix/matrix_files.h>
 #include <verification/matrix/runner.h>
 #include <verification/measure/measure.h>
+#include <verification/record/json_values.h>
 #include <verification/record/label.h>
 #include <verification/record/stored_case.h>
 #include <verification/report/page/report.h>

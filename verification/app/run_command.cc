@@ -16,6 +16,7 @@
 #include <verification/record/provenance.h>
 #include <verification/record/stored_case.h>
 #include <verification/report/page/report.h>
+#include <verification/report/plots/plot_folder.h>
 #include <verification/run/checkpoint/checkpoint_keeper.h>
 #include <verification/run/child_process.h>
 #include <verification/run/memory_limit.h>
