@@ -1,6 +1,7 @@
 #include <reference_fem/cut/cut.h>
 
 #include <cases/demand.h>
+#include <cases/error.h>
 #include <cases/scene.h>
 #include <reference_fem/cut/conservative/conservative_run.h>
 #include <reference_fem/cut/options.h>
@@ -23,10 +24,22 @@ namespace meltfront::reference_fem
 
       std::vector<cases::Capabilities> capabilities() const override
       {
+        return capabilities_with({});
+      }
+
+      std::vector<cases::Capabilities>
+      capabilities_with(const cases::Options &given) const override
+      {
         using cases::BoundaryKind, cases::DomainShape, cases::Effect, cases::FrontOrigin;
         const std::vector<BoundaryKind> walls{
             BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
             BoundaryKind::heat_transfer, BoundaryKind::radiation};
+        const bool conservative = !given.declarations().empty()
+                                  && cases::read_options(cut::RunOptions(), given).scheme
+                                         == cut::Scheme::conservative;
+        std::vector<FrontOrigin> origins{FrontOrigin::initial_front, FrontOrigin::source};
+        if(conservative)
+          origins.push_back(FrontOrigin::wall);
         return {
             {.form = {},
              .problems = {cases::ProblemKind::stefan},
@@ -37,7 +50,7 @@ namespace meltfront::reference_fem
              .shapes = {{DomainShape::box, {2}, walls},
                         {DomainShape::ball, {2}, walls},
                         {DomainShape::shell, {2}, walls}},
-             .front_origins = {FrontOrigin::initial_front, FrontOrigin::source},
+             .front_origins = origins,
              .overshoot = cut::overshoot,
              .conserves_heat = false}};
       }
@@ -71,6 +84,9 @@ namespace meltfront::reference_fem
         if(options.scheme == cut::Scheme::conservative)
           return std::make_unique<cut::conservative::ConservativeRun>(scene, effects,
                                                                       resolution);
+        if(options.start == cut::StartFrom::enthalpy)
+          throw cases::Refusal("fem-cut starts from fem-enthalpy (start = enthalpy) with "
+                               "scheme = conservative only");
         return std::make_unique<cut::CutRun>(scene, effects, resolution);
       }
     };

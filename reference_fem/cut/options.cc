@@ -8,7 +8,7 @@ namespace meltfront::reference_fem::cut
         "scheme", scheme,
         "Extension: BDF2, elements of any degree, refined meshes. Conservative: heat "
         "balanced by construction, linear triangles; knows passes, cfl, "
-        "fewest_steps, seed_cells, penalty and ghost_penalty.",
+        "fewest_steps, seed_cells, start, penalty and ghost_penalty.",
         cases::in_order<Scheme>({"extension", "conservative"}));
     options.add(
         "passes", passes,
@@ -44,6 +44,17 @@ namespace meltfront::reference_fem::cut
     options.add("seed_cells", seed_cells,
                 "Radius in cells of a front that is seeded around a sink in liquid.", 1.5,
                 100);
+    options.add("start", start,
+                "Where the front of the conservative scheme comes from: the scene, or a "
+                "run of fem-enthalpy that goes before (enthalpy); automatic is the scene "
+                "where it has one.",
+                cases::in_order<StartFrom>({"automatic", "scene", "enthalpy"}));
+    options.add("start_depth", start_depth,
+                "Cells that a new phase is deep wherever it is, when fem-enthalpy hands "
+                "over.",
+                2, 100);
+    options.add("start_refinement", start_refinement,
+                "Cells of that run in one of the mesh, along a side.", 1, 16);
     options.add("penalty", stabilisation.penalty, "Nitsche's penalty on front and walls.",
                 1, 1e4);
     options.add("ghost_penalty", stabilisation.ghost,

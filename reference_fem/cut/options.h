@@ -21,6 +21,14 @@ namespace meltfront::reference_fem::cut
     conservative ///< the heat of each hat function and the solid's area, SDIRK
   };
 
+  /** Where the front comes from. */
+  enum class StartFrom
+  {
+    automatic, ///< the scene; where that has none, the enthalpy method
+    scene,
+    enthalpy
+  };
+
   /** The options of `fem-cut`. */
   struct RunOptions
   {
@@ -36,6 +44,9 @@ namespace meltfront::reference_fem::cut
     int solves = 2;
     double speed_smoothing = 0.25;
     double seed_cells = 3;
+    StartFrom start = StartFrom::automatic;
+    double start_depth = 4;
+    int start_refinement = 2;
     Stabilisation stabilisation;
   };
 } // namespace meltfront::reference_fem::cut

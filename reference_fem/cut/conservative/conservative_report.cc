@@ -46,6 +46,7 @@ namespace meltfront::reference_fem::cut::conservative
            {"steps whose front's move was cut to one cell", double(capped_steps)},
            {"stages whose passes did not settle", double(unsettled_stages)},
            {"small bodies booked as the other phase", double(turned_bodies)},
+           {"bodies that appeared", double(appeared_bodies)},
            {"largest area by which the front was behind its heat, of the domain",
             largest_debt / domain_area()}};
     cost.effects = effect_costs();
@@ -131,6 +132,8 @@ namespace meltfront::reference_fem::cut::conservative
 
   cases::Snapshot ConservativeRun::snapshot(long step, double at)
   {
+    if(state_before)
+      return *state_before;
     collect_sites();
     return sites.snapshot(
         step, at,

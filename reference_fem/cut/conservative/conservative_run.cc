@@ -2,6 +2,7 @@
 
 #include <cases/error.h>
 #include <cases/time_integral.h>
+#include <reference_fem/cut/conservative/appearance.h>
 #include <reference_fem/cut/run.h>
 
 #include <fmt/format.h>
@@ -71,6 +72,7 @@ namespace meltfront::reference_fem::cut::conservative
                                    const cases::Resolution &resolution)
     : scene(scene)
     , effects(effects)
+    , resolution(resolution)
     , options(checked(cases::read_options(RunOptions(), resolution.options)))
     , mesh(scene.domain, resolution.n)
     , sources(scene, 1e-3 * mesh.spacing)
@@ -90,7 +92,9 @@ namespace meltfront::reference_fem::cut::conservative
 
   void ConservativeRun::take_steps()
   {
-    if(step_number > 0)
+    if(before)
+      run_enthalpy();
+    else if(step_number > 0)
       report_uniform_start();
     reached(step_number, time);
     while(time < scene.end_time)
@@ -220,6 +224,7 @@ namespace meltfront::reference_fem::cut::conservative
     state.level_set = with_distances(mesh, Front(mesh, state.level_set), state.level_set,
                                      reach_of_distance * mesh.spacing);
     settle_hats();
+    let_phases_appear();
     check();
   }
 
@@ -235,6 +240,22 @@ namespace meltfront::reference_fem::cut::conservative
       note(time, fmt::format("a body of {} of {:.3g} m^2 was booked as {}",
                              body.phase == Phase::solid ? "solid" : "liquid", body.area,
                              body.phase == Phase::solid ? "liquid" : "solid"));
+    }
+  }
+
+  void ConservativeRun::let_phases_appear()
+  {
+    for(const Appearance &body :
+        conservative::let_phases_appear(mesh, scene.domain, latent_heat_of_volume(),
+                                        reach_of_distance * mesh.spacing, state))
+    {
+      ++appeared_bodies;
+      // A thin layer grows faster than the step that it was found in.
+      last_step *= first_step_share;
+      std::ranges::fill(increment, 0);
+      note(time, fmt::format("{:.3g} m^2 of {} appeared about ({:.4g}, {:.4g})",
+                             body.area, body.phase == Phase::solid ? "solid" : "liquid",
+                             body.place[0], body.place[1]));
     }
   }
 

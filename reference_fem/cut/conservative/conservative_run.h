@@ -1,9 +1,10 @@
 #ifndef meltfront_reference_fem_cut_conservative_conservative_run_h
 #define meltfront_reference_fem_cut_conservative_conservative_run_h
 
+#include <cases/exact/front_start.h>
 #include <cases/run.h>
 #include <cases/scene.h>
-#include <reference_fem/cut/conservative/bodies.h>
+#include <reference_fem/cut/conservative/enthalpy_start.h>
 #include <reference_fem/cut/conservative/stage.h>
 #include <reference_fem/cut/options.h>
 #include <reference_fem/cut/sites.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,11 @@ namespace meltfront::reference_fem::cut::conservative
 
     // In conservative_start.cc:
     void start();
+    void start_from(const cases::FrontStart &found);
+    void run_enthalpy();
+    void take_over(const cases::Snapshot &snapshot);
+    void take_over_temperatures(const cases::Snapshot &snapshot);
+    void even_out(const StepFrame &frame);
     void initial_temperatures(
         const StepFrame &frame,
         const std::function<double(const cases::Position &)> &temperature);
@@ -49,6 +56,7 @@ namespace meltfront::reference_fem::cut::conservative
     bool attempt(double duration, double end, Step &step);
     void accept(Step &step, double duration, double end);
     void turn_small_bodies();
+    void let_phases_appear();
     void settle_hats();
     void check() const;
     double latent_heat_of_volume() const;
@@ -64,6 +72,7 @@ namespace meltfront::reference_fem::cut::conservative
 
     const cases::Scene &scene;
     const cases::EffectSet &effects;
+    const cases::Resolution &resolution;
     const RunOptions options;
     const TriangleMesh mesh;
     const LineSources sources;
@@ -72,6 +81,10 @@ namespace meltfront::reference_fem::cut::conservative
     const std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
     std::string start_in_words;
 
+    std::optional<EnthalpyStart> before; ///< what the run starts with, if it needs it
+    const cases::Snapshot *state_before = nullptr; ///< the state that it has reached
+    cases::Cost cost_before;
+
     double time = 0;
     FrontState state;
     Temperatures temperatures;
@@ -79,7 +92,8 @@ namespace meltfront::reference_fem::cut::conservative
     Values increment;           ///< of the level set in the last step (m)
     double last_step = 0, front_speed = 0;
     double boundary_heat = 0, source_heat = 0, initial_heat = 0;
-    long step_number = 0, halved_steps = 0, capped_steps = 0, turned_bodies = 0;
+    long step_number = 0, halved_steps = 0, capped_steps = 0, turned_bodies = 0,
+         appeared_bodies = 0;
     long solves = 0, most_solves = 0, unsettled_stages = 0, unknowns = 0,
          most_unknowns = 0, entries = 0;
     double largest_debt = 0; ///< of the solid's area (m^2)

@@ -25,14 +25,118 @@ namespace meltfront::reference_fem::cut::conservative
     constexpr double share_of_projection = 0.04;
   } // namespace
 
+  /** From the scene's front, or from the enthalpy method where it has none. */
   void ConservativeRun::start()
   {
-    const double seed = options.seed_cells * mesh.spacing;
-    cases::SeedRule rule{method_name, "cells", seed, seed};
-    for(const cases::Side side : scene.sides())
-      if(scene.boundary(side).exact)
-        rule.exempt_walls.push_back(side);
-    const cases::FrontStart found = cases::find_front_start(scene, rule);
+    if(options.start != StartFrom::enthalpy)
+    {
+      const double seed = options.seed_cells * mesh.spacing;
+      cases::SeedRule rule{method_name, "cells", seed, seed};
+      for(const cases::Side side : scene.sides())
+        if(scene.boundary(side).exact)
+          rule.exempt_walls.push_back(side);
+      std::optional<cases::FrontStart> found;
+      try
+      {
+        found = cases::find_front_start(scene, rule);
+      }
+      catch(const cases::Refusal &)
+      {
+        if(options.start == StartFrom::scene)
+          throw;
+      }
+      if(found)
+      {
+        start_from(*found);
+        return;
+      }
+    }
+    before.emplace(scene, effects, resolution, mesh,
+                   EnthalpyStartOptions{options.start_depth, options.start_refinement});
+    start_in_words = fmt::format(
+        "fem-enthalpy with {} cells along the side until {:.6g} s, the new phase {:.2g} "
+        "to {:.2g} cells deep",
+        before->cells, before->time, before->least_depth, before->most_depth);
+    unknowns = static_cast<long>(mesh.nodes.size());
+  }
+
+  /** The enthalpy method's steps up to the time at which it hands over. */
+  void ConservativeRun::run_enthalpy()
+  {
+    cost_before = before->run(
+        [this](const cases::Snapshot &snapshot)
+        {
+          if(snapshot.time < before->time)
+          {
+            state_before = &snapshot;
+            reached(snapshot.step, snapshot.time);
+            state_before = nullptr;
+          }
+          else
+            take_over(snapshot);
+        });
+    entries += cost_before.work + before->search_work;
+    note(time, "fem-enthalpy handed over temperature and front");
+  }
+
+  /** Heat and front of a state of the enthalpy method. */
+  void ConservativeRun::take_over(const cases::Snapshot &snapshot)
+  {
+    time = snapshot.time;
+    step_number = snapshot.step;
+    const HatContents contents
+        = contents_of_hats(mesh, scene.domain, scene.material, snapshot);
+    try
+    {
+      state = front_of_areas(mesh, contents, reach_of_distance * mesh.spacing);
+    }
+    catch(const std::runtime_error &error)
+    {
+      throw cases::Refusal(fmt::format(
+          "fem-cut does not take over the front of fem-enthalpy at t = {:.6g}: {}", time,
+          error.what()));
+    }
+    state.heat = contents.heat;
+    settle_hats();
+    increment.assign(mesh.nodes.size(), 0);
+    powers = sources.powers(time);
+    boundary_heat = snapshot.heat.boundary;
+    source_heat = snapshot.heat.sources;
+    initial_heat = snapshot.heat.initial;
+    even_out(StepFrame(mesh, state.level_set, 1));
+    take_over_temperatures(snapshot);
+    check();
+  }
+
+  /** Of the site that is nearest to a node, in the node's phase; those beyond the front
+   * follow from the heat. */
+  void ConservativeRun::take_over_temperatures(const cases::Snapshot &snapshot)
+  {
+    Values nearest(mesh.nodes.size(), mesh.spacing);
+    for(std::size_t site = 0; site < snapshot.temperature.size(); ++site)
+    {
+      const Point place(snapshot.positions[0][site], snapshot.positions[1][site]);
+      const double excess
+          = snapshot.temperature[site] - scene.material.melting_temperature;
+      mesh.visit_nodes_near(place, mesh.spacing / 2,
+                            [&](unsigned int node)
+                            {
+                              const double distance = place.distance(mesh.nodes[node]);
+                              if(!(distance < nearest[node]))
+                                return;
+                              nearest[node] = distance;
+                              const bool solid = state.level_set[node] < 0;
+                              double value
+                                  = solid ? std::min(excess, 0.) : std::max(excess, 0.);
+                              if(solid && !powers.empty())
+                                value -= sources.value(mesh.nodes[node], powers);
+                              temperatures[solid ? 0 : 1][node] = value;
+                            });
+    }
+  }
+
+  void ConservativeRun::start_from(const cases::FrontStart &found)
+  {
     time = found.time;
     step_number = time > scene.start_time ? 1 : 0;
     start_in_words = found.description;
@@ -74,17 +178,23 @@ namespace meltfront::reference_fem::cut::conservative
     check();
   }
 
-  /** Of the scene at nodes of each phase; those beyond its front, and where a source is,
-   * follow from its heat. */
-  void ConservativeRun::initial_temperatures(
-      const StepFrame &frame,
-      const std::function<double(const cases::Position &)> &temperature)
+  /** Temperatures that the heat says. */
+  void ConservativeRun::even_out(const StepFrame &frame)
   {
     const double fastest = std::max(scene.material.solid.diffusivity(),
                                     scene.material.liquid.diffusivity());
     temperatures = temperatures_of(
         assembly, frame, {time, time, powers},
         share_of_projection * mesh.spacing * mesh.spacing / fastest, state.heat);
+  }
+
+  /** Of the scene at nodes of each phase; those beyond its front, and where a source is,
+   * follow from its heat. */
+  void ConservativeRun::initial_temperatures(
+      const StepFrame &frame,
+      const std::function<double(const cases::Position &)> &temperature)
+  {
+    even_out(frame);
     for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
       for(const unsigned int node : mesh.triangles[t].nodes)
       {

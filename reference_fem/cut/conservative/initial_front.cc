@@ -22,7 +22,7 @@ namespace meltfront::reference_fem::cut::conservative
     constexpr double divided = 1.5;
 
     constexpr int most_corrections = 50;
-    constexpr double settled = 1e-12; ///< spacings
+    constexpr double settled_fit = 1e-12; ///< spacings
 
     /** The front before it is made linear in triangles. */
     struct FineFront
@@ -159,6 +159,22 @@ namespace meltfront::reference_fem::cut::conservative
     }
   } // namespace
 
+  FrontState fitted_front(const TriangleMesh &mesh, const StepFrame &frame,
+                          const Values &solid_area, double reach)
+  {
+    Values change(mesh.nodes.size());
+    for(std::size_t node = 0; node < change.size(); ++node)
+      change[node] = solid_area[node] - frame.front.solid_area[node];
+    FrontMove move(mesh, frame, change, Values(mesh.nodes.size()));
+    for(int i = 0; i < most_corrections && move.largest > settled_fit * mesh.spacing; ++i)
+      move.approach(change);
+    const Values nothing(mesh.nodes.size());
+    return {with_distances(mesh, *move.front, frame.moved(move.increment, mesh.spacing),
+                           reach),
+            {nothing, nothing},
+            move.debt};
+  }
+
   FrontState initial_front(const TriangleMesh &mesh, const LevelSet &level_set,
                            double reach)
   {
@@ -166,26 +182,14 @@ namespace meltfront::reference_fem::cut::conservative
     for(const Point &node : mesh.nodes)
       values.push_back(level_set(node));
     values = without_zeros(std::move(values), mesh.spacing);
-    FrontState state;
-    state.heat.fill(Values(mesh.nodes.size()));
-    state.debt.assign(mesh.nodes.size(), 0);
-    state.level_set = with_distances(mesh, Front(mesh, values), values, reach);
-    const FineFront fine
-        = fine_front(mesh, Front(mesh, values), state.level_set, level_set);
+    const Values nothing(mesh.nodes.size()),
+        linear = with_distances(mesh, Front(mesh, values), values, reach);
+    const FineFront fine = fine_front(mesh, Front(mesh, values), linear, level_set);
     if(fine.segments.empty())
-      return state;
+      return {linear, {nothing, nothing}, nothing};
     const StepFrame frame(mesh, distances(mesh, fine.segments, values, reach), 1);
     if(!frame.has_front())
       throw std::runtime_error("no triangle's corners lie on both sides of it");
-    Values change(mesh.nodes.size()), increment = change;
-    for(std::size_t node = 0; node < change.size(); ++node)
-      change[node] = fine.solid_area[node] - frame.front.solid_area[node];
-    FrontMove move(mesh, frame, change, increment);
-    for(int i = 0; i < most_corrections && move.largest > settled * mesh.spacing; ++i)
-      move.approach(change);
-    state.debt = move.debt;
-    state.level_set = with_distances(mesh, *move.front,
-                                     frame.moved(move.increment, mesh.spacing), reach);
-    return state;
+    return fitted_front(mesh, frame, fine.solid_area, reach);
   }
 } // namespace meltfront::reference_fem::cut::conservative

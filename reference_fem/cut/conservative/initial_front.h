@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_cut_conservative_initial_front_h
 
 #include <reference_fem/cut/conservative/bodies.h>
+#include <reference_fem/cut/conservative/step_frame.h>
 
 #include <functional>
 
@@ -23,6 +24,10 @@ namespace meltfront::reference_fem::cut::conservative
   FrontState initial_front(const TriangleMesh &mesh,
                            const std::function<double(const Point &)> &level_set,
                            double reach);
+
+  /** The front of a frame fitted so to the solid's area by hat; without heat. */
+  FrontState fitted_front(const TriangleMesh &mesh, const StepFrame &frame,
+                          const Values &solid_area, double reach);
 } // namespace meltfront::reference_fem::cut::conservative
 
 #endif

@@ -12,9 +12,6 @@ namespace meltfront::reference_fem::cut::conservative
 
     /** Spacings from the front within which the level set moves. */
     constexpr double band_width = 3.5;
-
-    /** Of the smoothing: what holds nodes that no normal ties to the front. */
-    constexpr double isotropic_share = 0.01;
   } // namespace
 
   Values Operator::apply(const LocalVector &unknowns) const
@@ -42,7 +39,8 @@ namespace meltfront::reference_fem::cut::conservative
     return result;
   }
 
-  StepFrame::StepFrame(const TriangleMesh &mesh, Values front_at_begin, double factor)
+  StepFrame::StepFrame(const TriangleMesh &mesh, Values front_at_begin, double factor,
+                       double isotropic)
     : level_set(std::move(front_at_begin))
     , front(mesh, level_set)
     , displacement(mesh.nodes.size(), -1)
@@ -52,7 +50,7 @@ namespace meltfront::reference_fem::cut::conservative
     if(std::ranges::any_of(front.cut, [](const CutTriangle &cut) { return cut.crossed; }))
     {
       number_displacements(mesh);
-      assemble_smoothing(mesh, factor * mesh.spacing);
+      assemble_smoothing(mesh, factor * mesh.spacing, isotropic);
     }
   }
 
@@ -100,7 +98,8 @@ namespace meltfront::reference_fem::cut::conservative
     }
   }
 
-  void StepFrame::assemble_smoothing(const TriangleMesh &mesh, double factor)
+  void StepFrame::assemble_smoothing(const TriangleMesh &mesh, double factor,
+                                     double isotropic)
   {
     for(const unsigned int t : band)
     {
@@ -111,11 +110,10 @@ namespace meltfront::reference_fem::cut::conservative
                    along = weight / std::max(1., slope.norm_square());
       for(std::size_t i = 0; i < 3; ++i)
         for(std::size_t j = 0; j < 3; ++j)
-          smoothing.add(triangle.nodes[i], displacement[triangle.nodes[j]],
-                        along * (slope * triangle.gradients[i])
-                                * (slope * triangle.gradients[j])
-                            + isotropic_share * weight
-                                  * (triangle.gradients[i] * triangle.gradients[j]));
+          smoothing.add(
+              triangle.nodes[i], displacement[triangle.nodes[j]],
+              along * (slope * triangle.gradients[i]) * (slope * triangle.gradients[j])
+                  + isotropic * weight * (triangle.gradients[i] * triangle.gradients[j]));
     }
   }
 

@@ -41,8 +41,14 @@ namespace meltfront::reference_fem::cut::conservative
   class StepFrame
   {
   public:
-    /** @param smoothing c_S of the front's law */
-    StepFrame(const TriangleMesh &mesh, Values level_set, double smoothing);
+    /** Of the smoothing, what is alike in all directions: it holds nodes that no normal
+     * ties to the front. */
+    static constexpr double isotropic_share = 0.01;
+
+    /** @param smoothing c_S of the front's law
+     * @param isotropic share of the smoothing */
+    StepFrame(const TriangleMesh &mesh, Values level_set, double smoothing,
+              double isotropic = isotropic_share);
 
     const Values level_set;
     const Front front;
@@ -70,7 +76,7 @@ namespace meltfront::reference_fem::cut::conservative
   private:
     void number_temperatures(const TriangleMesh &mesh);
     void number_displacements(const TriangleMesh &mesh);
-    void assemble_smoothing(const TriangleMesh &mesh, double factor);
+    void assemble_smoothing(const TriangleMesh &mesh, double factor, double isotropic);
 
     std::vector<unsigned int> band; ///< triangles
   };

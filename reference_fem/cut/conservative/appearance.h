@@ -1,0 +1,37 @@
+#ifndef meltfront_reference_fem_cut_conservative_appearance_h
+#define meltfront_reference_fem_cut_conservative_appearance_h
+
+#include <reference_fem/cut/conservative/bodies.h>
+
+#include <vector>
+
+namespace meltfront::reference_fem::cut::conservative
+{
+  /** A body that came to be in the other phase. */
+  struct Appearance
+  {
+    Phase phase;
+    double area; ///< m^2
+    Point place; ///< a node of it
+  };
+
+  /**
+   * Where a phase is undercooled (superheated) away from any front, what it lacks (has
+   * too much) of heat is the latent heat of a body of the other phase at the melting
+   * temperature. Once that is a twentieth of a cell thick somewhere, and larger than
+   * bodies that are booked as vanished, it is put there: as a layer on the wall that is
+   * nearest, as thick as the heat along the wall's normal says, or as a disk about the
+   * node farthest beyond the melting temperature where no wall is near. The hats'
+   * latent heat takes the place of that heat; what the body's area is off by is debt of
+   * its hats. No heat is lost or gained.
+   *
+   * @param latent_heat of the volume (J/m^3)
+   * @param reach up to which the level set is a distance (m)
+   */
+  std::vector<Appearance> let_phases_appear(const TriangleMesh &mesh,
+                                            const cases::Domain &domain,
+                                            double latent_heat, double reach,
+                                            FrontState &state);
+} // namespace meltfront::reference_fem::cut::conservative
+
+#endif
