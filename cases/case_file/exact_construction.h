@@ -1,7 +1,6 @@
 #ifndef meltfront_cases_case_file_exact_construction_h
 #define meltfront_cases_case_file_exact_construction_h
 
-#include <cases/case_file/exact_reader.h>
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/prm_file.h>
 #include <cases/error.h>
@@ -10,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <string>
 
 namespace meltfront::cases
 {
@@ -37,10 +35,6 @@ namespace meltfront::cases
       throw located(error);
     }
   }
-
-  /** A similarity solution, of the kind that a key names. */
-  KnownSolution closed_form(const PrmFile &prm, const Scene &scene,
-                            const std::string &key);
 
   /** The temperature far away: as given, else the initial one. */
   double far_temperature(const PrmFile &prm, const Scene &scene);
