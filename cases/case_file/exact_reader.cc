@@ -77,45 +77,48 @@ namespace meltfront::cases
                         fmt::format("gives no solution: {}", error.what()));
       }
     }
+  } // namespace
 
-    KnownSolution closed_form(const PrmFile &prm, const Scene &scene,
-                              const std::string &key)
+  KnownSolution closed_form(const PrmFile &prm, const Scene &scene,
+                            const std::string &key)
+  {
+    const std::string kind = prm.get_text(exact_keys, key);
+    const double far = far_temperature(prm, scene);
+    if(kind == "line sink" || kind == "point sink")
     {
-      const std::string kind = prm.get_text(exact_keys, key);
-      const double far = far_temperature(prm, scene);
-      if(kind == "line sink" || kind == "point sink")
-      {
-        prm.require(exact_keys, "lambda", "the solution of a sink needs it");
-        prm.forbid(exact_keys, "wall temperature", "the solution of a sink has no wall");
-      }
-      else
-        prm.forbid(exact_keys, "lambda", "it is a key of the solutions of sinks");
-      KnownSolution known;
-      if(kind == "neumann" && scene.material.curves)
-        known.solution = varying_neumann(prm, scene, far);
-      else if(kind == "neumann")
-        known.solution = construct<PlanarNeumann>(prm, scene.material,
-                                                  wall_temperature(prm, scene), far);
-      else if(kind == "frank")
-        known.solution = construct<FrankGrowth>(prm, scene.material, scene.symmetry, far);
-      else if(kind == "line sink")
-      {
-        const auto sink = construct<LineSink>(prm, scene.material,
-                                              prm.get_number(exact_keys, "lambda"), far);
-        known = {sink, false, [sink](double) { return -sink->strength(); },
-                 [sink](double time) { return -sink->strength() * time; }};
-      }
-      else
-      {
-        const auto sink = construct<PointSink>(prm, scene.material,
-                                               prm.get_number(exact_keys, "lambda"), far);
-        known = {sink, false, [sink](double time) { return -sink->strength(time); },
-                 [sink](double time) { return -sink->energy(time); }};
-      }
-      check_symmetry(prm, scene, *known.solution, key);
-      return known;
+      prm.require(exact_keys, "lambda", "the solution of a sink needs it");
+      prm.forbid(exact_keys, "wall temperature", "the solution of a sink has no wall");
     }
+    else
+      prm.forbid(exact_keys, "lambda", "it is a key of the solutions of sinks");
+    KnownSolution known;
+    if(kind == "neumann" && scene.material.curves)
+      known.solution = varying_neumann(prm, scene, far);
+    else if(kind == "neumann")
+      known.solution = construct<PlanarNeumann>(prm, scene.material,
+                                                wall_temperature(prm, scene), far);
+    else if(kind == "frank")
+      known.solution = construct<FrankGrowth>(prm, scene.material, scene.symmetry, far);
+    else if(kind == "line sink")
+    {
+      const auto sink = construct<LineSink>(prm, scene.material,
+                                            prm.get_number(exact_keys, "lambda"), far);
+      known = {sink, false, [sink](double) { return -sink->strength(); },
+               [sink](double time) { return -sink->strength() * time; }};
+    }
+    else
+    {
+      const auto sink = construct<PointSink>(prm, scene.material,
+                                             prm.get_number(exact_keys, "lambda"), far);
+      known = {sink, false, [sink](double time) { return -sink->strength(time); },
+               [sink](double time) { return -sink->energy(time); }};
+    }
+    check_symmetry(prm, scene, *known.solution, key);
+    return known;
+  }
 
+  namespace
+  {
     constexpr const char *far_concentrations[]
         = {"far concentration", "far second concentration"};
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace meltfront::cases
 {
@@ -31,6 +32,11 @@ namespace meltfront::cases
    * state from the scene.
    */
   KnownSolution read_exact_solution(const PrmFile &prm, const Scene &scene);
+
+  /** The solution in closed form, Neumann's or Frank's or that of a sink, that a key of
+   * the exact solution's names. */
+  KnownSolution closed_form(const PrmFile &prm, const Scene &scene,
+                            const std::string &key);
 } // namespace meltfront::cases
 
 #endif

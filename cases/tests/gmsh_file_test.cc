@@ -120,7 +120,7 @@ $EndElements
                                                               "binary");
       expect_complaint(changed(blocks, "4.1 0 8", "4 0 8"), "2.2 and 4.1 are read");
       expect_complaint(blocks.substr(0, blocks.find("$EndElements") - 8), "breaks off");
-      expect_complaint(blocks.substr(0, blocks.find("$EndEntities") + 5),
+      expect_complaint(blocks.substr(0, blocks.find("$EndEntities")),
                        "breaks off in the section $Entities");
       expect_complaint(changed(blocks, "3 1 2 3", "3 1 2 7"), ":36: there is no node 7");
       expect_complaint(changed(blocks, "3 1 2 3", "3 1 2"), "needs 3 nodes");

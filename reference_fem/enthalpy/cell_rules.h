@@ -26,6 +26,10 @@ namespace meltfront::reference_fem
       return element->n_dofs_per_cell();
     }
 
+    /** Whether a corner's shape function is other than zero on a face. deal.II 9.4 says
+     * so of all of a simplex. */
+    bool supports_on_face(unsigned int corner, unsigned int face) const;
+
     /** For each point of a rule the corner whose shape function is the largest there. */
     std::vector<unsigned int> nearest_corners(const dealii::Quadrature<dim> &rule) const;
 
@@ -88,6 +92,18 @@ namespace meltfront::reference_fem
       }
     }
     return {points, weights};
+  }
+
+  template <int dim>
+  bool CellRules<dim>::supports_on_face(unsigned int corner, unsigned int face) const
+  {
+    if(!simplices)
+      return element->has_support_on_face(corner, face);
+    const auto reference_cell = element->reference_cell();
+    for(unsigned int v = 0; v < dim; ++v)
+      if(reference_cell.face_to_cell_vertices(face, v, 1) == corner)
+        return true;
+    return false;
   }
 
   template <int dim>

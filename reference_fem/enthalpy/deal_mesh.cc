@@ -263,7 +263,7 @@ namespace meltfront::reference_fem
         const auto corners = sites(cell);
         for(const unsigned int a : values.dof_indices())
         {
-          if(!rules.element->has_support_on_face(a, face))
+          if(!rules.supports_on_face(a, face))
             continue;
           const unsigned int i = node_of_site[corners[a]];
           WallNode &node
