@@ -3,6 +3,7 @@
 #include <cases/error.h>
 #include <reference_fem/enthalpy/row_builder.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/tria.h>
@@ -137,7 +138,7 @@ namespace meltfront::reference_fem
       {
         return std::move(levels);
       }
-      std::vector<std::uint64_t> site_numbers() const override;
+      std::uint64_t number_at(const Position &node) const override;
       std::uint64_t n_nodes() const override
       {
         return finest->dof_handler.n_dofs();
@@ -159,6 +160,11 @@ namespace meltfront::reference_fem
         for(int d = 0; d < dim; ++d)
           result[d] = cell->vertex(0)[d] + unit[d] * finest->size[d];
         return result;
+      }
+
+      static dealii::Point<dim> unit_corner(unsigned int corner)
+      {
+        return dealii::GeometryInfo<dim>::unit_cell_vertex(corner);
       }
 
       const cases::Scene &scene;
@@ -361,19 +367,13 @@ namespace meltfront::reference_fem
     }
 
     template <int dim>
-    std::vector<std::uint64_t> BoxHierarchy<dim>::site_numbers() const
+    std::uint64_t BoxHierarchy<dim>::number_at(const Position &node) const
     {
-      const Discretisation sites = discretise();
-      std::vector<std::uint64_t> result;
-      for(std::size_t site = 0; site < sites.node_of_site.size(); ++site)
-      {
-        std::array<std::uint64_t, dim> place;
-        for(int d = 0; d < dim; ++d)
-          place[d] = static_cast<std::uint64_t>(std::lround(
-              (sites.site_positions[d][site] - scene.domain.lower[d]) / finest->size[d]));
-        result.push_back(number_of(place));
-      }
-      return result;
+      std::array<std::uint64_t, dim> place;
+      for(int d = 0; d < dim; ++d)
+        place[d] = static_cast<std::uint64_t>(
+            std::lround((node[d] - scene.domain.lower[d]) / finest->size[d]));
+      return number_of(place);
     }
 
     /** Those of the own nodes. */
@@ -414,12 +414,18 @@ namespace meltfront::reference_fem
           sum += value;
         }
       }
-      Shares result;
-      const std::vector<std::uint64_t> numbers = site_numbers();
-      for(unsigned int i = 0; i < finest->nodes->locally_owned_size(); ++i)
-        if(const auto found = values.find(numbers[i]); found != values.end())
-          result.emplace_back(i, found->second / sum);
-      return result;
+      std::map<unsigned int, double> own;
+      finest->visit_cells(
+          [&](const auto &cell, const Corners &corners)
+          {
+            for(unsigned int a = 0; a < Mesh::n_corners; ++a)
+              if(finest->owns(corners[a]))
+                if(const auto found
+                   = values.find(number_at(point_in(cell, unit_corner(a))));
+                   found != values.end())
+                  own[corners[a]] = found->second / sum;
+          });
+      return {own.begin(), own.end()};
     }
 
     template <int dim>

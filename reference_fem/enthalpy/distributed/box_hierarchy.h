@@ -25,9 +25,9 @@ namespace meltfront::reference_fem
     /** Finest first. What they hold moves out. */
     virtual std::vector<RankLevel> take_levels() = 0;
 
-    /** Of each site of discretise(): its number in the whole mesh, along x first, the
-     * same whatever the ranks are. Own nodes come first, in their order. */
-    virtual std::vector<std::uint64_t> site_numbers() const = 0;
+    /** Number of a node, or of a site, in the whole mesh, along x first: the same
+     * whatever the ranks are. */
+    virtual std::uint64_t number_at(const cases::Position &node) const = 0;
 
     /** Number of nodes of all ranks. */
     virtual std::uint64_t n_nodes() const = 0;

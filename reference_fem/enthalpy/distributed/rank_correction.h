@@ -185,7 +185,10 @@ namespace meltfront::reference_fem
 
     void solve_level(std::size_t l)
     {
-      constexpr int sweeps_of_coarsest = 20, sweeps = 2, visits = 2;
+      constexpr int sweeps_of_coarsest = 20, sweeps = 2;
+      // W-cycles on the two finest of the coarse meshes only: every other visit sends
+      // messages, and little else.
+      const int visits = l <= 2 ? 2 : 1;
       if(l + 1 == levels.size())
       {
         for(int k = 0; k < sweeps_of_coarsest; ++k)

@@ -51,7 +51,13 @@ namespace meltfront::reference_fem
     const std::unique_ptr<RankMesh> geometry
         = make_rank_mesh(scene, resolution.n, communicator);
     mesh = geometry->discretise();
-    site_numbers = geometry->site_numbers();
+    for(std::size_t site = 0; site < mesh.node_of_site.size(); ++site)
+    {
+      cases::Position place{};
+      for(int d = 0; d < mesh.dimension; ++d)
+        place[d] = mesh.site_positions[d][site];
+      site_numbers.push_back(geometry->number_at(place));
+    }
     n_nodes = geometry->n_nodes();
     levels = geometry->take_levels();
     free = levels.front().free;

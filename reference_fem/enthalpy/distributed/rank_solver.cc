@@ -364,7 +364,9 @@ namespace meltfront::reference_fem
         const double now = product(residual, preconditioned);
         const double share = iteration > 0 ? now / before : 0;
         before = now;
-        direction.sadd(share, 1, preconditioned);
+        for(unsigned int i = 0; i < n; ++i)
+          direction.local_element(i)
+              = preconditioned.local_element(i) + share * direction.local_element(i);
         multiply(direction, image);
         const double curvature = product(direction, image);
         if(!(curvature > 0))
