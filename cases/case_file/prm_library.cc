@@ -1,4 +1,5 @@
 #include <cases/case_file/prm_library.h>
+#include <cases/case_file/prm_scan.h>
 #include <cases/error.h>
 #include <cases/options.h>
 
