@@ -166,6 +166,7 @@ TEST(Manual, NamesAllThatThereIsOnOnePage)
     names.insert(std::string("<code>") + to_string(effect));
   for(const std::string &name : names)
     EXPECT_NE(page.find(name), std::string::npos) << name;
+  EXPECT_EQ(fixture::first_mistake(page), "");
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_EQ(page.find("<link"), std::string::npos);
