@@ -396,7 +396,7 @@ namespace meltfront::cases
       if(scene.problem == ProblemKind::poisson)
       {
         if(is_table(boundary.value.expression))
-          throw prm.error(wall_keys(side), value_key(boundary),
+          throw prm.error(wall_keys(scene.domain, side), value_key(boundary),
                           "cannot be a table over the time: the scene is steady");
         continue;
       }
