@@ -102,8 +102,7 @@ namespace meltfront::reference_fem
   }
 
   /** Over all nodes of all ranks, with their volumes. */
-  template <typename Value>
-  double RankRun::total(const Value &value) const
+  double RankRun::total(const std::function<double(std::size_t)> &value) const
   {
     // The rest beyond a double goes along: the balance is kept to 1e-13.
     long double own = 0;

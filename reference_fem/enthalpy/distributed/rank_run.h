@@ -18,6 +18,7 @@
 #include <reference_fem/enthalpy/wall_flux.h>
 #include <reference_fem/enthalpy/wall_temperature.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -79,8 +80,7 @@ namespace meltfront::reference_fem
     bool keeps_bounds(const StepFormula &step) const;
     void check_balance();
     double sum_of_ranks(double own) const;
-    template <typename Value>
-    double total(const Value &value) const;
+    double total(const std::function<double(std::size_t)> &value) const;
     double source_heat() const;
     double nominal_step() const;
     double latent_heat(std::size_t node) const;
