@@ -94,8 +94,9 @@ namespace meltfront::verification
 
   std::string words(const cases::Inclusion &inclusion)
   {
-    return fmt::format(inclusion.material ? "conductivity {:.6g} in the {}"
-                                          : "conductivity {:.6g} where {} < 0",
-                       inclusion.conductivity, inclusion.level_set.expression);
+    const std::string &where = inclusion.level_set.expression;
+    return fmt::format("conductivity {:.6g} {}", inclusion.conductivity,
+                       inclusion.material ? "in the " + where
+                                          : "where " + where + " < 0");
   }
 } // namespace meltfront::verification
