@@ -36,44 +36,39 @@ namespace meltfront::reference_fem
       : level(level)
     {
       const auto n = static_cast<Eigen::Index>(level.nodes->size());
-      // Rows of other ranks: as numbers, since every rank keeps all.
-      std::vector<double> row, column, value;
+      // Each rank fills in its rows, each with room for the neighbours on a lattice; what
+      // there is no neighbour for stays an entry of the diagonal, zero.
+      constexpr std::size_t room = 7;
+      const auto n_all = static_cast<std::size_t>(n);
       const auto global = [&](std::size_t i)
       {
-        return static_cast<double>(
+        return static_cast<std::size_t>(
             level.nodes->local_to_global(static_cast<unsigned int>(i)));
       };
-      std::vector<double> free(static_cast<std::size_t>(n), 0);
-      for(std::size_t i = 0; i < level.n_own(); ++i)
-        free[static_cast<std::size_t>(global(i))] = level.free[i];
-      dealii::Utilities::MPI::sum(free, level.communicator(), free);
+      std::vector<double> free(n_all), column(room * n_all), value(room * n_all);
       const ConductionMatrix &own = level.conduction;
       for(std::size_t i = 0; i < level.n_own(); ++i)
       {
-        row.push_back(global(i));
-        column.push_back(global(i));
-        value.push_back(level.free[i] ? own.diagonal[i] : 1);
-        for(std::size_t k = own.row_start[i]; k < own.row_start[i + 1]; ++k)
+        std::size_t at = room * global(i);
+        free[global(i)] = level.free[i];
+        for(std::size_t k = at; k < at + room; ++k)
+          column[k] = static_cast<double>(global(i));
+        value[at++] = level.free[i] ? own.diagonal[i] : 1;
+        for(std::size_t k = own.row_start[i]; k < own.row_start[i + 1]; ++k, ++at)
         {
-          row.push_back(global(i));
-          column.push_back(global(own.column[k]));
-          value.push_back(-own.conductance[k]);
+          column[at] = static_cast<double>(global(own.column[k]));
+          value[at] = -own.conductance[k];
         }
       }
+      for(std::vector<double> *part : {&free, &column, &value})
+        dealii::Utilities::MPI::sum(*part, level.communicator(), *part);
       std::vector<Eigen::Triplet<double>> entries;
-      using dealii::Utilities::MPI::all_gather;
-      const auto rows = all_gather(level.communicator(), row);
-      const auto columns = all_gather(level.communicator(), column);
-      const auto values = all_gather(level.communicator(), value);
-      for(std::size_t rank = 0; rank < rows.size(); ++rank)
-        for(std::size_t k = 0; k < rows[rank].size(); ++k)
-        {
-          const auto i = static_cast<int>(rows[rank][k]),
-                     j = static_cast<int>(columns[rank][k]);
-          const bool both = free[static_cast<std::size_t>(i)] > 0
-                            && free[static_cast<std::size_t>(j)] > 0;
-          entries.emplace_back(i, j, both || i == j ? values[rank][k] : 0);
-        }
+      for(std::size_t k = 0; k < column.size(); ++k)
+      {
+        const std::size_t i = k / room, j = static_cast<std::size_t>(column[k]);
+        if(i == j || (free[i] > 0 && free[j] > 0))
+          entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value[k]);
+      }
       stiffness.resize(n, n);
       stiffness.setFromTriplets(entries.begin(), entries.end());
       matrix = stiffness;
