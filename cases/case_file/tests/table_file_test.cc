@@ -54,7 +54,7 @@ namespace
       {
         EXPECT_NE(std::string(error.what()).find(piece), std::string::npos)
             << error.what();
-        EXPECT_NE(std::string(error.what()).find("case.prm:26: key 'temperature'"),
+        EXPECT_NE(std::string(error.what()).find("case.prm:27: key 'temperature'"),
                   std::string::npos)
             << error.what();
       }
