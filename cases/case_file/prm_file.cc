@@ -165,18 +165,19 @@ namespace meltfront::cases
         = entry.kind == PrmKind::text && (entry.formula || !entry.unit.empty());
     if(!scan.subsections.contains(constant_keys) || !(numbers || expression))
       return;
+    PlainFormula plain;
     try
     {
-      const PlainFormula plain = numbers ? constants.in_numbers(assignment.value)
-                                         : constants.in_expressions(assignment.value);
-      assignment.value = plain.text;
-      for(const std::string &unit : plain.units)
-        note_unit(unit, assignment);
+      plain = numbers ? constants.in_numbers(assignment.value)
+                      : constants.in_expressions(assignment.value);
     }
     catch(const InputError &problem)
     {
       throw error(assignment.subsection, assignment.key, problem.what());
     }
+    assignment.value = plain.text;
+    for(const std::string &unit : plain.units)
+      note_unit(unit, assignment);
   }
 
   void PrmFile::check_constants() const
@@ -191,23 +192,23 @@ namespace meltfront::cases
     const auto words = after_word(assignment.value, "table");
     if(!words || entry.table_over.empty())
       return;
+    PrmTable table;
     try
     {
-      const PrmTable table
-          = read_table(*words, source.path(assignment.line), library, entry);
-      for(const std::string &unit : table.units)
-        note_unit(unit, assignment);
-      assignment.value = table.points;
-      std::vector<std::string> lines = lines_of(source.text);
-      replace_statement(
-          lines, static_cast<std::size_t>(assignment.line - 1),
-          fmt::format("set {} = {} # {}", assignment.key, table.points, table.origin));
-      source.text = joined(lines);
+      table = read_table(*words, source.path(assignment.line), library, entry);
     }
     catch(const InputError &problem)
     {
       throw error(assignment.subsection, assignment.key, problem.what());
     }
+    for(const std::string &unit : table.units)
+      note_unit(unit, assignment);
+    assignment.value = table.points;
+    std::vector<std::string> lines = lines_of(source.text);
+    replace_statement(
+        lines, static_cast<std::size_t>(assignment.line - 1),
+        fmt::format("set {} = {} # {}", assignment.key, table.points, table.origin));
+    source.text = joined(lines);
   }
 
   void PrmFile::note_unit(const std::string &unit, const PrmAssignment &assignment)

@@ -67,8 +67,9 @@ namespace meltfront::cases
 
       [[noreturn]] void fail(const std::string &problem) const
       {
-        throw InputError(fmt::format("names a table that cannot be used: {}:{}: {}",
-                                     shown, std::min(at + 1, lines.size()), problem));
+        throw InputError(fmt::format(
+            "names a table that cannot be used: {}:{}: {}", shown,
+            std::max<std::size_t>(std::min(at + 1, lines.size()), 1), problem));
       }
 
       /** A cell in SI units. @param unit of the key, or of what the table is over */

@@ -79,7 +79,8 @@ TEST(Constants, KeepTheirUnits)
   const std::string kelvin = replaced(
       replaced(with_constants(usual), "temperature = 10", "temperature = 283 K"),
       "= T_cold", "= T_cold + 0*t");
-  expect_complaint(kelvin, "a scene has one scale");
+  expect_complaint(kelvin, "a.prm:31: key 'temperature' in subsection "
+                           "'Scene/Walls/x_min' is in degC, and another");
   expect_complaint("set units = normalised\n" + with_constants(usual), "(degC)");
 }
 

@@ -119,5 +119,23 @@ namespace meltfront::verification
       EXPECT_EQ(lines[1].substr(0, 35), "[1/2] x a n=20: finished in 0.10 s,");
       EXPECT_EQ(lines[2], "[2/2] x b n=20: failed: no reason");
     }
+
+    TEST(Progress, TellsOfRefusedRunsOnceForEachReason)
+    {
+      const tests::ScratchDirectory directory;
+      std::FILE *out = std::fopen(directory.path("out").c_str(), "w");
+      {
+        const RunKind a{"x", "a", "a", 20}, b{"y", "a", "a", 20}, c{"x", "b", "b", 20};
+        Progress progress(out, {a, b, c}, 0, 1);
+        progress.run_refused(a, "a takes no slab");
+        progress.run_refused(b, "a takes no slab");
+        progress.run_ended(c, 0.1, "x b n=20", "finished in 0.10 s", true);
+      }
+      std::fclose(out);
+      const auto lines = tests::lines_of(directory.path("out"));
+      ASSERT_EQ(lines.size(), 2u);
+      EXPECT_EQ(lines[0], "[3/3] x b n=20: finished in 0.10 s");
+      EXPECT_EQ(lines[1], "Refused: a takes no slab (2 runs of x, y)");
+    }
   } // namespace
 } // namespace meltfront::verification

@@ -38,6 +38,18 @@ namespace meltfront::verification
       EXPECT_NEAR(estimate.seconds(kind("other", 10)), 28, 1e-12);
     }
 
+    TEST(TimeEstimate, ScalesWhatRunsTookAnotherTime)
+    {
+      TimeEstimate estimate;
+      estimate.expect(kind("fem", 100), 10);
+      estimate.expect(kind("sph", 50), 6);
+      EXPECT_NEAR(estimate.seconds(kind("sph", 50)), 6, 1e-12);
+      // This machine takes half as long.
+      estimate.add(kind("fem", 100), 5);
+      EXPECT_NEAR(estimate.seconds(kind("sph", 50)), 3, 1e-12);
+      EXPECT_NEAR(estimate.seconds(kind("fem", 200)), 20, 1e-12) << "not expected";
+    }
+
     TEST(Progress, AddsUpWhatIsLeftOverItsJobs)
     {
       std::vector<RunKind> runs;
