@@ -45,7 +45,7 @@ namespace meltfront::reference_fem::cut
     double speed_smoothing = 0.25;
     double seed_cells = 3;
     StartFrom start = StartFrom::automatic;
-    double start_depth = 4;
+    double start_depth = 3;
     int start_refinement = 2;
     Stabilisation stabilisation;
   };

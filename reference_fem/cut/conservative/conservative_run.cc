@@ -168,7 +168,26 @@ namespace meltfront::reference_fem::cut::conservative
            && !step.second.limited;
   }
 
+  void ConservativeRun::refuse_if_unresolved(const cases::NumericalError &error) const
+  {
+    if(const std::string reason = why_last_body_is_lost(); !reason.empty())
+      throw cases::Refusal(fmt::format("{}; {}", error.what(), reason));
+  }
+
   void ConservativeRun::step()
+  {
+    try
+    {
+      make_step();
+    }
+    catch(const cases::NumericalError &error)
+    {
+      refuse_if_unresolved(error);
+      throw;
+    }
+  }
+
+  void ConservativeRun::make_step()
   {
     double duration = next_step();
     const double stop = cases::end_of_piece(breakpoints, time, scene.end_time);
@@ -250,13 +269,42 @@ namespace meltfront::reference_fem::cut::conservative
                                         reach_of_distance * mesh.spacing, state))
     {
       ++appeared_bodies;
-      // A thin layer grows faster than the step that it was found in.
-      last_step *= first_step_share;
-      std::ranges::fill(increment, 0);
+      begin_anew();
       note(time, fmt::format("{:.3g} m^2 of {} appeared about ({:.4g}, {:.4g})",
                              body.area, body.phase == Phase::solid ? "solid" : "liquid",
                              body.place[0], body.place[1]));
     }
+  }
+
+  /** A state whose heat varies from hat to hat: the next step is as long as heat takes to
+   * even out across a cell, h^2/(3 alpha) in its first stage, or shorter where the front
+   * then moves too far. */
+  void ConservativeRun::begin_anew()
+  {
+    const double slowest = std::min(scene.material.solid.diffusivity(),
+                                    scene.material.liquid.diffusivity());
+    last_step = mesh.spacing * mesh.spacing / (3 * slowest * gamma * largest_growth);
+    front_speed = 0;
+    increment.assign(mesh.nodes.size(), 0);
+  }
+
+  /** Whether a body is too small for the cells, in words; else empty. */
+  std::string ConservativeRun::why_last_body_is_lost() const
+  {
+    constexpr double least_depth = 2.5; ///< spacings
+    const Front front(mesh, state.level_set);
+    for(const Body &body : bodies(mesh, front, state.level_set))
+    {
+      double depth = 0;
+      for(const unsigned int node : body.nodes)
+        depth = std::max(depth, std::abs(state.level_set[node]));
+      if(depth < least_depth * mesh.spacing)
+        return fmt::format("a body of {} is {:.2g} cells deep, and what is left of a "
+                           "phase is not resolved below {:.2g}",
+                           body.phase == Phase::solid ? "solid" : "liquid",
+                           depth / mesh.spacing, least_depth);
+    }
+    return {};
   }
 
   /** What is left at hats that a phase or the front has gone from, as where a thin layer

@@ -1,6 +1,7 @@
 #ifndef meltfront_reference_fem_cut_conservative_conservative_run_h
 #define meltfront_reference_fem_cut_conservative_conservative_run_h
 
+#include <cases/error.h>
 #include <cases/exact/front_start.h>
 #include <cases/run.h>
 #include <cases/scene.h>
@@ -51,12 +52,16 @@ namespace meltfront::reference_fem::cut::conservative
     void report_uniform_start();
 
     void step();
+    void make_step();
+    void refuse_if_unresolved(const cases::NumericalError &error) const;
     double next_step() const;
     struct Step;
     bool attempt(double duration, double end, Step &step);
     void accept(Step &step, double duration, double end);
     void turn_small_bodies();
     void let_phases_appear();
+    void begin_anew();
+    std::string why_last_body_is_lost() const;
     void settle_hats();
     void check() const;
     double latent_heat_of_volume() const;

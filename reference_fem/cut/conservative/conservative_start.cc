@@ -97,12 +97,18 @@ namespace meltfront::reference_fem::cut::conservative
           error.what()));
     }
     state.heat = contents.heat;
+    // What has begun to melt or to freeze elsewhere appears from its heat.
+    for(std::size_t node = 0; node < state.debt.size(); ++node)
+      state.heat[state.level_set[node] < 0 ? 0 : 1][node]
+          -= latent_heat_of_volume() * std::exchange(state.debt[node], 0);
     settle_hats();
+    let_phases_appear();
     increment.assign(mesh.nodes.size(), 0);
     powers = sources.powers(time);
     boundary_heat = snapshot.heat.boundary;
     source_heat = snapshot.heat.sources;
     initial_heat = snapshot.heat.initial;
+    begin_anew();
     even_out(StepFrame(mesh, state.level_set, 1));
     take_over_temperatures(snapshot);
     check();

@@ -210,6 +210,8 @@ namespace meltfront::reference_fem::cut::conservative
     /** Of the smoothing, alike in all directions: along the front, what the enthalpy
      * method's nodes know of it from one to the next is evened out over some cells. */
     constexpr double isotropic = 1;
+    /** Spacings from the front: what melts or freezes beyond it is not the front's. */
+    constexpr double of_front = 2;
     const StepFrame frame(mesh, distances_by_shares(mesh, contents, reach), 1, isotropic);
     if(!frame.has_front())
       throw std::runtime_error("there is no front to hand over");
@@ -223,11 +225,21 @@ namespace meltfront::reference_fem::cut::conservative
                     whole[triangle.nodes[static_cast<std::size_t>(i)]]
                         += weight * triangle.hat(i, point);
                 });
-    Values solid(mesh.nodes.size());
+    Values solid = frame.front.solid_area, elsewhere(mesh.nodes.size());
     for(std::size_t node = 0; node < solid.size(); ++node)
       if(contents.volume[node] > 0)
-        solid[node] = contents.solid_area[node] * (whole[node] / contents.volume[node]);
-    return fitted_front(mesh, frame, solid, reach);
+      {
+        const double found
+            = contents.solid_area[node] * (whole[node] / contents.volume[node]);
+        const bool near_front = std::abs(frame.level_set[node]) < of_front * mesh.spacing;
+        elsewhere[node] = near_front ? 0 : found - solid[node];
+        if(near_front)
+          solid[node] = found;
+      }
+    FrontState result = fitted_front(mesh, frame, solid, reach);
+    for(std::size_t node = 0; node < elsewhere.size(); ++node)
+      result.debt[node] += elsewhere[node];
+    return result;
   }
 
   namespace

@@ -12,7 +12,7 @@ namespace meltfront::reference_fem::cut::conservative
   /** How far and how finely `fem-enthalpy` goes before it hands a scene over. */
   struct EnthalpyStartOptions
   {
-    double depth = 4;   ///< of the new phase wherever it is (cells)
+    double depth = 3;   ///< of the new phase wherever it is (cells)
     int refinement = 2; ///< its cells in one of the sharp mesh, along a side
   };
 
@@ -42,8 +42,8 @@ namespace meltfront::reference_fem::cut::conservative
 
   /**
    * The front whose solid has given areas by hat, but for what the smoothing of its law
-   * moves along the front and between neighbours; their sum is kept. Debt is zero but
-   * where the front does not reach.
+   * moves along the front and between neighbours; their sum is kept. Debt is what has
+   * melted or frozen two spacings from it and farther, where no phase is to be seen yet.
    * @param reach of the distance (m)
    * @throws std::runtime_error where there is none
    */

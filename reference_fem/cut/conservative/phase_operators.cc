@@ -372,7 +372,15 @@ namespace meltfront::reference_fem::cut::conservative
         add_exchange(context, boundary, triangle, point, weight, given, offset);
     };
     meters.walls[static_cast<std::size_t>(boundary.kind)].measure(
-        [&] { integrate(segment, at_point); });
+        [&]
+        {
+          // At nodes, where there are nodes: in the mean over a side a temperature that
+          // jumps from wall to wall would be overshot beside the corner.
+          if(held)
+            integrate_at_ends(segment, at_point);
+          else
+            integrate(segment, at_point);
+        });
   }
 
   /** Heat that a wall gives, or exchanges by its law about the guess. */

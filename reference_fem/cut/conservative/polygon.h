@@ -117,6 +117,14 @@ namespace meltfront::reference_fem::cut::conservative
     for(std::size_t q = 0; q < places.size(); ++q)
       visit(segment.begin + places[q] * along, weights[q] * length);
   }
+  /** Call visit(point, weight) for the trapezoidal rule. */
+  template <typename Visit>
+  void integrate_at_ends(const Segment &segment, const Visit &visit)
+  {
+    const double half = segment.length() / 2;
+    visit(segment.begin, half);
+    visit(segment.end, half);
+  }
 } // namespace meltfront::reference_fem::cut::conservative
 
 #endif

@@ -1,0 +1,107 @@
+#include <cases/error.h>
+#include <cases/exact/planar_neumann.h>
+#include <reference_fem/cut/conservative/appearance.h>
+#include <reference_fem/cut/tests/cut_support.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+namespace meltfront::reference_fem::tests
+{
+  namespace
+  {
+    using namespace cases;
+
+    constexpr double round_off = 1e-11;
+
+    Material material_of_starts()
+    {
+      Material material = normalised_material();
+      material.melting_temperature = 0;
+      return material;
+    }
+
+    void hold(Scene &scene, Side side, double temperature)
+    {
+      set_boundary(scene, side,
+                   {.kind = BoundaryKind::fixed_temperature,
+                    .value = Field::uniform(temperature)});
+    }
+
+    Course run_from_one_phase(const Scene &scene, int n)
+    {
+      return run_cut(scene, n, {{"scheme", "conservative"}});
+    }
+
+    TEST(EnthalpyStart, AColdWallOfABoxFreezesAsNeumannSays)
+    {
+      const auto exact = std::make_shared<PlanarNeumann>(material_of_starts(), -1, 0.3);
+      Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {1, 0.4, 0}, 0.3, 0.05);
+      hold(scene, Side::x_min, -1);
+      set_boundary(scene, Side::x_max, exact_wall(exact));
+      std::vector<double> errors;
+      const std::vector<int> n{20, 28, 40};
+      for(const int cells : n)
+      {
+        const Course course = run_from_one_phase(scene, cells);
+        EXPECT_LE(course.worst_budget_defect(), round_off);
+        errors.push_back(
+            std::abs(course.solid.back() / 0.4 - exact->front(scene.end_time)));
+      }
+      EXPECT_LE(errors.back(), 1e-3);
+      EXPECT_GE(fitted_order(n, errors), 1);
+    }
+
+    TEST(EnthalpyStart, ABlockMeltsFromAllSidesUntilNothingIsLeft)
+    {
+      Scene scene
+          = box(material_of_starts(), 2, {-0.5, -0.5, 0}, {0.5, 0.5, 0}, -0.5, 0.2);
+      for(const Side side : scene.sides())
+        hold(scene, side, 1);
+      const Course course = run_from_one_phase(scene, 20);
+      EXPECT_LE(course.worst_budget_defect(), round_off);
+      EXPECT_EQ(course.solid.back(), 0);
+    }
+
+    TEST(EnthalpyStart, NothingThatFreezesIsRefused)
+    {
+      Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {1, 1, 0}, 0.3, 0.01);
+      set_boundary(scene, Side::x_min,
+                   {.kind = BoundaryKind::flux, .value = Field::uniform(-0.1)});
+      EXPECT_THROW(run_from_one_phase(scene, 12), Refusal);
+    }
+
+    double sum(const std::vector<double> &values)
+    {
+      return std::accumulate(values.begin(), values.end(), 0.);
+    }
+
+    TEST(Appearance, ALayerTakesThePlaceOfMissingHeat)
+    {
+      using namespace cut::conservative;
+      constexpr int n = 10;
+      constexpr double latent_heat = 2, reach = 0.6;
+      const Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {1, 1, 0}, 0, 1);
+      const TriangleMesh mesh(scene.domain, n);
+      const Values nothing(mesh.nodes.size());
+      FrontState state{Values(mesh.nodes.size(), reach), {nothing, nothing}, nothing};
+      // A third of a spacing of ice, by heat, in the two rows at y = 0.
+      for(std::size_t node = 0; node < mesh.nodes.size(); ++node)
+        if(const double y = mesh.nodes[node][1]; y < 0.15)
+          state.heat[1][node] = -latent_heat * 0.1 * (y < 0.05 ? 0.02 : 0.013);
+      const double before = sum(state.heat[1]);
+      const auto appeared
+          = let_phases_appear(mesh, scene.domain, latent_heat, reach, state);
+      ASSERT_EQ(appeared.size(), 1u);
+      const Front front(mesh, state.level_set);
+      EXPECT_NEAR(front.area(cut::Phase::solid), -before / latent_heat, 0.003);
+      // Heat over latent heat of solid: nothing is lost.
+      EXPECT_NEAR(sum(state.heat[0]) + sum(state.heat[1])
+                      - latent_heat * (front.area(cut::Phase::solid) + sum(state.debt)),
+                  before, 1e-13);
+    }
+  } // namespace
+} // namespace meltfront::reference_fem::tests
