@@ -27,9 +27,8 @@ namespace meltfront::reference_fem
   /** What fem-enthalpy takes on several ranks. */
   cases::Capabilities rank_capabilities();
 
-  /** About how many bytes a node takes, all ranks and setting up included, as measured.
-   */
-  double rank_bytes_per_node(int dimension);
+  /** About how many bytes a run takes on all ranks together. */
+  double rank_bytes(int dimension, double nodes, int ranks);
 
   /**
    * A run of fem-enthalpy on several ranks, or by the same engine on one: the scheme of
