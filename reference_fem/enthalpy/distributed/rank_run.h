@@ -18,6 +18,8 @@
 #include <reference_fem/enthalpy/wall_flux.h>
 #include <reference_fem/enthalpy/wall_temperature.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <memory>
 #include <optional>
 #include <vector>
@@ -78,6 +80,7 @@ namespace meltfront::reference_fem
     bool keeps_bounds(const StepFormula &step) const;
     void check_balance();
     double sum_of_ranks(double own) const;
+    /** Over all nodes of all ranks, with their volumes. */
     template <typename Value>
     double total(const Value &value) const;
     double source_heat() const;
@@ -121,6 +124,20 @@ namespace meltfront::reference_fem
     StepStatistics statistics;
     std::vector<double> site_temperature, site_solid_fraction;
   };
+
+  template <typename Value>
+  double RankRun::total(const Value &value) const
+  {
+    // The rest beyond a double goes along: the balance is kept to 1e-13.
+    long double own = 0;
+    for(std::size_t i = 0; i < mesh.volume.size(); ++i)
+      own += static_cast<long double>(mesh.volume[i]) * value(i);
+    std::vector<double> parts{static_cast<double>(own), 0};
+    parts[1] = static_cast<double>(own - static_cast<long double>(parts[0]));
+    dealii::Utilities::MPI::sum(parts, communicator, parts);
+    ++traffic.reductions;
+    return parts[0] + parts[1];
+  }
 } // namespace meltfront::reference_fem
 
 #endif
