@@ -123,9 +123,10 @@ namespace meltfront::reference_fem
                                     int ranks) const override
       {
         const RunOptions options = options_for(scene, resolution);
-        return {ranks * cases::program_bytes
-                    + cases::lattice_points(scene.domain, options.dimension, resolution.n)
-                          * rank_bytes_per_node(options.dimension),
+        return {rank_bytes(
+                    options.dimension,
+                    cases::lattice_points(scene.domain, options.dimension, resolution.n),
+                    ranks),
                 double(options.steps)};
       }
 

@@ -31,6 +31,10 @@ namespace meltfront::reference_fem
 
   RunOptions options_for(const cases::Scene &scene, const cases::Resolution &resolution)
   {
+    if(scene.domain.mesh && scene.domain.mesh->kind() == cases::CellKind::tetrahedron)
+      throw cases::Refusal("fem-enthalpy takes meshes of triangles, quadrilaterals and "
+                           "hexahedra: on tetrahedra, which deal.II halves along one "
+                           "diagonal always, its errors fall too slowly");
     auto options = cases::read_options(RunOptions(), resolution.options);
     options.dimension = choose_dimension(scene, options.dimension);
     if(options.front_within_cells && options.dimension > 1)

@@ -89,7 +89,7 @@ TEST(SharpFront, ShellsThatCannotBe)
             "lacks; its walls are inner, outer");
   EXPECT_EQ(about_annulus("kind = insulated", "kind = periodic"),
             "a.prm:30: key 'kind' in subsection 'Scene/Walls/outer' cannot be periodic: "
-            "walls of a ball, a shell or an outline face no other");
+            "walls of a ball, a shell, an outline or a mesh face no other");
   EXPECT_EQ(about_annulus("  subsection Walls\n",
                           "  subsection Source 1\n    set position = 0, 0\n    set power "
                           "= 1\n  end\n  subsection Walls\n"),

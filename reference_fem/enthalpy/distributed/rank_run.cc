@@ -101,20 +101,6 @@ namespace meltfront::reference_fem
     return dealii::Utilities::MPI::sum(own, communicator);
   }
 
-  /** Over all nodes of all ranks, with their volumes. */
-  double RankRun::total(const std::function<double(std::size_t)> &value) const
-  {
-    // The rest beyond a double goes along: the balance is kept to 1e-13.
-    long double own = 0;
-    for(std::size_t i = 0; i < mesh.volume.size(); ++i)
-      own += static_cast<long double>(mesh.volume[i]) * value(i);
-    std::vector<double> parts{static_cast<double>(own), 0};
-    parts[1] = static_cast<double>(own - static_cast<long double>(parts[0]));
-    dealii::Utilities::MPI::sum(parts, communicator, parts);
-    ++traffic.reductions;
-    return parts[0] + parts[1];
-  }
-
   bool RankRun::continues() const
   {
     return step_number > 0 && !std::ranges::binary_search(breakpoints, time);

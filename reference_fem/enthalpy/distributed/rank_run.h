@@ -18,7 +18,8 @@
 #include <reference_fem/enthalpy/wall_flux.h>
 #include <reference_fem/enthalpy/wall_temperature.h>
 
-#include <functional>
+#include <deal.II/base/mpi.h>
+
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,9 +29,8 @@ namespace meltfront::reference_fem
   /** What fem-enthalpy takes on several ranks. */
   cases::Capabilities rank_capabilities();
 
-  /** About how many bytes a node takes, all ranks and setting up included, as measured.
-   */
-  double rank_bytes_per_node(int dimension);
+  /** About how many bytes a run takes on all ranks together. */
+  double rank_bytes(int dimension, double nodes, int ranks);
 
   /**
    * A run of fem-enthalpy on several ranks, or by the same engine on one: the scheme of
@@ -80,7 +80,9 @@ namespace meltfront::reference_fem
     bool keeps_bounds(const StepFormula &step) const;
     void check_balance();
     double sum_of_ranks(double own) const;
-    double total(const std::function<double(std::size_t)> &value) const;
+    /** Over all nodes of all ranks, with their volumes. */
+    template <typename Value>
+    double total(const Value &value) const;
     double source_heat() const;
     double nominal_step() const;
     double latent_heat(std::size_t node) const;
@@ -122,6 +124,20 @@ namespace meltfront::reference_fem
     StepStatistics statistics;
     std::vector<double> site_temperature, site_solid_fraction;
   };
+
+  template <typename Value>
+  double RankRun::total(const Value &value) const
+  {
+    // The rest beyond a double goes along: the balance is kept to 1e-13.
+    long double own = 0;
+    for(std::size_t i = 0; i < mesh.volume.size(); ++i)
+      own += static_cast<long double>(mesh.volume[i]) * value(i);
+    std::vector<double> parts{static_cast<double>(own), 0};
+    parts[1] = static_cast<double>(own - static_cast<long double>(parts[0]));
+    dealii::Utilities::MPI::sum(parts, communicator, parts);
+    ++traffic.reductions;
+    return parts[0] + parts[1];
+  }
 } // namespace meltfront::reference_fem
 
 #endif

@@ -48,8 +48,8 @@ namespace meltfront::reference_fem::tests
     /** Conduction alone of the lowest mode between walls at zero. */
     Scene decaying_mode(int dimension)
     {
-      Scene scene = box(unit_material(-1), dimension, {}, {1, 1, dimension == 3 ? 1. : 0.},
-                        0, 0.05);
+      Scene scene = box(unit_material(-1), dimension, {},
+                        {1, 1, dimension == 3 ? 1. : 0.}, 0, 0.05);
       scene.material.latent_heat = 0;
       scene.initial.temperature = field_of(
           [](const Position &p) { return std::sin(pi * p[0]) * std::sin(pi * p[1]); });
@@ -132,7 +132,8 @@ namespace meltfront::reference_fem::tests
 
     TEST(MeshFile, ConductionIsOfSecondOrderOnAllKindsOfCells)
     {
-      for(const CellKind kind : all_kinds)
+      for(const CellKind kind :
+          {CellKind::triangle, CellKind::quadrilateral, CellKind::hexahedron})
       {
         Scene scene = meshed(decaying_mode(dimension_of(kind)), kind, 4, leaning);
         for(const char *name : {"x_min", "x_max", "y_min", "y_max"})
@@ -143,8 +144,7 @@ namespace meltfront::reference_fem::tests
         std::vector<double> errors;
         for(const int n : levels)
         {
-          const RunRecord record
-              = run(scene, n, {{"steps", std::to_string(40 * n)}});
+          const RunRecord record = run(scene, n, {{"steps", std::to_string(40 * n)}});
           EXPECT_LE(record.worst_budget_defect(), 1e-12);
           errors.push_back(error_of_mode(record));
         }
@@ -158,6 +158,7 @@ namespace meltfront::reference_fem::tests
     Scene line_sink_square(const std::shared_ptr<const LineSink> &exact)
     {
       Scene scene = box(water(), 2, {-0.5, -0.5, 0}, {0.5, 0.5, 0}, 10, 475000);
+      scene.symmetry = Symmetry::cylindrical;
       scene.sources.push_back(steady_sink({}, exact->strength()));
       return scene;
     }
@@ -168,15 +169,14 @@ namespace meltfront::reference_fem::tests
       Scene on_box = line_sink_square(exact);
       for(const Side side : on_box.sides())
         set_boundary(on_box, side, exact_wall(exact));
-      on_box.symmetry = Symmetry::cylindrical;
       for(const CellKind kind : {CellKind::quadrilateral, CellKind::triangle})
       {
-        Scene on_mesh
-            = meshed(line_sink_square(exact), kind, 16,
-                     [](const Position &p) {
-                       const Position q = leaning(p);
-                       return Position{q[0] - 0.5, q[1] - 0.5, 0};
-                     });
+        Scene on_mesh = meshed(line_sink_square(exact), kind, 16,
+                               [](const Position &p)
+                               {
+                                 const Position q = leaning(p);
+                                 return Position{q[0] - 0.5, q[1] - 0.5, 0};
+                               });
         for(const Side side : on_mesh.sides())
           set_boundary(on_mesh, side, exact_wall(exact));
         const std::vector<int> levels{1, 2, 4, 8};
@@ -200,16 +200,18 @@ namespace meltfront::reference_fem::tests
     TEST(MeshFile, AnAngleIronFreezesAsItsOutlineDoes)
     {
       Scene scene = box(unit_material(), 2, {}, {1, 1, 0}, 0.3, 0.05);
-      take_mesh(scene, lattice_mesh(CellKind::quadrilateral, 8, {}, [](const Position &p)
-                                    { return p[0] < 0.5 || p[1] < 0.5; }));
+      take_mesh(scene,
+                lattice_mesh(CellKind::quadrilateral, 8, {},
+                             [](const Position &p) { return p[0] < 0.5 || p[1] < 0.5; }));
       for(const Side side : scene.sides())
         set_boundary(scene, side, fixed_wall(-1));
       Scene outline = scene;
       outline.boundaries = {};
       outline.domain.mesh.reset();
       outline.domain.shape = DomainShape::outline;
-      outline.domain.outline = std::make_shared<const Outline>(std::vector<Outline::Point>{
-          {0, 0}, {1, 0}, {1, 0.5}, {0.5, 0.5}, {0.5, 1}, {0, 1}});
+      outline.domain.outline
+          = std::make_shared<const Outline>(std::vector<Outline::Point>{
+              {0, 0}, {1, 0}, {1, 0.5}, {0.5, 0.5}, {0.5, 1}, {0, 1}});
       const auto solid = [](const RunRecord &record)
       {
         return std::inner_product(record.weights.begin(), record.weights.end(),
@@ -219,7 +221,7 @@ namespace meltfront::reference_fem::tests
       for(const Side side : scene.sides())
         set_boundary(scene, side, Boundary());
       set_boundary(outline, Side::outer, Boundary());
-      scene.sources.push_back(steady_sink({0.25, 0.25, 0}, -4));
+      scene.sources.push_back(steady_sink({0.25, 0.25, 0}, 4));
       outline.sources = scene.sources;
       const double on_outline = solid(run(outline, 128));
       std::vector<double> differences;
@@ -229,27 +231,11 @@ namespace meltfront::reference_fem::tests
       EXPECT_LE(differences[3], 2e-3);
     }
 
-    TEST(MeshFile, ACubeOfTetrahedraFreezesAsTheBox)
+    TEST(MeshFile, TetrahedraAreRefused)
     {
-      Scene on_box = box(unit_material(), 3, {}, {1, 1, 1}, 0.3, 0.02);
-      Scene scene = meshed(on_box, CellKind::tetrahedron, 4);
-      set_boundary(on_box, Side::x_min, fixed_wall(-1));
-      set_boundary(scene, wall(scene, "x_min"), fixed_wall(-1));
-      const auto solid = [](const RunRecord &record)
-      {
-        return std::inner_product(record.weights.begin(), record.weights.end(),
-                                  record.solid_fraction.begin(), 0.);
-      };
-      std::vector<double> differences;
-      for(const int n : {1, 2, 4})
-      {
-        const RunRecord record = run(scene, n);
-        EXPECT_TRUE(record.obeys_maximum_principle)
-            << "the tetrahedra of a cube are not obtuse";
-        EXPECT_LE(record.worst_budget_defect(), 1e-12);
-        differences.push_back(std::abs(solid(record) - solid(run(on_box, 4 * n))));
-      }
-      EXPECT_LE(differences.back(), 1e-3);
+      const Scene scene = meshed(box(unit_material(), 3, {}, {1, 1, 1}, 0.3, 0.02),
+                                 CellKind::tetrahedron, 2);
+      EXPECT_THROW(run(scene, 1), Refusal);
     }
 
     TEST(MeshFile, WhatCannotBeMonotoneSaysSo)
@@ -258,7 +244,7 @@ namespace meltfront::reference_fem::tests
       Scene scene = box(unit_material(), 2, {}, {1, 1, 0}, 0.3, 0.01);
       scene = meshed(scene, CellKind::triangle, 6,
                      [](const Position &p) {
-                       return Position{p[0] - 0.8 * p[1], p[1], 0};
+                       return Position{p[0] + 0.8 * p[1], p[1], 0};
                      });
       set_boundary(scene, wall(scene, "x_min"), fixed_wall(-1));
       const RunRecord record = run(scene, 2);

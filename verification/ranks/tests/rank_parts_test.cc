@@ -104,9 +104,13 @@ namespace meltfront::verification
         throw cases::OutputError("the disk is full");
     };
     if(rank() == failing)
+    {
       EXPECT_THROW(together(MPI_COMM_WORLD, fail_there), cases::OutputError);
+    }
     else
+    {
       EXPECT_THROW(together(MPI_COMM_WORLD, fail_there), OtherRankFailed);
+    }
     EXPECT_NO_THROW(together(MPI_COMM_WORLD, [] {}));
   }
 
@@ -115,10 +119,14 @@ namespace meltfront::verification
     MPI_Comm communicator;
     MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
     if(rank() == 0)
+    {
       EXPECT_EQ(meet(communicator, 0.05), n_ranks() == 1);
+    }
     MPI_Barrier(MPI_COMM_WORLD);
     if(rank() > 0)
+    {
       EXPECT_TRUE(meet(communicator, 60));
+    }
     MPI_Barrier(MPI_COMM_WORLD);
   }
 } // namespace meltfront::verification
