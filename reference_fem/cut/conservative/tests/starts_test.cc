@@ -1,13 +1,13 @@
 #include <cases/error.h>
 #include <cases/exact/planar_neumann.h>
 #include <reference_fem/cut/conservative/appearance.h>
+#include <reference_fem/cut/conservative/step_frame.h>
 #include <reference_fem/cut/tests/cut_support.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 namespace meltfront::reference_fem::tests
 {
@@ -72,11 +72,6 @@ namespace meltfront::reference_fem::tests
       set_boundary(scene, Side::x_min,
                    {.kind = BoundaryKind::flux, .value = Field::uniform(-0.1)});
       EXPECT_THROW(run_from_one_phase(scene, 12), Refusal);
-    }
-
-    double sum(const std::vector<double> &values)
-    {
-      return std::accumulate(values.begin(), values.end(), 0.);
     }
 
     TEST(Appearance, ALayerTakesThePlaceOfMissingHeat)
