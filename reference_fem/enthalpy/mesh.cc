@@ -14,6 +14,7 @@ namespace meltfront::reference_fem
       return {1, 2, 3};
     case DomainShape::box:
     case DomainShape::axisymmetric:
+    case DomainShape::mesh:
       return {scene.domain.dimension};
     default:
       if(scene.symmetry == cases::Symmetry::cylindrical

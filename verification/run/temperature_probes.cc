@@ -187,7 +187,8 @@ namespace meltfront::verification
     PlaceReading fitted(const cases::Snapshot &snapshot, const cases::Position &place,
                         double spacing)
     {
-      constexpr double reach = 2.5; // in spacings
+      // In spacings; the larger one where the smaller finds too few, as in corners.
+      constexpr double small_reach = 2.5, large_reach = 4;
       const std::size_t sites = snapshot.temperature.size();
       std::vector<cases::Position> offsets(sites);
       std::vector<double> distance(sites);
@@ -203,22 +204,32 @@ namespace meltfront::verification
       const auto nearest = static_cast<std::size_t>(std::ranges::min_element(distance)
                                                     - distance.begin());
       const bool solid = snapshot.solid_fraction[nearest] > 0.5;
-      std::vector<std::size_t> near;
       double fractions = 0, weights = 0;
       for(std::size_t i = 0; i < sites; ++i)
+        if(distance[i] < small_reach)
+        {
+          fractions += (1 - distance[i] / small_reach) * snapshot.solid_fraction[i];
+          weights += 1 - distance[i] / small_reach;
+        }
+      const auto of_phase_within = [&](double reach)
       {
-        if(!(distance[i] < reach))
-          continue;
-        fractions += (1 - distance[i] / reach) * snapshot.solid_fraction[i];
-        weights += 1 - distance[i] / reach;
-        if((snapshot.solid_fraction[i] > 0.5) == solid)
-          near.push_back(i);
-      }
+        std::vector<std::size_t> near;
+        for(std::size_t i = 0; i < sites; ++i)
+          if(distance[i] < reach && (snapshot.solid_fraction[i] > 0.5) == solid)
+            near.push_back(i);
+        return near;
+      };
       PlaceReading reading{snapshot.temperature[nearest],
                            weights > 0 ? fractions / weights
                                        : snapshot.solid_fraction[nearest]};
       const auto columns = monomials({}, snapshot.dimension).size();
-      if(static_cast<Eigen::Index>(near.size()) < columns)
+      const auto too_few = [columns](const std::vector<std::size_t> &near)
+      { return static_cast<Eigen::Index>(near.size()) < columns; };
+      double reach = small_reach;
+      std::vector<std::size_t> near = of_phase_within(reach);
+      if(too_few(near))
+        near = of_phase_within(reach = large_reach);
+      if(too_few(near))
         return reading;
       Eigen::MatrixXd rows(near.size(), columns);
       Eigen::VectorXd values(near.size());

@@ -158,7 +158,6 @@ namespace meltfront::reference_fem::tests
     Scene line_sink_square(const std::shared_ptr<const LineSink> &exact)
     {
       Scene scene = box(water(), 2, {-0.5, -0.5, 0}, {0.5, 0.5, 0}, 10, 475000);
-      scene.symmetry = Symmetry::cylindrical;
       scene.sources.push_back(steady_sink({}, exact->strength()));
       return scene;
     }
@@ -166,6 +165,16 @@ namespace meltfront::reference_fem::tests
     TEST(MeshFile, FrontsConvergeAsOnTheBoxOfTheSameSize)
     {
       const auto exact = std::make_shared<LineSink>(water(), 0.15, 10);
+      // By the radius of a disk of the ice's area, over the second half of the run.
+      const auto worst_front_error = [&exact](const RunRecord &record)
+      {
+        double worst = 0;
+        for(std::size_t k = 0; k < record.time.size(); ++k)
+          if(record.time[k] >= record.time.back() / 2)
+            worst = std::max(worst, std::abs(std::sqrt(record.solid[k] / std::numbers::pi)
+                                             - exact->front(record.time[k])));
+        return worst / exact->front(record.time.back());
+      };
       Scene on_box = line_sink_square(exact);
       for(const Side side : on_box.sides())
         set_boundary(on_box, side, exact_wall(exact));
@@ -187,11 +196,10 @@ namespace meltfront::reference_fem::tests
           EXPECT_LE(record.worst_budget_defect(), 1e-12);
           EXPECT_LE(record.statistics.graph_inconsistency, 1e-11);
           EXPECT_EQ(record.cost.capped_steps, 0);
-          errors.push_back(record.worst_front_error(on_mesh.end_time / 2));
+          errors.push_back(worst_front_error(record));
         }
         EXPECT_GE(fitted_order(levels, errors), 1) << to_string(kind);
-        const double of_box
-            = run(on_box, 128, {}, exact.get()).worst_front_error(on_box.end_time / 2);
+        const double of_box = worst_front_error(run(on_box, 128, {}, exact.get()));
         EXPECT_LE(errors.back(), 2 * of_box) << to_string(kind);
       }
     }

@@ -59,7 +59,8 @@ namespace meltfront::verification
     {
       record.cost.evidence.clear();
       nlohmann::json json = record;
-      for(const char *of_the_machine : {"times", "peak_memory_mb", "provenance"})
+      for(const char *of_the_machine :
+          {"times", "peak_memory_mb", "provenance", "cpu_seconds", "wall_seconds"})
         json.erase(of_the_machine);
       for(const char *time : {"setup_wall", "setup_cpu", "stepping_wall", "stepping_cpu"})
         json["cost"].erase(time);
@@ -116,7 +117,9 @@ namespace meltfront::verification
         const RunRecord resumed = run_kept(&folder);
         EXPECT_EQ(resumed.cost.evidence.at("times resumed"), 2);
         EXPECT_GT(resumed.cost.evidence.at("last resumed after step"), 1);
-        EXPECT_EQ(outcome_of(resumed), whole);
+        const nlohmann::json difference
+            = nlohmann::json::diff(whole, outcome_of(resumed));
+        EXPECT_TRUE(difference.empty()) << difference.dump(1);
       }
     }
 
