@@ -27,7 +27,7 @@ namespace meltfront::reference_fem
     bool front_within_cells = false; ///< conductances as FrontConduction has them
     bool refine_at_front = false;    ///< see FrontRefinement
     Preconditioner preconditioner = Preconditioner::automatic;
-    double checkpoint = 0; ///< between states that are kept (s of wall time); 0: none
+    double checkpoint = 0;    ///< between states that are kept (s of wall time); 0: none
     bool distributed = false; ///< the engine of several ranks, also on one
   };
 

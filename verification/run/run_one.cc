@@ -80,9 +80,8 @@ namespace meltfront::verification
       const cases::EffectSet effects = cases::effects_within(c.scene, c.effect_tolerance);
       record.effects = effects.decisions();
       const cases::Scene scene = cases::simulated_scene(c.scene, effects);
-      const cases::Capabilities capabilities
-          = cases::require_capable(method, scene, effects, resolution.threads,
-                                   resolution.options);
+      const cases::Capabilities capabilities = cases::require_capable(
+          method, scene, effects, resolution.threads, resolution.options);
       require_affordable(method, scene, effects, resolution, record);
       const auto observer
           = observer_of(c, scene, method, capabilities, second, resolution.seed == 1);
