@@ -60,6 +60,11 @@ namespace meltfront::cases
              {"partners", "number of nearest partners"},
              {"hexatic_order", "order of partners about a particle of the plane: 1 in a "
                                "crystal"},
+             {"fluid_above_solid", "mean height of the fluid particles less that of the "
+                                   "solid ones, at looks at which there are both"},
+             {"energy_changed",
+              "energy of a particle less that in the last earlier stage "
+              "in a bath of the same temperature"},
              {"heat_capacity", "energy over temperature from the stage before"},
              {"latent_heat", "energy of a particle from the stage before, less what the "
                              "mean of the heat capacities before and after takes"}})

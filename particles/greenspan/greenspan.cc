@@ -153,7 +153,7 @@ namespace meltfront::particles
           const double energy = motion.energy().total();
           energy_error = std::max(energy_error, std::abs(energy - initial_energy));
           if(structure)
-            structure->look(state, energy);
+            structure->look(state, energy, diagnostics.solid());
         }
         reached(motion.step(), time());
       }

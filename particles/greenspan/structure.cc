@@ -83,7 +83,8 @@ namespace meltfront::particles::greenspan
   {
   }
 
-  void Structure::look(const ParticleState &state, double energy)
+  void Structure::look(const ParticleState &state, double energy,
+                       const std::vector<char> &solid)
   {
     const auto of_step = [&state](const RunStage &stage)
     { return state.step > stage.begin && state.step <= stage.end; };
@@ -100,6 +101,17 @@ namespace meltfront::particles::greenspan
     for(int d = 0; d < state.dimension; ++d)
       for(const double v : state.velocity[d])
         sums.temperature += v * v / (state.dimension * n);
+    double height[2]{}, number_of[2]{};
+    for(std::size_t i = 0; i < state.size(); ++i)
+    {
+      height[solid[i] != 0] += state.position[1][i];
+      ++number_of[solid[i] != 0];
+    }
+    if(number_of[0] > 0 && number_of[1] > 0)
+    {
+      sums.fluid_above_solid += height[0] / number_of[0] - height[1] / number_of[1];
+      ++sums.looks_at_both;
+    }
     look_at_bonds(state, sums, number + 1 == stages.size());
   }
 
@@ -143,6 +155,19 @@ namespace meltfront::particles::greenspan
     return result / static_cast<double>(sums.bonds.size());
   }
 
+  bool Structure::same_bath(std::size_t stage, std::size_t other) const
+  {
+    if(experiment.parameters.zones.empty() || stages[other].looks == 0)
+      return false;
+    const Thermostat &bath = experiment.parameters.zones.front().bath;
+    const auto middle = [&](std::size_t s)
+    {
+      const RunStage &of = experiment.stages[s];
+      return bath.temperature(of.begin + 3 * (of.end - of.begin) / 4);
+    };
+    return middle(stage) == middle(other);
+  }
+
   double Structure::rise(std::size_t stage) const
   {
     if(stage == 0 || stage >= stages.size())
@@ -175,6 +200,12 @@ namespace meltfront::particles::greenspan
       if(experiment.start.dimension == 2)
         tell("hexatic_order", sums.order / sums.looks);
       tell("lindemann", lindemann(sums));
+      if(sums.looks_at_both > 0)
+        tell("fluid_above_solid", sums.fluid_above_solid / sums.looks_at_both);
+      for(std::size_t earlier = 0; earlier < s; ++earlier)
+        if(same_bath(s, earlier))
+          tell("energy_changed",
+               sums.energy / sums.looks - stages[earlier].energy / stages[earlier].looks);
       if(std::abs(rise(s)) > 0)
         tell("heat_capacity", heat_capacity(s));
       if(rise(s) * rise(s + 1) > 0 && s >= 1 && rise(s) * rise(s - 1) > 0)

@@ -40,8 +40,11 @@ namespace meltfront::particles::greenspan
     /** @param experiment with stages; must outlive the structure */
     explicit Structure(const Experiment &experiment);
 
-    /** @param energy of all particles together */
-    void look(const ParticleState &state, double energy);
+    /**
+     * @param energy of all particles together
+     * @param solid 1 for each solid particle, 0 for fluid ones
+     */
+    void look(const ParticleState &state, double energy, const std::vector<char> &solid);
 
     /** Names and values of cases::reported_scalars(). */
     std::map<std::string, double> report() const;
@@ -52,12 +55,17 @@ namespace meltfront::particles::greenspan
     {
       int looks = 0;
       double temperature = 0, energy = 0, partners = 0, order = 0;
+      double fluid_above_solid = 0;
+      int looks_at_both = 0;
       std::vector<std::array<std::uint32_t, 2>> bonds; ///< of the first look
       std::vector<double> length, squared_length;      ///< sums for each of them
     };
 
     void look_at_bonds(const ParticleState &state, Sums &sums, bool last);
     double lindemann(const Sums &sums) const;
+
+    /** Whether two stages are held at the same temperature. */
+    bool same_bath(std::size_t stage, std::size_t other) const;
 
     /** By how much a stage is warmer than the one before; 0 where one of them lacks. */
     double rise(std::size_t stage) const;

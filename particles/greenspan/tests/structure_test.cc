@@ -78,7 +78,8 @@ namespace meltfront::particles::greenspan
         ParticleState state
             = shaken(experiment.start, deviation, static_cast<std::uint64_t>(step));
         state.step = step;
-        structure.look(state, -5. * static_cast<double>(state.size()));
+        structure.look(state, -5. * static_cast<double>(state.size()),
+                       std::vector<char>(state.size(), 1));
       }
       const auto report = structure.report();
       EXPECT_EQ(report.at("partners_of_most_end"), 12);
@@ -101,6 +102,9 @@ namespace meltfront::particles::greenspan
       experiment.stages = {{0, 100}, {100, 200}, {200, 300}, {300, 400}};
       const double temperature[] = {20, 30, 46, 54};
       Structure structure(experiment);
+      std::vector<char> solid; // the lower half
+      for(const double y : experiment.start.position[1])
+        solid.push_back(y < 1.3);
       for(long step = 10; step <= 400; step += 10)
       {
         ParticleState state = experiment.start;
@@ -110,12 +114,13 @@ namespace meltfront::particles::greenspan
           v = std::sqrt(2 * t);
         const double energy = t < melting ? of_solid * (t - melting)
                                           : of_fluid * (t - melting) + latent_heat;
-        structure.look(state, energy * static_cast<double>(state.size()));
+        structure.look(state, energy * static_cast<double>(state.size()), solid);
       }
       const auto report = structure.report();
       EXPECT_NEAR(report.at("heat_capacity_stage_2"), of_solid, 1e-9);
       EXPECT_NEAR(report.at("heat_capacity_stage_4"), of_fluid, 1e-9);
       EXPECT_NEAR(report.at("latent_heat_stage_3"), latent_heat, 1e-9);
+      EXPECT_GT(report.at("fluid_above_solid_stage_1"), 1.1);
       EXPECT_FALSE(report.contains("latent_heat_stage_2"));
       EXPECT_FALSE(report.contains("latent_heat_stage_4"));
     }
