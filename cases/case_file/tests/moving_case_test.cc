@@ -204,7 +204,7 @@ TEST(ParticleSolidCase, ReadsSolidsOfSpace)
   expect_complaint(replaced(ball, "set shifted = true", "set phase test = order"),
                    "crystals of the plane only");
   expect_complaint(replaced(ball, "ball", "table 1\n    set initial temperature = 3"),
-                   "cell");
+                   "a table holds");
 }
 
 TEST(InterfaceCase, IsRead)
