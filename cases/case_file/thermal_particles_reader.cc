@@ -11,6 +11,17 @@ namespace meltfront::cases
 {
   namespace
   {
+    /** Each stage may have a temperature at its begin and at its end. */
+    constexpr int most_bath_times = 2 * most_stages;
+
+    /** Up to so many numbers. */
+    PrmEntry list_key(const std::string &key, int most, const std::string &description)
+    {
+      PrmEntry entry = numbers_key(key, "", description);
+      entry.most_values = most;
+      return entry;
+    }
+
     const std::string solid_keys = "Scene/Particle solid";
     const std::string bath_keys = "Scene/Particle solid/Bath";
     const std::string light_keys = "Scene/Particle solid/Light";
@@ -120,14 +131,15 @@ namespace meltfront::cases
     prm.declare(solid_keys,
                 number_key("drag", "0", "", "Velocities fade by exp(-drag t).", 0));
     prm.declare(solid_keys,
-                numbers_key("stages", "",
-                            "Times at which stages of the run end: over the second half "
-                            "of each, means of temperature, energy and structure are "
-                            "taken."));
-    prm.declare(bath_keys, numbers_key("temperatures", "",
-                                       "Temperatures of a bath that all particles are "
-                                       "in, linear between its times."));
-    prm.declare(bath_keys, numbers_key("times", "", "Times of these temperatures."));
+                list_key("stages", most_stages,
+                         "Times at which stages of the run end: over the second half "
+                         "of each, means of temperature, energy and structure are "
+                         "taken."));
+    prm.declare(bath_keys, list_key("temperatures", most_bath_times,
+                                    "Temperatures of a bath that all particles are "
+                                    "in, linear between its times."));
+    prm.declare(bath_keys,
+                list_key("times", most_bath_times, "Times of these temperatures."));
     prm.declare(bath_keys,
                 number_key("rate", "1", "",
                            "At which the bath makes velocities forget, per time.",
