@@ -60,6 +60,8 @@ namespace meltfront::cases
              {"partners", "number of nearest partners"},
              {"hexatic_order", "order of partners about a particle of the plane: 1 in a "
                                "crystal"},
+             {"warmer_above", "temperature of the particles above the mean height less "
+                              "that of those below it"},
              {"fluid_above_solid", "mean height of the fluid particles less that of the "
                                    "solid ones, at looks at which there are both"},
              {"energy_changed",

@@ -176,6 +176,8 @@ namespace meltfront::particles::greenspan
     {
       const Vector way = other.centre - figure.centre;
       const double distance = length(way);
+      if(distance >= figure.reach() + other.reach())
+        return {0, 0};
       const double cosine = distance > 0 ? figure.cosine_within(other, distance) : -1;
       const double half = std::acos(std::clamp(cosine, -1., 1.));
       const double middle = std::atan2(dot(way, figure.up[1]), dot(way, figure.up[0]));

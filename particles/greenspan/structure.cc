@@ -13,7 +13,8 @@ namespace meltfront::particles::greenspan
   {
     constexpr double bin_width = 0.02, greatest_distance = 2.4; ///< in the unit
     constexpr int bins = static_cast<int>(greatest_distance / bin_width);
-    constexpr double rise = 1.2; ///< of a maximum over the least value beside it
+    constexpr double rise_to_peak = 1.2; ///< of a maximum over the least value beside it
+    constexpr double least_rise = 0.05;  ///< of the temperature, for a heat capacity
 
     /** Each value averaged with those beside it, 1 : 2 : 1. */
     std::vector<double> smoothed(const std::vector<double> &values)
@@ -61,7 +62,8 @@ namespace meltfront::particles::greenspan
       if(g[i] > g[highest] || g[i] < least)
         highest = i;
       least = std::min(least, g[i]);
-      if(g[highest] > floor && g[highest] > rise * least && g[i] * rise < g[highest])
+      if(g[highest] > floor && g[highest] > rise_to_peak * least
+         && g[i] * rise_to_peak < g[highest])
       {
         const double before = g[highest - 1], at = g[highest], after = g[highest + 1];
         const double shift = (before - after) / (2 * (before - 2 * at + after));
@@ -101,18 +103,32 @@ namespace meltfront::particles::greenspan
     for(int d = 0; d < state.dimension; ++d)
       for(const double v : state.velocity[d])
         sums.temperature += v * v / (state.dimension * n);
-    double height[2]{}, number_of[2]{};
+    look_at_heights(state, sums, solid);
+    look_at_bonds(state, sums, number + 1 == stages.size());
+  }
+
+  void Structure::look_at_heights(const ParticleState &state, Sums &sums,
+                                  const std::vector<char> &solid)
+  {
+    const std::vector<double> &y = state.position[1];
+    const double middle = spread(y).mean;
+    /** Of the lower and the upper half, of fluid and solid particles. */
+    double energy[2]{}, in_half[2]{}, height[2]{}, in_phase[2]{};
     for(std::size_t i = 0; i < state.size(); ++i)
     {
-      height[solid[i] != 0] += state.position[1][i];
-      ++number_of[solid[i] != 0];
+      for(int d = 0; d < state.dimension; ++d)
+        energy[y[i] > middle] += state.velocity[d][i] * state.velocity[d][i];
+      ++in_half[y[i] > middle];
+      height[solid[i] != 0] += y[i];
+      ++in_phase[solid[i] != 0];
     }
-    if(number_of[0] > 0 && number_of[1] > 0)
+    sums.warmer_above
+        += (energy[1] / in_half[1] - energy[0] / in_half[0]) / state.dimension;
+    if(in_phase[0] > 0 && in_phase[1] > 0)
     {
-      sums.fluid_above_solid += height[0] / number_of[0] - height[1] / number_of[1];
+      sums.fluid_above_solid += height[0] / in_phase[0] - height[1] / in_phase[1];
       ++sums.looks_at_both;
     }
-    look_at_bonds(state, sums, number + 1 == stages.size());
   }
 
   void Structure::look_at_bonds(const ParticleState &state, Sums &sums, bool last)
@@ -200,13 +216,14 @@ namespace meltfront::particles::greenspan
       if(experiment.start.dimension == 2)
         tell("hexatic_order", sums.order / sums.looks);
       tell("lindemann", lindemann(sums));
+      tell("warmer_above", sums.warmer_above / sums.looks);
       if(sums.looks_at_both > 0)
         tell("fluid_above_solid", sums.fluid_above_solid / sums.looks_at_both);
       for(std::size_t earlier = 0; earlier < s; ++earlier)
         if(same_bath(s, earlier))
           tell("energy_changed",
                sums.energy / sums.looks - stages[earlier].energy / stages[earlier].looks);
-      if(std::abs(rise(s)) > 0)
+      if(std::abs(rise(s)) > least_rise * sums.temperature / sums.looks)
         tell("heat_capacity", heat_capacity(s));
       if(rise(s) * rise(s + 1) > 0 && s >= 1 && rise(s) * rise(s - 1) > 0)
         tell("latent_heat", rise(s)

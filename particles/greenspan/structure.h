@@ -55,12 +55,14 @@ namespace meltfront::particles::greenspan
     {
       int looks = 0;
       double temperature = 0, energy = 0, partners = 0, order = 0;
-      double fluid_above_solid = 0;
+      double warmer_above = 0, fluid_above_solid = 0;
       int looks_at_both = 0;
       std::vector<std::array<std::uint32_t, 2>> bonds; ///< of the first look
       std::vector<double> length, squared_length;      ///< sums for each of them
     };
 
+    void look_at_heights(const ParticleState &state, Sums &sums,
+                         const std::vector<char> &solid);
     void look_at_bonds(const ParticleState &state, Sums &sums, bool last);
     double lindemann(const Sums &sums) const;
 
