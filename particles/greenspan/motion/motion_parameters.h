@@ -81,7 +81,7 @@ namespace meltfront::particles::greenspan
     };
     /** Where not empty: temperatures at ascending steps, linear between them, in place of
      * the first and the last. */
-    std::vector<Moment> course;
+    std::vector<Moment> course{};
 
     double temperature(long step) const;
   };
