@@ -241,8 +241,8 @@ namespace meltfront::verification
   /** Layer by layer, each ball with an edge that sets it off from those behind it. */
   std::string FrameDrawing::balls(const ParticleFrame &frame) const
   {
-    constexpr std::size_t layers = 24;
-    const std::size_t n = frame.x.size();
+    constexpr std::size_t balls_in_layer = 8;
+    const std::size_t n = frame.x.size(), layers = 1 + n / balls_in_layer;
     std::string svg;
     for(std::size_t layer = 0; layer < layers; ++layer)
       for(const double wanted : {1., 0.})
