@@ -264,4 +264,24 @@ namespace meltfront::cases::called_for
                   "there is a source that drives particles away",
                   "there is no such source");
   }
+
+  EffectDecision drag(const Scene &scene)
+  {
+    const double drag = scene.particle_solid->drag;
+    return decide(Effect::drag, drag > 0,
+                  fmt::format("velocities fade by {:.6g} per time", drag),
+                  "nothing slows particles down");
+  }
+
+  EffectDecision heat_bath(const Scene &scene)
+  {
+    return decide(Effect::heat_bath, scene.particle_solid->bath.has_value(),
+                  "particles are in a bath", "there is no bath");
+  }
+
+  EffectDecision light(const Scene &scene)
+  {
+    return decide(Effect::light, scene.particle_solid->light.has_value(),
+                  "light falls on the particles", "it is dark");
+  }
 } // namespace meltfront::cases::called_for

@@ -31,6 +31,9 @@ namespace meltfront::cases::called_for
   EffectDecision base(const Scene &scene);
   EffectDecision hot_base(const Scene &scene);
   EffectDecision point_heating(const Scene &scene);
+  EffectDecision drag(const Scene &scene);
+  EffectDecision heat_bath(const Scene &scene);
+  EffectDecision light(const Scene &scene);
 } // namespace meltfront::cases::called_for
 
 #endif

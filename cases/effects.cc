@@ -169,7 +169,15 @@ namespace meltfront::cases
          }},
         {Effect::point_heating, "point_heating",
          "A source drives particles away from itself.", called_for::point_heating,
-         [](Scene &scene) { scene.particle_solid->heating.reset(); }}};
+         [](Scene &scene) { scene.particle_solid->heating.reset(); }},
+        {Effect::drag, "drag", "Velocities of a solid's particles fade.",
+         called_for::drag, [](Scene &scene) { scene.particle_solid->drag = 0; }},
+        {Effect::heat_bath, "heat_bath",
+         "A bath of a temperature gives heat to all particles or takes it.",
+         called_for::heat_bath, [](Scene &scene) { scene.particle_solid->bath.reset(); }},
+        {Effect::light, "light",
+         "Light heats the particles that are not in the shadow of others.",
+         called_for::light, [](Scene &scene) { scene.particle_solid->light.reset(); }}};
     static_assert(std::size(rules) == n_effects);
 
     const Rule &rule(Effect effect)

@@ -34,10 +34,13 @@ namespace meltfront::cases
     moving_source,          ///< a point or line source moves
     gravity,                ///< weight of a solid's particles, whose effects begin here
     base,                   ///< a floor throws particles back
-    hot_base,     ///< a part of the floor throws them back faster than they came
-    point_heating ///< a source drives particles away from itself
+    hot_base,      ///< a part of the floor throws them back faster than they came
+    point_heating, ///< a source drives particles away from itself
+    drag,          ///< the velocities of particles fade
+    heat_bath,     ///< particles are in a bath of a temperature
+    light          ///< light heats the particles that are not in the shadow of others
   };
-  inline constexpr auto n_effects = static_cast<std::size_t>(Effect::point_heating) + 1;
+  inline constexpr auto n_effects = static_cast<std::size_t>(Effect::light) + 1;
 
   /** The word for an effect in case files and tables, `phase_change` and so on. */
   const char *to_string(Effect effect);

@@ -1,6 +1,9 @@
+#include <cases/particle_solid.h>
 #include <cases/reported_scalars.h>
 
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace meltfront::cases
 {
@@ -30,7 +33,45 @@ namespace meltfront::cases
           {"corner_1_temperature", "temperature of the first corner at its last bond"},
           {"corner_2_temperature", "temperature of the second corner at its last bond"},
           {"corner_1_step", "step at which the first corner loses its last triangle"},
-          {"corner_2_step", "step at which the second corner loses its last triangle"}};
+          {"corner_2_step", "step at which the second corner loses its last triangle"},
+          {"heat_from_bath", "heat that the bath has given, per particle"},
+          {"light_absorbed", "energy that light has given, per particle"},
+          {"light_caught", "share of a point's light that particles caught; of rays the "
+                           "mean width or area that caught them"},
+          {"energy_defect", "change of the energy less heat and light, over the larger "
+                            "of what was given and what breaks a bond, per particle"},
+          {"height_end", "height of the highest particle at the end"},
+          {"width_end", "from the leftmost to the rightmost particle at the end"},
+          {"shortest_bond_end", "shortest bond at the end"},
+          {"longest_bond_end", "longest bond at the end"},
+          {"partners_of_most_end",
+           "number of nearest partners that most particles have over the last stage"},
+          {"peak_1", "first maximum of the pair correlation over the last stage, over "
+                     "the distance at which a pair rests"},
+          {"peak_2", "second maximum over the first"},
+          {"peak_3", "third maximum over the first"},
+          {"peak_4", "fourth maximum over the first"}};
+      for(int stage = 1; stage <= most_stages; ++stage)
+        for(const auto &[name, meaning] :
+            {std::pair{"temperature", "temperature by kinetic energy"},
+             {"energy", "energy of a particle"},
+             {"lindemann", "root mean square change of a bond's length over its length "
+                           "(Berry's form of Lindemann's)"},
+             {"partners", "number of nearest partners"},
+             {"hexatic_order", "order of partners about a particle of the plane: 1 in a "
+                               "crystal"},
+             {"warmer_above", "temperature of the particles above the mean height less "
+                              "that of those below it"},
+             {"fluid_above_solid", "mean height of the fluid particles less that of the "
+                                   "solid ones, at looks at which there are both"},
+             {"energy_changed",
+              "energy of a particle less that in the last earlier stage "
+              "in a bath of the same temperature"},
+             {"heat_capacity", "energy over temperature from the stage before"},
+             {"latent_heat", "energy of a particle from the stage before, less what the "
+                             "mean of the heat capacities before and after takes"}})
+          all.push_back({fmt::format("{}_stage_{}", name, stage),
+                         fmt::format("{}, over stage {}", meaning, stage)});
       for(int particle = 1; particle <= most_named_particles; ++particle)
         all.push_back(
             {fmt::format("fluid_end_{}", particle),

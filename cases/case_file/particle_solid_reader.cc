@@ -1,6 +1,9 @@
 #include <cases/case_file/domain_reader.h>
+#include <cases/case_file/expression.h>
 #include <cases/case_file/key_builders.h>
 #include <cases/case_file/particle_solid_reader.h>
+#include <cases/case_file/thermal_particles_reader.h>
+#include <cases/outline.h>
 
 #include <fmt/format.h>
 
@@ -14,6 +17,16 @@ namespace meltfront::cases
     const std::string solid_keys = "Scene/Particle solid";
     const std::string base_keys = "Scene/Particle solid/Base";
     const std::string heating_keys = "Scene/Particle solid/Heating";
+
+    /** The words of a case file for arrangements, but for the tables. */
+    constexpr std::pair<const char *, SolidArrangement> arrangements[]
+        = {{"triangle", SolidArrangement::triangle},
+           {"rectangle", SolidArrangement::rectangle},
+           {"bar", SolidArrangement::bar},
+           {"disk", SolidArrangement::disk},
+           {"outline", SolidArrangement::outline},
+           {"block", SolidArrangement::block},
+           {"ball", SolidArrangement::ball}};
 
     void declare_law(PrmFile &prm)
     {
@@ -32,6 +45,13 @@ namespace meltfront::cases
       prm.declare(solid_keys,
                   number_key("cutoff", "1.5", "",
                              "Distance beyond which there is no force.", above_zero));
+      prm.declare(solid_keys,
+                  {.key = "shifted",
+                   .kind = PrmKind::boolean,
+                   .default_value = "false",
+                   .unit = {},
+                   .description = "The force's value at the cutoff is taken from it, so "
+                                  "that it ends at zero there without a jump."});
     }
 
     void declare_base_and_heating(PrmFile &prm)
@@ -121,6 +141,7 @@ namespace meltfront::cases
       law.attraction_exponent = prm.get_number(solid_keys, "attraction exponent");
       law.repulsion_exponent = prm.get_number(solid_keys, "repulsion exponent");
       law.cutoff = prm.get_number(solid_keys, "cutoff");
+      law.shifted = prm.get_boolean(solid_keys, "shifted");
       if(!(law.attraction_exponent < law.repulsion_exponent))
         throw prm.error(solid_keys, "repulsion exponent",
                         "must exceed 'attraction exponent': nothing would keep the "
@@ -128,16 +149,31 @@ namespace meltfront::cases
       return law;
     }
 
+    /** The polar radius of a solid's outline, tried out as one. */
+    std::function<double(double)> read_outline_of_solid(const PrmFile &prm)
+    {
+      prm.require(solid_keys, "outline", "the arrangement is an outline");
+      try
+      {
+        const auto radius = parse_function(prm.get_text(solid_keys, "outline"), "phi");
+        const Outline tried(radius, {0, 0});
+        return radius;
+      }
+      catch(const InputError &error)
+      {
+        throw prm.error(solid_keys, "outline", error.what());
+      }
+    }
+
     void read_arrangement(const PrmFile &prm, const Scene &scene, ParticleSolid &solid)
     {
       const std::string word = prm.get_text(solid_keys, "arrangement");
       if(word.starts_with("table"))
         solid.table = word == "table 1" ? 1 : 2;
-      else if(word == "triangle")
-        solid.arrangement = SolidArrangement::triangle;
       else
-        solid.arrangement
-            = word == "bar" ? SolidArrangement::bar : SolidArrangement::rectangle;
+        for(const auto &[name, arrangement] : arrangements)
+          if(word == name)
+            solid.arrangement = arrangement;
       solid.errata = prm.get_boolean(solid_keys, "errata");
       solid.rows = static_cast<int>(prm.get_integer(solid_keys, "rows"));
       if(word != "table 2")
@@ -151,6 +187,25 @@ namespace meltfront::cases
                         fmt::format("must be a bar where heat is conducted, and only "
                                     "there; the problem is '{}'",
                                     to_string(scene.problem)));
+      if(word == "outline")
+        solid.outline = read_outline_of_solid(prm);
+      else
+        prm.forbid(solid_keys, "outline", "the arrangement is no outline");
+      solid.settled = prm.get_boolean(solid_keys, "settled");
+      if(word != "triangle" && word != "rectangle")
+        prm.forbid(solid_keys, "settled",
+                   "only triangles and rectangles are laid to rest");
+    }
+
+    SolidTest read_test(const PrmFile &prm, const ParticleSolid &solid)
+    {
+      const std::string word = prm.get_text(solid_keys, "phase test");
+      if(word == "order" && solid.dimension() == 3)
+        throw prm.error(solid_keys, "phase test",
+                        "is 'order', which is known of crystals of the plane only");
+      return word == "temperature" ? SolidTest::temperature
+             : word == "order"     ? SolidTest::order
+                                   : SolidTest::average_speed;
     }
   } // namespace
 
@@ -158,10 +213,22 @@ namespace meltfront::cases
   {
     prm.declare(solid_keys,
                 word_key("arrangement", "table 1",
-                         {"table 1", "table 2", "triangle", "rectangle", "bar"},
+                         {"table 1", "table 2", "triangle", "rectangle", "bar", "disk",
+                          "outline", "block", "ball"},
                          "Where the particles are: a table of Greenspan's report of "
-                         "1976, a solid of any size at rest on the base, or a bar "
-                         "between two walls."));
+                         "1976, a solid of any size at rest on the base, a bar between "
+                         "two walls, a crystal of the plane within a disk or an outline, "
+                         "or a close packing of space in a block or a ball."));
+    prm.declare(solid_keys,
+                formula_key("outline", "Radius of an outline over n / 2 spacings: an "
+                                       "expression of the angle phi."));
+    prm.declare(solid_keys, {.key = "settled",
+                             .kind = PrmKind::boolean,
+                             .default_value = "true",
+                             .unit = {},
+                             .description = "A triangle or a rectangle on a base is laid "
+                                            "to rest before the start; false: it begins "
+                                            "as a lattice."});
     prm.declare(solid_keys, {.key = "errata",
                              .kind = PrmKind::boolean,
                              .default_value = "false",
@@ -181,15 +248,18 @@ namespace meltfront::cases
                            "the start, by the seed.",
                            0, 0.1));
     prm.declare(solid_keys,
-                word_key("phase test", "average speed", {"average speed", "temperature"},
+                word_key("phase test", "average speed",
+                         {"average speed", "temperature", "order"},
                          "What makes a particle fluid: it moves faster than 7.5 on "
-                         "average over 1000 steps, or its mean kinetic energy reaches "
-                         "25."));
+                         "average over 1000 steps, its mean kinetic energy reaches 25, "
+                         "or its partners do not lie about it as in a crystal of the "
+                         "plane."));
     prm.declare(solid_keys,
                 numbers_key("corners", "", "Particles whose last bonds are looked for."));
     prm.declare(solid_keys, number_key("pressure", "0", "",
                                        "Force per length on the cold end of a bar.", 0));
     declare_base_and_heating(prm);
+    declare_thermal_particles(prm);
   }
 
   void read_particle_solid(const PrmFile &prm, Scene &scene)
@@ -211,8 +281,7 @@ namespace meltfront::cases
     solid.gravity = prm.get_number(solid_keys, "gravity");
     solid.disturbance = prm.get_number(solid_keys, "disturbance");
     solid.pressure = prm.get_number(solid_keys, "pressure");
-    if(prm.get_text(solid_keys, "phase test") == "temperature")
-      solid.test = SolidTest::temperature;
+    solid.test = read_test(prm, solid);
     if(prm.given(solid_keys, "corners"))
       for(const double corner : prm.get_numbers(solid_keys, "corners"))
       {
@@ -226,13 +295,14 @@ namespace meltfront::cases
       solid.base = read_base(prm);
     if(prm.opened(heating_keys))
       solid.heating = read_heating(prm);
+    read_thermal_particles(prm, scene, solid);
     scene.particle_solid = solid;
     if(!required)
       return;
     // Nothing bounds a solid that melts; this is where most of it stays.
     scene.domain.shape = DomainShape::box;
-    scene.domain.dimension = 2;
+    scene.domain.dimension = solid.dimension();
     scene.domain.lower = {-10, 0, 0};
-    scene.domain.upper = {10, 10, 0};
+    scene.domain.upper = {10, 10, solid.dimension() == 3 ? 10. : 0.};
   }
 } // namespace meltfront::cases

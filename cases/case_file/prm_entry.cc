@@ -66,7 +66,8 @@ namespace meltfront::cases
       return fmt::format("one of {}", fmt::join(entry.choices, ", "));
     case PrmKind::numbers:
     {
-      constexpr std::array words{"two", "three", "four", "five", "six", "seven", "eight"};
+      constexpr std::array words{"two",   "three", "four", "five",   "six",   "seven",
+                                 "eight", "nine",  "ten",  "eleven", "twelve"};
       return fmt::format("one to {} numbers separated by commas",
                          words.at(entry.most_values - 2));
     }

@@ -80,7 +80,7 @@ TEST(Effects, EachHasItsOwnWordAndSentence)
 TEST(Effects, ABareSceneCallsForNone)
 {
   const EffectSet effects = effects_called_for(bare_scene());
-  ASSERT_EQ(effects.decisions().size(), n_effects - 4); // less those of particle solids
+  ASSERT_EQ(effects.decisions().size(), n_effects - 7); // less those of particle solids
   for(const EffectDecision &d : effects.decisions())
   {
     EXPECT_FALSE(d.on) << to_string(d.effect);

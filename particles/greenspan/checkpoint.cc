@@ -98,10 +98,10 @@ namespace meltfront::particles::greenspan
   {
     const MotionParameters &p = experiment.parameters;
     std::string text = fmt::format(
-        "{} {} {} {} {} {} {} {} {} {} {} {}", experiment.name, experiment.steps,
+        "{} {} {} {} {} {} {} {} {} {} {} {} {}", experiment.name, experiment.steps,
         experiment.interval, static_cast<int>(experiment.test), p.force.attraction,
         p.force.repulsion, p.force.attraction_exponent, p.force.repulsion_exponent,
-        p.force.cutoff, p.time_step, p.gravity, p.drag);
+        p.force.cutoff, p.force.shifted, p.time_step, p.gravity, p.drag);
     if(p.base)
       text += fmt::format(" base {} {} {} {}", p.base->restitution,
                           p.base->hot_half_width, p.base->hot_left, p.base->hot_slope);

@@ -16,8 +16,7 @@ namespace meltfront::particles::greenspan
 
   Diagnostics::Diagnostics(const Experiment &experiment)
     : experiment(experiment)
-    , first_bonds(experiment.start.dimension, experiment.start.position,
-                  experiment.parameters.force.cutoff)
+    , first_bonds(experiment.start, experiment.parameters.force.cutoff)
     , average(experiment.interval, experiment.parameters.time_step)
   {
     the_record.corners.resize(experiment.corners.size());
@@ -48,12 +47,12 @@ namespace meltfront::particles::greenspan
 
   void Diagnostics::look(const ParticleState &state)
   {
-    const BondGraph bonds(state.dimension, state.position,
-                          experiment.parameters.force.cutoff);
+    const BondGraph bonds(state, experiment.parameters.force.cutoff);
     average.record(state);
     const Cold cold = experiment.test == PhaseTest::temperature
                           ? cold_by_temperature(state)
-                          : average.cold();
+                      : experiment.test == PhaseTest::order ? cold_by_order(state, bonds)
+                                                            : average.cold();
     last_solid = bonds.in_triangle(cold);
     const int count
         = static_cast<int>(std::count(last_solid.begin(), last_solid.end(), 1));

@@ -9,6 +9,12 @@
 
 namespace meltfront::particles::greenspan
 {
+  /** The steps begin + 1 to end of a run. */
+  struct RunStage
+  {
+    long begin, end;
+  };
+
   /** A melting of the report: what is heated, how and for how long. */
   struct Experiment
   {
@@ -19,6 +25,7 @@ namespace meltfront::particles::greenspan
     PhaseTest test = PhaseTest::average_speed;
     long interval = 100; ///< steps from one look at the particles to the next
     std::vector<std::uint32_t> corners; ///< particles whose last triangle is looked for
+    std::vector<RunStage> stages;       ///< whose structure is looked at
   };
 
   /** What one run of an experiment was like. Steps are -1 where a thing never happened.

@@ -133,6 +133,22 @@ namespace meltfront::particles::greenspan
     return state;
   }
 
+  ParticleState HexagonalLattice::close_packed_ball(double radius, double spacing)
+  {
+    const double cell = std::numbers::sqrt2 * spacing;
+    require_size(16. / 3 * std::numbers::pi * std::pow(radius / cell, 3), spacing);
+    const int half = static_cast<int>(std::ceil(radius / (cell / 2)));
+    ParticleState state;
+    state.dimension = 3;
+    for(int k = -half; k <= half; ++k)
+      for(int j = -half; j <= half; ++j)
+        for(int i = -half; i <= half; ++i)
+          if((i + j + k) % 2 == 0 && std::hypot(i, j, k) * cell / 2 <= radius)
+            state.add({i * cell / 2, j * cell / 2, k * cell / 2});
+    rest_on_base(state);
+    return state;
+  }
+
   double scaled_gravity(int rows)
   {
     return 32 * 7. / rows;

@@ -27,6 +27,10 @@ namespace meltfront::particles::greenspan
      */
     static ParticleState within(const cases::Outline &outline, double spacing);
 
+    /** All points of a cubic close packing within a radius of the centre, which is one of
+     * them, in space. */
+    static ParticleState close_packed_ball(double radius, double spacing);
+
     /** All points of a cubic close packing in a box of so many cells of four particles
      * along each side, in space. */
     static ParticleState close_packed_box(const std::array<int, 3> &cells,

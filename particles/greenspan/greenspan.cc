@@ -8,6 +8,7 @@
 #include <particles/greenspan/diagnostics.h>
 #include <particles/greenspan/greenspan.h>
 #include <particles/greenspan/scene_experiment.h>
+#include <particles/greenspan/structure.h>
 
 #include <fmt/format.h>
 
@@ -37,8 +38,20 @@ namespace meltfront::particles
                       : read_checkpoint(options.checkpoint, experiment))
         , motion(experiment.parameters, resumed ? resumed->state : experiment.start)
         , diagnostics(experiment)
-        , conserves_energy(!experiment.parameters.base && !experiment.parameters.source)
+        , balanced(!experiment.parameters.base && !experiment.parameters.source
+                   && experiment.parameters.drag == 0)
+        , conserves_energy(balanced && experiment.parameters.zones.empty()
+                           && !experiment.parameters.radiation)
       {
+        if(!experiment.stages.empty())
+          structure.emplace(experiment);
+        if(!options.checkpoint.empty()
+           && (structure || repeats(experiment.start.period)
+               || !experiment.parameters.zones.empty()
+               || experiment.parameters.radiation))
+          throw cases::Refusal("a checkpoint keeps neither what a bath and light have "
+                               "given nor the means of stages nor a cell; leave "
+                               "'checkpoint' empty");
         if(options.checkpoint_interval % experiment.interval != 0)
           throw cases::Refusal(fmt::format("checkpoint_interval = {} is no multiple of "
                                            "interval = {}",
@@ -59,7 +72,8 @@ namespace meltfront::particles
         };
         add("particles", static_cast<double>(motion.size()));
         add("work that breaks a bond", parameters.force.bond_work());
-        add("stable time step", parameters.force.stable_time_step(2));
+        add("stable time step",
+            parameters.force.stable_time_step(experiment.start.dimension));
         add("steps between looks", static_cast<double>(experiment.interval));
         return result;
       }
@@ -134,9 +148,13 @@ namespace meltfront::particles
       {
         state = motion.state();
         diagnostics.look(state);
-        if(conserves_energy)
-          energy_error = std::max(energy_error,
-                                  std::abs(motion.energy().total() - initial_energy));
+        if(conserves_energy || structure)
+        {
+          const double energy = motion.energy().total();
+          energy_error = std::max(energy_error, std::abs(energy - initial_energy));
+          if(structure)
+            structure->look(state, energy, diagnostics.solid());
+        }
         reached(motion.step(), time());
       }
 
@@ -160,7 +178,7 @@ namespace meltfront::particles
         snapshot.dimension = state.dimension;
         for(int d = 0; d < state.dimension; ++d)
         {
-          snapshot.positions[d] = state.position[d];
+          snapshot.positions[d] = place(d);
           snapshot.velocity[d] = state.velocity[d];
         }
         snapshot.weights = weights;
@@ -168,6 +186,20 @@ namespace meltfront::particles
         snapshot.solid_fraction = solid;
         snapshot.heat.conservative = false;
         return snapshot;
+      }
+
+      /** Coordinates, in a cell about where the start lay. */
+      std::span<const double> place(int d)
+      {
+        const double period = state.period[d];
+        if(period == 0)
+          return state.position[d];
+        const auto [lowest, highest] = std::ranges::minmax(experiment.start.position[d]);
+        const double edge = (lowest + highest - period) / 2;
+        in_cell[d].resize(state.size());
+        for(std::size_t i = 0; i < state.size(); ++i)
+          in_cell[d][i] = edge + wrapped(state.position[d][i] - edge, period);
+        return in_cell[d];
       }
 
       void tell_reported_scalars()
@@ -196,6 +228,11 @@ namespace meltfront::particles
                {"kinetic_energy_end", record.kinetic_energy}};
         for(const auto &[name, value] : counts)
           report(name, value);
+        tell_heat();
+        tell_extent();
+        if(structure)
+          for(const auto &[name, value] : structure->report())
+            report(name, value);
         if(experiment.parameters.temperatures)
           report("mean_temperature_end", record.mean_temperature);
         if(conserves_energy)
@@ -214,6 +251,43 @@ namespace meltfront::particles
                    std::ranges::find(fluid, particle) != fluid.end());
       }
 
+      /** What was given and whether the energy has it. */
+      void tell_heat()
+      {
+        const auto n = static_cast<double>(motion.size());
+        double given = 0;
+        if(!motion.zone_heat().empty())
+        {
+          given = motion.zone_heat().front();
+          report("heat_from_bath", given / n);
+        }
+        if(const auto &light = experiment.parameters.radiation)
+        {
+          given += motion.absorbed();
+          report("light_absorbed", motion.absorbed() / n);
+          report("light_caught", motion.absorbed() / (light->power * motion.time()));
+        }
+        if(balanced && !conserves_energy)
+          report("energy_defect",
+                 std::abs(motion.energy().total() - initial_energy - given)
+                     / std::max(std::abs(given),
+                                n * experiment.parameters.force.bond_work()));
+      }
+
+      /** How large a solid is that was made here. */
+      void tell_extent()
+      {
+        if(scene.particle_solid->arrangement == cases::SolidArrangement::table)
+          return;
+        const RunRecord &record = diagnostics.record();
+        report("width_end", record.highest_x - record.lowest_x);
+        report("height_end", std::ranges::max(state.position[1]));
+        const auto [shortest, longest]
+            = bond_lengths(state, BondGraph(state, experiment.parameters.force.cutoff));
+        report("shortest_bond_end", shortest);
+        report("longest_bond_end", longest);
+      }
+
       const cases::Scene &scene;
       const cases::EffectSet &effects;
       Experiment experiment;
@@ -221,11 +295,14 @@ namespace meltfront::particles
       std::optional<Checkpoint> resumed;
       Motion motion;
       Diagnostics diagnostics;
+      std::optional<Structure> structure;
+      bool balanced; ///< what the energy changes by is known
       bool conserves_energy;
       double initial_energy = 0;
       double energy_error = 0;
       ParticleState state; ///< at the last look
       std::vector<double> weights, solid, temperature;
+      std::array<std::vector<double>, 3> in_cell;
     };
 
     class Greenspan : public cases::Method
@@ -244,7 +321,8 @@ namespace meltfront::particles
         return {{.form = "as a solid of particles",
                  .problems = {cases::ProblemKind::particle_solid},
                  .effects = {Effect::gravity, Effect::base, Effect::hot_base,
-                             Effect::point_heating},
+                             Effect::point_heating, Effect::drag, Effect::heat_bath,
+                             Effect::light},
                  .most_threads = cases::any_number_of_threads},
                 {.form = "as a bar that conducts heat",
                  .needs_particle_solid = true,

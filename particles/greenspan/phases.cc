@@ -70,6 +70,15 @@ namespace meltfront::particles::greenspan
     return result;
   }
 
+  Cold cold_by_order(const ParticleState &state, const BondGraph &bonds)
+  {
+    constexpr double least_order = 0.5;
+    Cold result;
+    for(const double order : order_of_surroundings(state, bonds))
+      result.push_back(order > least_order);
+    return result;
+  }
+
   Cold cold_by_temperature(const ParticleState &state)
   {
     Cold result;

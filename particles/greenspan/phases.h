@@ -14,7 +14,8 @@ namespace meltfront::particles::greenspan
   enum class PhaseTest
   {
     average_speed, ///< section 4: no faster on average than 7.5
-    temperature    ///< section 5: mean kinetic energy since the start below 25
+    temperature,   ///< section 5: mean kinetic energy since the start below 25
+    order          ///< partners about it as in a crystal, see cold_by_order()
   };
 
   inline constexpr double critical_speed = 7.5, critical_temperature = 25;
@@ -69,6 +70,11 @@ namespace meltfront::particles::greenspan
 
   /** Particles with a temperature below 25. */
   Cold cold_by_temperature(const ParticleState &state);
+
+  /** Particles of the plane for which psi_6, averaged over them and their partners
+   * (Lechner and Dellago 2008), is larger than a half: it is about 0.75 in a crystal near
+   * its melting point, whatever its orientation, and below 0.4 in its liquid. */
+  Cold cold_by_order(const ParticleState &state, const BondGraph &bonds);
 } // namespace meltfront::particles::greenspan
 
 #endif

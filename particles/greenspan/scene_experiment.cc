@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace meltfront::particles::greenspan
 {
@@ -36,6 +39,29 @@ namespace meltfront::particles::greenspan
       return source;
     }
 
+    /** The bath as one over all of space, whose heat is counted. */
+    BathZone bath_of(const cases::HeatBath &given, double time_step, std::uint64_t seed)
+    {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      BathZone zone{-infinity, infinity, {}};
+      zone.bath.rate = given.rate;
+      zone.bath.seed = seed;
+      for(std::size_t k = 0; k < given.times.size(); ++k)
+        zone.bath.course.push_back(
+            {std::lround(given.times[k] / time_step), given.temperatures[k]});
+      return zone;
+    }
+
+    Radiation radiation_of(const cases::Light &given)
+    {
+      Radiation radiation;
+      radiation.parallel = given.parallel;
+      (given.parallel ? radiation.direction : radiation.position) = given.at;
+      radiation.power = given.power;
+      radiation.radius = given.radius;
+      return radiation;
+    }
+
     MotionParameters parameters_of(const cases::ParticleSolid &solid,
                                    const cases::Resolution &resolution)
     {
@@ -49,10 +75,15 @@ namespace meltfront::particles::greenspan
                              "model; leave it 1");
       parameters.time_step = factor * solid.time_step;
       parameters.gravity = solid.gravity;
+      parameters.drag = solid.drag;
       if(solid.base)
         parameters.base = base_of(*solid.base);
       if(solid.heating)
         parameters.source = source_of(*solid.heating);
+      if(solid.bath)
+        parameters.zones = {bath_of(*solid.bath, parameters.time_step, resolution.seed)};
+      if(solid.light)
+        parameters.radiation = radiation_of(*solid.light);
       parameters.temperatures = solid.test == cases::SolidTest::temperature;
       parameters.skin = options.skin;
       parameters.search = options.search;
@@ -72,7 +103,7 @@ namespace meltfront::particles::greenspan
       const ParticleState lattice
           = triangle ? HexagonalLattice::triangle(resolution.n, spacing)
                      : HexagonalLattice::rectangle(resolution.n, rows, spacing);
-      if(!solid.base)
+      if(!solid.base || !solid.settled)
         return lattice;
       Relaxation relaxation = Relaxation::for_rows(force, rows);
       relaxation.gravity = solid.gravity;
@@ -81,18 +112,65 @@ namespace meltfront::particles::greenspan
       return relax_on_base(lattice, relaxation).state;
     }
 
+    ParticleState table_of(const cases::ParticleSolid &solid, int n)
+    {
+      ParticleState state
+          = read_table(solid.table, solid.errata ? Errata::applied : Errata::as_printed);
+      if(static_cast<std::size_t>(n) != state.size())
+        throw cases::Refusal(
+            fmt::format("table {} has {} particles: n must be {}, not {}", solid.table,
+                        state.size(), state.size(), n));
+      return state;
+    }
+
+    /** Where the particles are at the start. */
+    ParticleState places_of(const cases::ParticleSolid &solid,
+                            const cases::Resolution &resolution, const PairForce &force)
+    {
+      using cases::SolidArrangement;
+      const int n = resolution.n;
+      const double spacing = force.equilibrium_distance(), radius = n * spacing / 2;
+      switch(solid.arrangement)
+      {
+      case SolidArrangement::table:
+        return table_of(solid, n);
+      case SolidArrangement::disk:
+        return HexagonalLattice::disk(radius, spacing);
+      case SolidArrangement::outline:
+        return HexagonalLattice::within(
+            cases::Outline([&](double phi) { return radius * solid.outline(phi); },
+                           {0, 0}),
+            spacing);
+      case SolidArrangement::block:
+        return HexagonalLattice::close_packed_box({n, n, n}, spacing);
+      case SolidArrangement::ball:
+        return HexagonalLattice::close_packed_ball(radius, spacing);
+      default:
+        return laid_to_rest(solid, resolution, force);
+      }
+    }
+
     ParticleState start_of(const cases::ParticleSolid &solid,
                            const cases::Resolution &resolution, const PairForce &force)
     {
-      if(solid.arrangement != cases::SolidArrangement::table)
-        return laid_to_rest(solid, resolution, force);
-      ParticleState state
-          = read_table(solid.table, solid.errata ? Errata::applied : Errata::as_printed);
-      if(static_cast<std::size_t>(resolution.n) != state.size())
-        throw cases::Refusal(
-            fmt::format("table {} has {} particles: n must be {}, not {}", solid.table,
-                        state.size(), state.size(), resolution.n));
+      ParticleState state = places_of(solid, resolution, force);
+      if(solid.initial_temperature > 0)
+        set_temperature(state, solid.initial_temperature, resolution.seed);
+      std::ranges::copy(solid.cell, state.period.begin());
       return state;
+    }
+
+    std::vector<RunStage> stages_of(const cases::Scene &scene, double time_step)
+    {
+      std::vector<RunStage> stages;
+      long begin = 0;
+      for(const double time : scene.particle_solid->stages)
+      {
+        const long end = std::lround((time - scene.start_time) / time_step);
+        stages.push_back({begin, end});
+        begin = end;
+      }
+      return stages;
     }
   } // namespace
 
@@ -104,6 +182,7 @@ namespace meltfront::particles::greenspan
     force.attraction_exponent = law.attraction_exponent;
     force.repulsion_exponent = law.repulsion_exponent;
     force.cutoff = law.cutoff;
+    force.shifted = law.shifted;
     return force;
   }
 
@@ -128,24 +207,43 @@ namespace meltfront::particles::greenspan
                 1e9);
   }
 
+  double particles_of(const cases::ParticleSolid &solid, int n)
+  {
+    using cases::SolidArrangement;
+    const double across = n;
+    switch(solid.arrangement)
+    {
+    case SolidArrangement::table:
+      return across;
+    case SolidArrangement::triangle:
+      return across * (across + 1) / 2;
+    case SolidArrangement::disk:
+    case SolidArrangement::outline: // of the area of its disk, or so
+      return std::numbers::pi / 4 * across * across / std::sqrt(0.75);
+    case SolidArrangement::block:
+      return 4 * std::pow(across, 3);
+    case SolidArrangement::ball:
+      return std::numbers::pi / 6 * std::pow(across, 3) * std::numbers::sqrt2;
+    default:
+      return across * solid.rows;
+    }
+  }
+
   cases::Demand solid_demand(const cases::Scene &scene,
                              const cases::Resolution &resolution)
   {
-    using cases::SolidArrangement;
     // Neighbours stand in rows as they are found, by name and in slices; among all pairs
     // there is room for a row of everything first.
     constexpr double per_particle = 300, per_neighbour = 12, of_pair = 4;
     const cases::ParticleSolid &solid = *scene.particle_solid;
     const bool bar = scene.problem == cases::ProblemKind::stefan;
     const auto options = cases::read_options(SolidOptions(), resolution.options);
-    const double n = resolution.n;
-    const double particles = solid.arrangement == SolidArrangement::table ? n
-                             : solid.arrangement == SolidArrangement::triangle
-                                 ? n * (n + 1) / 2
-                                 : n * solid.rows;
+    const double particles = particles_of(solid, resolution.n);
+    const bool space = solid.dimension() == 3;
     const double reach
         = (solid.law.cutoff + options.skin) / force_of(solid.law).equilibrium_distance();
-    const double neighbours = cases::points_within(2, reach) * std::sqrt(4. / 3);
+    const double neighbours = space ? cases::points_within(3, reach) * std::sqrt(2.)
+                                    : cases::points_within(2, reach) * std::sqrt(4. / 3);
     const bool all_pairs = !bar && options.search == NeighbourRows::Search::among_all;
     const double step = solid.time_step * (bar ? 1 : options.step_factor);
     return {cases::program_bytes
@@ -164,12 +262,15 @@ namespace meltfront::particles::greenspan
     experiment.start = start_of(solid, resolution, experiment.parameters.force);
     if(solid.disturbance > 0)
       disturb(experiment.start, solid.disturbance, resolution.seed);
+    experiment.stages = stages_of(scene, experiment.parameters.time_step);
     experiment.steps = std::lround((scene.end_time - scene.start_time)
                                    / experiment.parameters.time_step);
     experiment.interval
         = cases::read_options(SolidOptions(), resolution.options).interval;
     if(solid.test == cases::SolidTest::temperature)
       experiment.test = PhaseTest::temperature;
+    if(solid.test == cases::SolidTest::order)
+      experiment.test = PhaseTest::order;
     for(const int corner : solid.corners)
     {
       if(static_cast<std::size_t>(corner) > experiment.start.size())

@@ -24,6 +24,10 @@ namespace meltfront::particles::greenspan
   /** The force of a scene's particles. */
   PairForce force_of(const cases::PairLaw &law);
 
+  /** Number of particles of a solid or a bar, but for those at the edge of a round one.
+   */
+  double particles_of(const cases::ParticleSolid &solid, int n);
+
   /** What a run of a solid of particles or of a bar takes. */
   cases::Demand solid_demand(const cases::Scene &scene,
                              const cases::Resolution &resolution);
@@ -32,8 +36,10 @@ namespace meltfront::particles::greenspan
    * The experiment that a scene of the kind `particle solid` describes.
    *
    * The resolution's n is checked against a table's number of particles, or makes a
-   * triangle or a rectangle with so many particles on its base, laid to rest there; the
-   * seed disturbs what the scene lets it disturb.
+   * triangle or a rectangle with so many particles on its base, laid to rest there if the
+   * scene does not leave that to the run; a disk, an outline or a ball of about n
+   * spacings, or a block of n cells along each side. The seed disturbs what the scene
+   * lets it disturb and chooses the velocities and the bath's noise.
    *
    * @throws Refusal if n does not fit, or if the time step is to be scaled where base or
    * source act once per step

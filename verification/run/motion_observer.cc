@@ -32,8 +32,52 @@ namespace meltfront::verification
       return result;
     }
 
+    /** Particles of space as they are seen from the front, a little from the right and
+     * from above; the farthest come first. */
+    ParticleFrame view_of(const cases::Snapshot &snapshot)
+    {
+      constexpr double turn = 0.5, tilt = 0.35; // radians
+      const std::size_t n = snapshot.positions[0].size();
+      std::vector<double> depth(n);
+      const auto seen = [&](const auto &vector, std::size_t i)
+      {
+        const double x = vector[0][i], y = vector[1][i], z = vector[2][i];
+        const double across = std::cos(turn) * x - std::sin(turn) * z,
+                     along = std::sin(turn) * x + std::cos(turn) * z;
+        return cases::Position{across, std::cos(tilt) * y - std::sin(tilt) * along,
+                               std::sin(tilt) * y + std::cos(tilt) * along};
+      };
+      std::vector<std::size_t> order(n);
+      std::iota(order.begin(), order.end(), 0);
+      for(std::size_t i = 0; i < n; ++i)
+        depth[i] = seen(snapshot.positions, i)[2];
+      std::ranges::stable_sort(order, {}, [&depth](std::size_t i) { return depth[i]; });
+      std::array<std::vector<double>, 4> values;
+      std::vector<double> solid;
+      for(const std::size_t i : order)
+      {
+        const cases::Position place = seen(snapshot.positions, i),
+                              velocity = seen(snapshot.velocity, i);
+        for(std::size_t d = 0; d < 2; ++d)
+        {
+          values[d].push_back(place[d]);
+          values[2 + d].push_back(velocity[d]);
+        }
+        solid.push_back(snapshot.solid_fraction[i]);
+      }
+      return {snapshot.time,
+              snapshot.step,
+              rounded(values[0]),
+              rounded(values[1]),
+              rounded(values[2]),
+              rounded(values[3]),
+              solid};
+    }
+
     ParticleFrame frame_of(const cases::Snapshot &snapshot)
     {
+      if(snapshot.dimension == 3)
+        return view_of(snapshot);
       return {snapshot.time,
               snapshot.step,
               rounded(snapshot.positions[0]),
@@ -135,8 +179,6 @@ namespace meltfront::verification
         keep_front(snapshot);
       return;
     }
-    if(snapshot.dimension != 2)
-      return;
     if(!particle_frames.empty() && particle_frames.back().step == snapshot.step)
       return; // an intermediate time at the end
     particle_frames.push_back(frame_of(snapshot));
@@ -148,7 +190,7 @@ namespace meltfront::verification
       return;
     while(picture_is_due(snapshot.time))
       ++next_picture;
-    if(snapshot.dimension == 2 && snapshot.positions[0].size() <= most_animated)
+    if(snapshot.positions[0].size() <= most_animated)
       animation.push_back(frame_of(snapshot));
   }
 

@@ -108,7 +108,7 @@ TEST(ParticleSolidCase, CallsForItsOwnEffectsOnly)
 {
   const Case c = read_case_text(particle_scene, "x.prm");
   const EffectSet effects = effects_called_for(c.scene);
-  EXPECT_EQ(effects.decisions().size(), 4u);
+  EXPECT_EQ(effects.decisions().size(), 7u);
   EXPECT_TRUE(effects.contains(Effect::gravity));
   EXPECT_TRUE(effects.contains(Effect::point_heating));
   EXPECT_FALSE(effects.contains(Effect::hot_base));
@@ -136,6 +136,75 @@ TEST(ParticleSolidCase, SaysWhatIsWrong)
                             "  set end time = 10\n  subsection Material\n    set latent "
                             "heat = 1\n  end\n"),
                    "has no meaning where the problem is 'particle solid'");
+}
+
+TEST(ParticleSolidCase, ReadsBathsLightCellsAndStages)
+{
+  const std::string open = "    set gravity = 32\n";
+  const std::string in_a_bath = replaced(
+      replaced(particle_scene, "table 1",
+               "outline\n    set outline = 1 + 0.2*cos(3*phi)"),
+      open,
+      "    set initial temperature = 20\n    set drag = 2\n    set stages = 4, 10\n"
+      "    subsection Bath\n      set temperatures = 50, 10\n      set times = 0, 5\n"
+      "    end\n    subsection Light\n      set direction = 0, -2\n      set power = 3\n"
+      "    end\n");
+  const Case c = read_case_text(in_a_bath, "x.prm");
+  const ParticleSolid &solid = *c.scene.particle_solid;
+  EXPECT_EQ(solid.arrangement, SolidArrangement::outline);
+  EXPECT_NEAR(solid.outline(0), 1.2, 1e-15);
+  EXPECT_EQ(solid.initial_temperature, 20);
+  EXPECT_EQ(solid.stages, (std::vector<double>{4, 10}));
+  ASSERT_TRUE(solid.bath && solid.light);
+  EXPECT_EQ(solid.bath->temperatures, (std::vector<double>{50, 10}));
+  EXPECT_TRUE(solid.light->parallel);
+  EXPECT_EQ(solid.light->at, (Position{0, -2, 0}));
+  const EffectSet effects = effects_called_for(c.scene);
+  for(const Effect effect : {Effect::drag, Effect::heat_bath, Effect::light})
+    EXPECT_TRUE(effects.contains(effect)) << to_string(effect);
+  const Case off = read_case_text(in_a_bath
+                                      + "subsection Effects\n set light = off\n set "
+                                        "heat_bath = off\n set drag = off\nend\n",
+                                  "x.prm");
+  const Scene dark = simulated_scene(off.scene, effects_called_for(off.scene));
+  EXPECT_FALSE(dark.particle_solid->light || dark.particle_solid->bath
+               || dark.particle_solid->drag > 0);
+
+  expect_complaint(replaced(in_a_bath, "times = 0, 5", "times = 0, 5, 6"),
+                   "a time for each of the 2 temperatures");
+  expect_complaint(replaced(in_a_bath, "times = 0, 5", "times = 1, 5"), "begin with 0");
+  expect_complaint(replaced(in_a_bath, "times = 0, 5", "times = 0, 0"), "ascend");
+  expect_complaint(replaced(in_a_bath, "set direction = 0, -2\n", ""),
+                   "one of 'position'");
+  expect_complaint(replaced(in_a_bath, "direction = 0, -2", "direction = 0, 0"),
+                   "no length");
+  expect_complaint(replaced(in_a_bath, "stages = 4, 10", "stages = 4, 11"),
+                   "after the end time");
+  expect_complaint(replaced(in_a_bath, "set drag = 2", "set cell = 40, 0"),
+                   "open space only");
+  expect_complaint(replaced(in_a_bath, "cos(3*phi)", "2*cos(3*phi)*3"), "outline");
+  expect_complaint(
+      replaced(in_a_bath, "outline = 1", "settled = false\n    set outline = 1"),
+      "laid to rest");
+}
+
+TEST(ParticleSolidCase, ReadsSolidsOfSpace)
+{
+  const std::string ball
+      = replaced(replaced(particle_scene, "table 1", "ball"), "    set gravity = 32\n",
+                 "    set cell = 40, 0, 40\n    set shifted = true\n");
+  const Case c = read_case_text(ball, "x.prm");
+  EXPECT_EQ(c.scene.domain.dimension, 3);
+  EXPECT_EQ(c.scene.particle_solid->dimension(), 3);
+  EXPECT_TRUE(c.scene.particle_solid->law.shifted);
+  EXPECT_EQ(c.scene.particle_solid->cell, (std::vector<double>{40, 0, 40}));
+  expect_complaint(replaced(ball, "cell = 40, 0, 40", "cell = 40, 0"), "3 lengths");
+  expect_complaint(replaced(ball, "cell = 40, 0, 40", "cell = 40, 40, 40"),
+                   "across the base");
+  expect_complaint(replaced(ball, "set shifted = true", "set phase test = order"),
+                   "crystals of the plane only");
+  expect_complaint(replaced(ball, "ball", "table 1\n    set initial temperature = 3"),
+                   "a table holds");
 }
 
 TEST(InterfaceCase, IsRead)

@@ -85,12 +85,41 @@ namespace meltfront::particles::greenspan
     return in_triangle(std::vector<char>(size(), 1));
   }
 
+  std::pair<double, double> bond_lengths(const ParticleState &state,
+                                         const BondGraph &bonds)
+  {
+    double shortest = std::nan(""), longest = shortest;
+    for(std::size_t a = 0; a < bonds.size(); ++a)
+      for(const std::uint32_t b : bonds[a])
+      {
+        const double length = distance(state, a, b);
+        shortest = std::fmin(shortest, length);
+        longest = std::fmax(longest, length);
+      }
+    return {shortest, longest};
+  }
+
   double hexatic_order(const ParticleState &state, const BondGraph &bonds)
   {
     double sum = 0;
     for(const std::complex<double> &psi : sixfold_order(state, bonds))
       sum += std::abs(psi);
     return sum / static_cast<double>(bonds.size());
+  }
+
+  std::vector<double> order_of_surroundings(const ParticleState &state,
+                                            const BondGraph &bonds)
+  {
+    const std::vector<std::complex<double>> psi = sixfold_order(state, bonds);
+    std::vector<double> result;
+    for(std::size_t a = 0; a < psi.size(); ++a)
+    {
+      std::complex<double> sum = psi[a];
+      for(const std::uint32_t b : bonds[a])
+        sum += psi[b];
+      result.push_back(std::abs(sum) / static_cast<double>(1 + bonds[a].size()));
+    }
+    return result;
   }
 
   std::vector<double> lattice_order(const ParticleState &state, const BondGraph &bonds)

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace meltfront::particles::greenspan
@@ -60,12 +61,20 @@ namespace meltfront::particles::greenspan
     FoundRows found;
   };
 
+  /** The length of the shortest bond and of the longest one; NaN where there is none. */
+  std::pair<double, double> bond_lengths(const ParticleState &state,
+                                         const BondGraph &bonds);
+
   /**
    * Mean over all particles of the plane of |psi_6|, psi_6 the mean of exp(6 i angle)
    * over the directions to a particle's partners: 1 in a hexagonal crystal, whatever its
    * orientation; particles without partners count as 0.
    */
   double hexatic_order(const ParticleState &state, const BondGraph &bonds);
+
+  /** |psi_6| of each particle of the plane, psi_6 averaged over it and its partners. */
+  std::vector<double> order_of_surroundings(const ParticleState &state,
+                                            const BondGraph &bonds);
 
   /**
    * Real part of psi_6 of each particle of the plane: 1 in a hexagonal crystal with rows

@@ -119,6 +119,13 @@ namespace meltfront::particles::greenspan
       double squared_cutoff;
     };
 
+    template <int dimension, typename Powers, typename Space>
+    std::unique_ptr<ForceSweep> make_shifted(const PairForce &force, const Period &period)
+    {
+      return std::make_unique<PairSweep<dimension, ShiftedPowers<Powers>, Space>>(force,
+                                                                                  period);
+    }
+
     template <int dimension, typename Space>
     std::unique_ptr<ForceSweep> make(const PairForce &force, const Period &period)
     {
@@ -127,6 +134,10 @@ namespace meltfront::particles::greenspan
         return force.compiled_exponents && force.repulsion_exponent == alpha
                && force.attraction_exponent == beta;
       };
+      if(force.shifted)
+        return is(6, 4)
+                   ? make_shifted<dimension, CompiledPowers<6, 4>, Space>(force, period)
+                   : make_shifted<dimension, GeneralPowers, Space>(force, period);
       if(is(6, 4))
         return std::make_unique<PairSweep<dimension, CompiledPowers<6, 4>, Space>>(
             force, period);

@@ -219,7 +219,7 @@ namespace meltfront::particles::greenspan
     ++steps_taken;
     move();
     if(given.radiation && steps_taken % given.radiation->interval == 0)
-      irradiate();
+      light_meter.measure([this] { irradiate(); });
     if(2 * travelled > given.skin)
       update_lists();
     const double left = std::exp(-given.drag * given.time_step);

@@ -185,7 +185,7 @@ namespace meltfront::particles::greenspan
     double furthest_in_a_step = 0;       ///< allowed
     double all_bonds = 0; ///< work that breaks all bonds of a perfect crystal
     /** Of the first block, which one thread sweeps, or of all particles for baths. */
-    cases::EffectMeter base_meter, source_meter, zone_meter;
+    cases::EffectMeter base_meter, source_meter, zone_meter, light_meter;
   };
 } // namespace meltfront::particles::greenspan
 

@@ -47,11 +47,8 @@ namespace meltfront::particles::greenspan
       }
     }
 
-    void validate(const Radiation &radiation, int dimension)
+    void validate(const Radiation &radiation)
     {
-      if(dimension != 2)
-        throw cases::InputError("shadows are known in the plane only; in space heat with "
-                                "a base, a thermostat or a heat source");
       require(std::isfinite(radiation.power) && radiation.power >= 0,
               "the power of radiation", radiation.power, "zero or more");
       require(radiation.radius >= 0 && std::isfinite(radiation.radius),
@@ -70,11 +67,34 @@ namespace meltfront::particles::greenspan
               double(thermostat.steps), "one step or more");
       require(thermostat.rate > 0 && std::isfinite(thermostat.rate),
               "the rate of the thermostat", thermostat.rate, "positive");
+      long before = -1;
+      for(const Thermostat::Moment &moment : thermostat.course)
+      {
+        require(moment.temperature >= 0 && std::isfinite(moment.temperature),
+                "a temperature of the thermostat", moment.temperature, "zero or more");
+        require(moment.step > before, "a step of the thermostat's course",
+                double(moment.step), "later than the one before");
+        before = moment.step;
+      }
     }
   } // namespace
 
   double Thermostat::temperature(long step) const
   {
+    if(!course.empty())
+    {
+      const auto next = std::ranges::find_if(course, [step](const Moment &moment)
+                                             { return moment.step > step; });
+      if(next == course.begin())
+        return course.front().temperature;
+      if(next == course.end())
+        return course.back().temperature;
+      const Moment &last = *std::prev(next);
+      return last.temperature
+             + (next->temperature - last.temperature)
+                   * static_cast<double>(step - last.step)
+                   / static_cast<double>(next->step - last.step);
+    }
     const double share
         = std::clamp(static_cast<double>(step) / static_cast<double>(steps), 0., 1.);
     return first_temperature + share * (last_temperature - first_temperature);
@@ -112,7 +132,7 @@ namespace meltfront::particles::greenspan
     if(source)
       greenspan::validate(*source);
     if(radiation)
-      greenspan::validate(*radiation, dimension);
+      greenspan::validate(*radiation);
     if(thermostat)
       greenspan::validate(*thermostat);
     for(const BathZone &zone : zones)

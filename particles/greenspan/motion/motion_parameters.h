@@ -46,8 +46,8 @@ namespace meltfront::particles::greenspan
 
   /**
    * Light that heats what it reaches (section 6 of the report names it as work to come):
-   * a particle of which no other hides the source receives energy, in the plane only.
-   * Each `interval` steps the kinetic energy of a particle grows by what it caught.
+   * a particle of which no other hides the source receives energy. Each `interval` steps
+   * the kinetic energy of a particle grows by what it caught.
    */
   struct Radiation
   {
@@ -55,6 +55,7 @@ namespace meltfront::particles::greenspan
     std::array<double, 3> position{};
     std::array<double, 3> direction{0, -1, 0};
     double power = 0;  ///< energy per time: of the point all around, of rays per width
+                       ///< of the plane or area of space
     double radius = 0; ///< of the particles; 0: half of the equilibrium distance
     long interval = 20;
   };
@@ -71,6 +72,16 @@ namespace meltfront::particles::greenspan
     long steps = 1;  ///< after which the last temperature holds
     double rate = 1; ///< per unit of time
     std::uint64_t seed = 1;
+
+    /** A temperature at a step. */
+    struct Moment
+    {
+      long step;
+      double temperature;
+    };
+    /** Where not empty: temperatures at ascending steps, linear between them, in place of
+     * the first and the last. */
+    std::vector<Moment> course{};
 
     double temperature(long step) const;
   };

@@ -136,7 +136,10 @@ namespace meltfront::particles::greenspan
       return of_all(base_meter);
     case cases::Effect::point_heating:
       return of_all(source_meter);
+    case cases::Effect::light:
+      return light_meter.cost(effect, 0);
     case cases::Effect::wall_temperature:
+    case cases::Effect::heat_bath:
       return zone_meter.cost(effect, heat_of_zones.size() * sizeof(double));
     default:
       return {effect, steps_taken, 0, 0};

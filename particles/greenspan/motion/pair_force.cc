@@ -14,7 +14,7 @@ namespace meltfront::particles::greenspan
     {
       const double a = force.repulsion_exponent - 1, b = force.attraction_exponent - 1;
       return force.repulsion / a * std::pow(r, -a)
-             - force.attraction / b * std::pow(r, -b);
+             - force.attraction / b * std::pow(r, -b) + force.shift() * r;
     }
   } // namespace
 
@@ -54,10 +54,17 @@ namespace meltfront::particles::greenspan
                       cutoff, equilibrium_distance()));
   }
 
+  double PairForce::shift() const
+  {
+    return shifted ? repulsion * std::pow(cutoff, -repulsion_exponent)
+                         - attraction * std::pow(cutoff, -attraction_exponent)
+                   : 0;
+  }
+
   double PairForce::magnitude(double r) const
   {
     return repulsion * std::pow(r, -repulsion_exponent)
-           - attraction * std::pow(r, -attraction_exponent);
+           - attraction * std::pow(r, -attraction_exponent) - shift();
   }
 
   double PairForce::potential(double r) const
@@ -67,8 +74,21 @@ namespace meltfront::particles::greenspan
 
   double PairForce::equilibrium_distance() const
   {
-    return std::pow(repulsion / attraction,
-                    1 / (repulsion_exponent - attraction_exponent));
+    const double difference = repulsion_exponent - attraction_exponent;
+    const double unshifted = std::pow(repulsion / attraction, 1 / difference);
+    if(!shifted)
+      return unshifted;
+    // From there to where it draws hardest the force falls.
+    constexpr int halvings = 60;
+    double below = unshifted,
+           above = unshifted
+                   * std::pow(repulsion_exponent / attraction_exponent, 1 / difference);
+    for(int halving = 0; halving < halvings; ++halving)
+    {
+      const double middle = (below + above) / 2;
+      (magnitude(middle) > 0 ? below : above) = middle;
+    }
+    return (below + above) / 2;
   }
 
   double PairForce::stiffness() const

@@ -19,6 +19,7 @@ namespace meltfront::particles::greenspan
     double attraction_exponent = 4; ///< beta
     double repulsion_exponent = 6;  ///< alpha > beta > 1
     double cutoff = 1.5;            ///< a pair acts up to this distance, inclusive
+    bool shifted = false;           ///< f less its value at the cutoff: no jump there
     bool compiled_exponents = true; ///< false: always take the general powers
 
     bool operator==(const PairForce &) const = default;
@@ -32,6 +33,9 @@ namespace meltfront::particles::greenspan
     /** @throws cases::InputError for parameters that bind no pair. */
     void validate() const;
 
+    /** What is taken from the force: its value at the cutoff if it is shifted, else 0. */
+    double shift() const;
+
     /** f(r), whatever the cutoff. */
     double magnitude(double distance) const;
 
@@ -41,7 +45,7 @@ namespace meltfront::particles::greenspan
      */
     double potential(double distance) const;
 
-    /** Where f = 0: (H/G)^(1/(alpha - beta)). */
+    /** Where f = 0: at (H/G)^(1/(alpha - beta)), and farther out if it is shifted. */
     double equilibrium_distance() const;
 
     /** -f'(r) at the equilibrium distance. */

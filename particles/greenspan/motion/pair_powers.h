@@ -55,6 +55,27 @@ namespace meltfront::particles::greenspan
     double attraction, repulsion;
   };
 
+  /** f(r) / r of a force that is shifted to zero at its cutoff. */
+  template <typename Powers>
+  class ShiftedPowers
+  {
+  public:
+    explicit ShiftedPowers(const PairForce &force)
+      : powers(force)
+      , shift(force.shift())
+    {
+    }
+
+    double operator()(double squared_distance) const
+    {
+      return powers(squared_distance) - shift / std::sqrt(squared_distance);
+    }
+
+  private:
+    Powers powers;
+    double shift;
+  };
+
   /** f(r) / r with any exponents. */
   class GeneralPowers
   {

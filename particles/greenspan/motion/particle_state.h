@@ -42,6 +42,19 @@ namespace meltfront::particles::greenspan
       }
     }
   };
+
+  /** From a particle to the nearest image of another one. */
+  inline double distance(const ParticleState &state, std::size_t a, std::size_t b)
+  {
+    double squared = 0;
+    for(int d = 0; d < state.dimension; ++d)
+    {
+      const double way
+          = NearestImage(state.period[d])(state.position[d][a] - state.position[d][b]);
+      squared += way * way;
+    }
+    return std::sqrt(squared);
+  }
 } // namespace meltfront::particles::greenspan
 
 #endif

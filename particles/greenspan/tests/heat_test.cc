@@ -273,8 +273,42 @@ namespace meltfront::particles::greenspan
       cells.advance(600);
       EXPECT_EQ(all.state().position, cells.state().position);
       EXPECT_GT(cells.list_builds(), 2);
-      parameters.radiation = Radiation{};
-      EXPECT_THROW(Motion(parameters, start), cases::InputError);
+    }
+
+    TEST(GreenspanSpace, LightGivesTheEnergyThatItsShadowsLeave)
+    {
+      const PairForce force;
+      ParticleState ball
+          = HexagonalLattice::close_packed_ball(4, force.equilibrium_distance());
+      set_temperature(ball, 4, 2);
+      MotionParameters parameters;
+      parameters.force.cutoff = 1.3;
+      parameters.gravity = 0;
+      parameters.radiation = Radiation{.parallel = true, .power = 40};
+      Motion motion(parameters, ball);
+      const double before = motion.energy().total();
+      motion.advance(1000);
+      EXPECT_NEAR(motion.energy().total() - before, motion.absorbed(),
+                  0.02 * motion.absorbed());
+      // The ball's shadow: its disk, less what passes through gaps at the rim.
+      const double radius = 4 + force.equilibrium_distance() / 2;
+      const double caught = motion.absorbed() / (40 * motion.time());
+      EXPECT_LT(caught, std::numbers::pi * radius * radius);
+      EXPECT_GT(caught, 0.8 * std::numbers::pi * radius * radius);
+    }
+
+    TEST(GreenspanThermostat, FollowsACourse)
+    {
+      Thermostat bath;
+      bath.course = {{0, 50}, {100, 50}, {200, 10}};
+      EXPECT_EQ(bath.temperature(0), 50);
+      EXPECT_EQ(bath.temperature(60), 50);
+      EXPECT_EQ(bath.temperature(150), 30);
+      EXPECT_EQ(bath.temperature(1000), 10);
+      MotionParameters parameters;
+      bath.course = {{100, 50}, {100, 10}};
+      parameters.thermostat = bath;
+      EXPECT_THROW(parameters.validate(2), cases::InputError);
     }
   } // namespace
 } // namespace meltfront::particles::greenspan

@@ -112,9 +112,9 @@ namespace meltfront::verification::external
         if(!complaint(one).empty())
           effects.push_back(cases::to_string(effect));
       }
-      EXPECT_EQ(effects, (std::vector<std::string>{"solute", "solute_diffusion",
-                                                   "eutectic", "gravity", "base",
-                                                   "hot_base", "point_heating"}));
+      EXPECT_EQ(effects, (std::vector<std::string>{
+                             "solute", "solute_diffusion", "eutectic", "gravity", "base",
+                             "hot_base", "point_heating", "drag", "heat_bath", "light"}));
       for(std::size_t i = 0; i < cases::n_boundary_kinds; ++i)
       {
         json one = tests::manifest_of("well");

@@ -32,6 +32,13 @@ namespace meltfront::verification
                         "points: fluid ones, with an arrow where they move faster than "
                         "7.5 at that moment.",
                         run.label, run.n, run.seed, plain_number(solid.law.cutoff, 4));
+      if(solid.dimension() == 3)
+        words = fmt::format("{}, n = {}, seed {}, seen from the front, a little from the "
+                            "right and from above.",
+                            run.label, run.n, run.seed);
+      if(solid.light && solid.dimension() == 2)
+        words += solid.light->parallel ? " Dashed: the light's direction."
+                                       : " Star: where light comes from.";
       if(solid.heating)
         words += " Star: the source; dashed: how far it reaches.";
       if(solid.base && solid.base->hot)

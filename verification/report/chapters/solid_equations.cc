@@ -5,6 +5,7 @@
 #include <verification/report/page/number_text.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -91,11 +92,74 @@ namespace meltfront::verification
         return fmt::format("table {} of the report, {}", solid.table,
                            solid.errata ? "its misprints put right" : "as printed");
       case cases::SolidArrangement::triangle:
-        return "a triangle of rows that become shorter upwards, at rest";
+        return solid.settled ? "a triangle of rows that become shorter upwards, at rest"
+                             : "a triangle of rows that become shorter upwards, as a "
+                               "lattice";
       case cases::SolidArrangement::rectangle:
-        return fmt::format("{} rows of a rectangle, at rest", solid.rows);
+        return fmt::format("{} rows of a rectangle, {}", solid.rows,
+                           solid.settled ? "at rest" : "as a lattice");
+      case cases::SolidArrangement::disk:
+        return "a crystal of the plane within a disk of n spacings";
+      case cases::SolidArrangement::outline:
+        return "a crystal of the plane within an outline";
+      case cases::SolidArrangement::block:
+        return "a cubic close packing, n cells along each side";
+      case cases::SolidArrangement::ball:
+        return "a cubic close packing within a ball of n spacings";
       default:
         return "a bar of a crystal between two walls";
+      }
+    }
+
+    /** What is moved beside what the report of 1976 says. */
+    Markup thermal_conditions(const cases::ParticleSolid &solid)
+    {
+      Markup lines;
+      if(solid.initial_temperature > 0)
+        lines += condition("velocities", text("of the temperature ")
+                                             + number_markup(solid.initial_temperature)
+                                             + text(", otherwise for every seed"));
+      if(!solid.cell.empty())
+        lines += condition("cell", text(fmt::format("space repeats itself after {}",
+                                                    fmt::join(solid.cell, ", "))));
+      if(solid.drag > 0)
+        lines += condition("drag", math("$v → $v e^{−# Δ$t} in every step",
+                                        {equation_number(solid.drag)}));
+      if(solid.bath)
+      {
+        std::string words = "Langevin, temperature";
+        for(std::size_t k = 0; k < solid.bath->times.size(); ++k)
+          words += fmt::format("{} {} at t = {}", k == 0 ? "" : ",",
+                               plain_number(solid.bath->temperatures[k], 4),
+                               plain_number(solid.bath->times[k], 4));
+        lines += condition("bath",
+                           text(words + ", rate " + plain_number(solid.bath->rate, 4)));
+      }
+      if(solid.light)
+        lines += condition(
+            "light",
+            text(fmt::format("{} ({}), power {}; of each particle what no other one "
+                             "hides",
+                             solid.light->parallel ? "parallel rays along" : "a point at",
+                             fmt::join(solid.light->at.begin(),
+                                       solid.light->at.begin() + solid.dimension(), ", "),
+                             plain_number(solid.light->power, 4))));
+      return lines;
+    }
+
+    std::string words_of_test(cases::SolidTest test)
+    {
+      switch(test)
+      {
+      case cases::SolidTest::temperature:
+        return ", whose temperatures (mean kinetic energy since the start) are all below "
+               "25";
+      case cases::SolidTest::order:
+        return ", whose partners lie about them as in a crystal (|ψ₆|, averaged over a "
+               "particle and its partners, exceeds 1/2)";
+      default:
+        return ", none of which moved faster than 7.5 on average over the last 1000 "
+               "steps";
       }
     }
 
@@ -115,7 +179,7 @@ namespace meltfront::verification
           "dl", {{"class", "conditions"}},
           condition("moved", text("particles of mass 1 that bind each other; "
                                   "Boltzmann's constant is 1"))
-              + condition("start", start) + source
+              + condition("start", start) + thermal_conditions(solid) + source
               + condition("end", text("t = " + plain_number(record.scene.end_time, 6)
                                       + fmt::format(", after {} steps",
                                                     grouped(std::lround(steps)))))
@@ -123,12 +187,7 @@ namespace meltfront::verification
                   "solid",
                   text("a particle that makes a triangle with two others, all sides "
                        "shorter than "
-                       + plain_number(solid.law.cutoff, 4)
-                       + (solid.test == cases::SolidTest::temperature
-                              ? ", whose temperatures (mean kinetic energy since the "
-                                "start) are all below 25"
-                              : ", none of which moved faster than 7.5 on average over "
-                                "the last 1000 steps")
+                       + plain_number(solid.law.cutoff, 4) + words_of_test(solid.test)
                        + "; any other is fluid")));
     }
   } // namespace

@@ -75,6 +75,9 @@ namespace meltfront::verification
                              const std::vector<ParticleFrame> &frames,
                              const DrawingColours &colours)
     : solid(*record.scene.particle_solid)
+    , radius(std::pow(solid.law.repulsion / solid.law.attraction,
+                      1 / (solid.law.repulsion_exponent - solid.law.attraction_exponent))
+             / 2)
     , colours(colours)
     , x0(0)
     , x1(1)
@@ -102,6 +105,8 @@ namespace meltfront::verification
     }
     if(solid.heating)
       y1 = std::max(y1, solid.heating->position[1]);
+    if(solid.light && !solid.light->parallel)
+      y1 = std::max(y1, solid.light->at[1]);
     if(solid.base)
       y0 = std::min(y0, 0.);
     const double room = 0.05 * std::max(x1 - x0, y1 - y0) + 0.3;
@@ -151,6 +156,8 @@ namespace meltfront::verification
             std::max(place(-solid.base->hot->half_width, 0).x, 0.), ground.y + 2.5,
             std::min(place(solid.base->hot->half_width, 0).x, width()), colours.liquid);
     }
+    if(solid.light && solid.dimension() == 2)
+      svg += rays();
     if(solid.heating)
     {
       const Point source = place(solid.heating->position[0], solid.heating->position[1]);
@@ -162,6 +169,35 @@ namespace meltfront::verification
                      star(source.x, source.y, 8), colours.ink);
     }
     return svg;
+  }
+
+  /** Where light comes from: a star, or rays that enter from the edge. */
+  std::string FrameDrawing::rays() const
+  {
+    const cases::Position &at = solid.light->at;
+    if(!solid.light->parallel)
+    {
+      const Point source = place(at[0], at[1]);
+      return fmt::format("<polygon points=\"{}\" fill=\"{}\"/>",
+                         star(source.x, source.y, 8), colours.ink);
+    }
+    constexpr int count = 9;
+    const double reach = std::hypot(width(), height()) / 2, length = 0.16 * reach;
+    const double size = std::hypot(at[0], at[1]);
+    const double dx = at[0] / size, dy = -at[1] / size;
+    std::string path;
+    for(int i = 0; i < count; ++i)
+    {
+      const double aside = reach * (2. * i / (count - 1) - 1);
+      const double x = std::clamp(width() / 2 - reach * dx - aside * dy, 0., width()),
+                   y = std::clamp((height() - strip_below) / 2 - reach * dy + aside * dx,
+                                  0., height() - strip_below);
+      fmt::format_to(Out(path), "M{:.1f} {:.1f}l{:.1f} {:.1f}", x, y, length * dx,
+                     length * dy);
+    }
+    return fmt::format(
+        "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-dasharray=\"3 3\"/>", path,
+        colours.muted);
   }
 
   std::string FrameDrawing::bonds(const ParticleFrame &frame) const
@@ -200,6 +236,32 @@ namespace meltfront::verification
         "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.1f}\" "
         "stroke-linecap=\"round\"/>",
         path, wanted >= 0.5 ? colours.solid : colours.liquid, size);
+  }
+
+  /** Layer by layer, each ball with an edge that sets it off from those behind it. */
+  std::string FrameDrawing::balls(const ParticleFrame &frame) const
+  {
+    constexpr std::size_t balls_in_layer = 8;
+    const std::size_t n = frame.x.size(), layers = 1 + n / balls_in_layer;
+    std::string svg;
+    for(std::size_t layer = 0; layer < layers; ++layer)
+      for(const double wanted : {1., 0.})
+      {
+        std::string path;
+        for(std::size_t i = layer * n / layers; i < (layer + 1) * n / layers; ++i)
+          if((frame.solid[i] >= 0.5) == (wanted >= 0.5))
+            if(const Point p = place(frame.x[i], frame.y[i]); visible(p))
+              fmt::format_to(Out(path), "M{:.1f} {:.1f}h0", p.x, p.y);
+        if(!path.empty())
+          for(const auto &[size, colour] :
+              {std::pair(2 * radius * scale, colours.page),
+               {1.8 * radius * scale, wanted >= 0.5 ? colours.solid : colours.liquid}})
+            fmt::format_to(Out(svg),
+                           "<path d=\"{}\" fill=\"none\" stroke=\"{}\" "
+                           "stroke-width=\"{:.1f}\" stroke-linecap=\"round\"/>",
+                           path, colour, size);
+      }
+    return svg;
   }
 
   std::string FrameDrawing::arrows(const ParticleFrame &frame) const
@@ -256,6 +318,8 @@ namespace meltfront::verification
 
   std::string FrameDrawing::frame(const ParticleFrame &frame) const
   {
+    if(solid.dimension() == 3)
+      return balls(frame) + words(frame);
     return bonds(frame) + particles(frame, 1) + particles(frame, 0) + arrows(frame)
            + numbers(frame) + words(frame);
   }

@@ -23,7 +23,8 @@ namespace meltfront::verification
    * Draws particles of a solid as D. Greenspan drew them in 1976: line segments between
    * solid particles nearer than the force reaches, fluid ones as points, those among them
    * that move faster than 7.5 with an arrow of their direction; the base, the source as a
-   * star, and the particles' numbers where there are at most 50.
+   * star, and the particles' numbers where there are at most 50. Particles of space are
+   * balls, the nearer in front of the farther.
    */
   class FrameDrawing
   {
@@ -53,6 +54,8 @@ namespace meltfront::verification
 
     Point place(double x, double y) const;
     bool visible(const Point &point) const;
+    std::string balls(const ParticleFrame &frame) const;
+    std::string rays() const;
     std::string bonds(const ParticleFrame &frame) const;
     std::string particles(const ParticleFrame &frame, double wanted) const;
     std::string arrows(const ParticleFrame &frame) const;
@@ -60,6 +63,7 @@ namespace meltfront::verification
     std::string words(const ParticleFrame &frame) const;
 
     const cases::ParticleSolid &solid;
+    double radius; ///< of a particle
     DrawingColours colours;
     double x0, x1, y0, y1; ///< the window
     double scale;          ///< units of the picture per length

@@ -112,6 +112,24 @@ namespace meltfront::verification::claims
       }
     }
 
+    /** Flies on a straight line; drag, which a bath of no temperature is, and light
+     * change the speed only. */
+    void fly(Body &body, const cases::ParticleSolid &solid, double time)
+    {
+      const double fading = solid.drag + (solid.bath ? solid.bath->rate : 0);
+      double way = fading > 0 ? -std::expm1(-fading * time) / fading : time;
+      if(solid.light)
+      {
+        // s^2 = s_0^2 + 2 g t, of a disk that is lit whole.
+        const double speed = std::hypot(body.velocity[0], body.velocity[1]);
+        const double gain = solid.light->power * 2 * solid.light->radius;
+        way = (std::pow(speed * speed + 2 * gain * time, 1.5) - std::pow(speed, 3))
+              / (3 * gain * speed);
+      }
+      for(int d = 0; d < 2; ++d)
+        body.position[d] += way * body.velocity[d];
+    }
+
     Trial free_particles(const cases::ParticleSolid &given)
     {
       Trial trial;
@@ -130,6 +148,8 @@ namespace meltfront::verification::claims
         {
           if(solid.heating)
             drive_away(bodies[i], *solid.heating, time);
+          else if(solid.drag > 0 || solid.bath || solid.light)
+            fly(bodies[i], solid, time);
           else
             fall(bodies[i], solid, time);
           for(int d = 0; d < 2; ++d)
@@ -161,6 +181,16 @@ namespace meltfront::verification::claims
       break;
     case Effect::point_heating:
       second.heating = cases::PointHeating{{0.2, 5.8, 0}, {{30000, 0.002}}, 1, 2.5};
+      break;
+    case Effect::drag:
+      second.drag = 3;
+      break;
+    case Effect::heat_bath:
+      second.bath = cases::HeatBath{{0}, {0}, 3};
+      break;
+    case Effect::light:
+      // Disks so small that none is in the shadow of another one.
+      second.light = cases::Light{true, {0.31, -1, 0}, 1e5, 1e-4};
       break;
     default:
       return {};
