@@ -126,7 +126,7 @@ def solve(H, b, c):
 
 
 start, times = scene["start_time"]["value"], request["times"]["values"]
-longest = (scene["end_time"]["value"] - start) / max(options["steps_per_cell"] * n, 50)
+longest = (scene["end_time"]["value"] - start) / max(options["steps_per_cell"] * n, options["least_steps"])
 melted = latent * (1 - initial["solid_fraction_at_melting"]["value"])
 H = np.full(len(m), float(enthalpy(initial["temperature"]["value"] - melting)))
 hold_walls(H, start)
