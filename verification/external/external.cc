@@ -47,7 +47,7 @@ namespace meltfront::verification
                      "between blanks, quotes keep blanks, no shell.");
           binder.add("manifest", manifest,
                      "Path of the JSON file that declares what the program takes, or the "
-                     "name of an example.");
+                     "name of an example or a benchmark.");
           binder.add("options", options,
                      "Options of the program, KEY=VALUE with blanks between them.");
           binder.add("answer_limit", answer_limit,

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -136,16 +135,19 @@ namespace meltfront::verification::external
     if(name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json"))
       return name_or_path;
     std::vector<std::string> known;
-    for(const auto &file : std::filesystem::directory_iterator(folder_path("examples")))
-      if(file.path().extension() == ".json")
-        known.push_back(file.path().stem().string());
-    if(std::ranges::find(known, name_or_path) == known.end())
-      throw cases::InputError(
-          fmt::format("there is no manifest '{}' among the examples, the nearest is "
-                      "'{}'; one of your "
-                      "own is named by its path, with a '/' or '.json'",
-                      quoted(name_or_path), cases::nearest_name(name_or_path, known)));
-    return folder_path("examples/" + name_or_path + ".json");
+    for(const char *const folder : {"examples", "benchmarks"})
+      for(const auto &file : std::filesystem::directory_iterator(folder_path(folder)))
+        if(file.path().extension() == ".json")
+        {
+          known.push_back(file.path().stem().string());
+          if(known.back() == name_or_path)
+            return file.path().string();
+        }
+    throw cases::InputError(
+        fmt::format("there is no manifest '{}' among the examples and benchmarks, the "
+                    "nearest is '{}'; one of your own is named by its path, with a '/' "
+                    "or '.json'",
+                    quoted(name_or_path), cases::nearest_name(name_or_path, known)));
   }
 
   Manifest read_manifest(const std::string &path)

@@ -24,8 +24,9 @@ namespace meltfront::verification::external
     Sampling sampling;
   };
 
-  /** The file that a user names: by its path, or by its name among the examples.
-   * @throws cases::InputError if there is no such example */
+  /** The file that a user names: by its path, or by its name among the examples and the
+   * benchmarks.
+   * @throws cases::InputError if there is no such name */
   std::string manifest_path(const std::string &name_or_path);
 
   /** @throws cases::InputError if it cannot be read or is not as the schema says. */

@@ -28,26 +28,34 @@ namespace meltfront::verification
              && record.message.find("is left out on this machine") != std::string::npos;
     }
 
-    TEST(Examples, HaveManifestsAsTheSchemaSaysAndFewLines)
+    /** @return manifests */
+    int check_folder(const std::string &folder, int most_lines)
     {
       int count = 0;
       for(const auto &file :
-          std::filesystem::directory_iterator(external::folder_path("examples")))
+          std::filesystem::directory_iterator(external::folder_path(folder)))
         if(file.path().extension() == ".json")
         {
-          const external::Manifest manifest = external::read_manifest(file.path());
-          EXPECT_EQ(manifest.name, file.path().stem());
+          const std::string name = file.path().stem();
+          EXPECT_EQ(external::read_manifest(file.path()).name, name);
+          EXPECT_EQ(external::manifest_path(name), file.path());
           ++count;
         }
-        else
+        else if(file.path().extension() != ".md")
         {
           std::ifstream in(file.path());
           int lines = 0;
           for(std::string line; std::getline(in, line);)
             ++lines;
-          EXPECT_LT(lines, 100) << file.path();
+          EXPECT_LT(lines, most_lines) << file.path();
         }
-      EXPECT_GE(count, 1);
+      return count;
+    }
+
+    TEST(Examples, HaveManifestsAsTheSchemaSaysAndFewLines)
+    {
+      EXPECT_GE(check_folder("examples", 100), 1);
+      EXPECT_GE(check_folder("benchmarks", 200), 1);
     }
 
     TEST(Examples, EnthalpyWithNumpySolvesASlab)
@@ -85,6 +93,27 @@ namespace meltfront::verification
       // The volume of the similar problem.
       EXPECT_NEAR(corner.quantity("solid_volume_end"), 0.26772, 0.01);
       EXPECT_LT(corner.quantity("budget_defect"), 1e-12);
+    }
+
+    /** That of fem-enthalpy with as many steps is 2.98e-3 m. */
+    void expect_a_small_front_error(const std::string &program)
+    {
+      const RunRecord sink = run(program, "line-sink-square", 16);
+      if(left_out(sink))
+        GTEST_SKIP() << sink.message;
+      ASSERT_EQ(sink.status, RunStatus::finished) << sink.message;
+      EXPECT_LT(sink.quantity("front_rms"), 3.3e-3);
+      EXPECT_LT(sink.quantity("budget_defect"), 1e-12);
+    }
+
+    TEST(Benchmarks, FreefemSolvesALineSink)
+    {
+      expect_a_small_front_error("stefan-freefem");
+    }
+
+    TEST(Benchmarks, DolfinxSolvesALineSink)
+    {
+      expect_a_small_front_error("stefan-dolfinx");
     }
 
     TEST(Examples, RefuseAsTheirManifestsSay)
