@@ -1,19 +1,7 @@
 #include <reference_fem/enthalpy/run.h>
+#include <reference_fem/enthalpy/state_archive.h>
 
 #include <cases/error.h>
-
-#include <boost/archive/binary_iarchive.hpp>
-#include <boost/archive/binary_oarchive.hpp>
-#include <boost/serialization/vector.hpp>
-
-namespace boost::serialization
-{
-  template <class Archive>
-  void serialize(Archive &archive, meltfront::cases::EffectCost &cost, unsigned int)
-  {
-    archive &cost.effect &cost.calls &cost.bytes &cost.seconds;
-  }
-} // namespace boost::serialization
 
 namespace meltfront::reference_fem
 {
@@ -23,8 +11,7 @@ namespace meltfront::reference_fem
     if(options.checkpoint == 0)
       return;
     if(!keeps_states())
-      throw cases::Refusal("fem-enthalpy keeps checkpoints (checkpoint) of single runs "
-                           "only, those of `meltfront run`");
+      throw cases::Refusal(checkpoints_are_of_single_runs);
     if(alloy || motion)
       throw cases::Refusal("fem-enthalpy keeps checkpoints (checkpoint) of pure "
                            "substances at rest only: not of alloys, nor where liquid is "

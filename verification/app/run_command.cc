@@ -78,16 +78,26 @@ namespace meltfront::verification
       std::vector<std::string> settings{}; ///< of the method, as they were given
     };
 
-    /** What keeps the checkpoints that a run's options ask for, if they do. */
-    ThroughObserver checkpoints_of(const RunPlan &plan,
-                                   std::map<std::string, double> &evidence)
+    /** Where a run whose options ask for checkpoints keeps them. */
+    std::optional<KeptRun> kept_run(const RunPlan &plan)
     {
       const double interval = checkpoint_interval(plan.resolution.options);
       if(interval == 0)
         return {};
-      return [interval, folder = CheckpointFolder::in(plan.directory),
-              &evidence](cases::Observer &observer) {
-        return std::make_unique<CheckpointKeeper>(folder, interval, observer, evidence);
+      return KeptRun{CheckpointFolder::in(plan.directory), interval};
+    }
+
+    /** What keeps the checkpoints that a run's options ask for, if they do. */
+    ThroughObserver checkpoints_of(const RunPlan &plan,
+                                   std::map<std::string, double> &evidence)
+    {
+      const std::optional<KeptRun> kept = kept_run(plan);
+      if(!kept)
+        return {};
+      return [kept, &evidence](cases::Observer &observer)
+      {
+        return std::make_unique<CheckpointKeeper>(kept->folder, kept->interval, observer,
+                                                  evidence);
       };
     }
 
@@ -159,9 +169,9 @@ namespace meltfront::verification
           });
       if(!fields)
         fields = make_writer();
-      const RunRecord record
-          = run_on_ranks(session, plan.the_case, method, plan.resolution, plan.label,
-                         provenance_of_command(), *fields, arguments.time_limit, file);
+      const RunRecord record = run_on_ranks(
+          session, plan.the_case, method, plan.resolution, plan.label,
+          provenance_of_command(), *fields, arguments.time_limit, file, kept_run(plan));
       session.on_first(
           [&]
           {
@@ -182,12 +192,16 @@ namespace meltfront::verification
     }
 
     /** The case and the arguments of a run that was left in a directory. @throws
-     * cases::InputError if there is none, or what there is is damaged */
-    std::pair<cases::Case, RunArguments> left_run(const RunArguments &arguments)
+     * cases::InputError if there is none, or it was of another number of ranks */
+    std::pair<cases::Case, RunArguments> left_run(const RunArguments &arguments,
+                                                  int ranks)
     {
-      const CheckpointFolder folder = CheckpointFolder::in(arguments.resume);
-      const nlohmann::json request = folder.request(this_program());
-      folder.last(); // throws where the run could not go on from it
+      const nlohmann::json request
+          = CheckpointFolder::in(arguments.resume).request(this_program());
+      if(const int before = request.value("ranks", 1); before != ranks)
+        throw cases::InputError(fmt::format(
+            "{} was begun on {} rank{} and is gone on with on as many, not on {}",
+            arguments.resume, before, before == 1 ? "" : "s", ranks));
       RunArguments result = arguments;
       result.output = arguments.resume;
       try
@@ -207,7 +221,8 @@ namespace meltfront::verification
       }
     }
 
-    nlohmann::json request_of(const RunPlan &plan, const RunArguments &arguments)
+    nlohmann::json request_of(const RunPlan &plan, const RunArguments &arguments,
+                              int ranks)
     {
       return {{"case", stored_case(plan.the_case)},
               {"method", plan.method.name()},
@@ -216,6 +231,7 @@ namespace meltfront::verification
               {"seed", plan.resolution.seed},
               {"threads", plan.resolution.threads},
               {"frames", arguments.frames},
+              {"ranks", ranks},
               {"program", this_program()}};
     }
 
@@ -270,18 +286,21 @@ namespace meltfront::verification
                    directory,
                    sort_settings(arguments.settings).of_method};
       const auto set = apply_settings(plan.settings, method, plan.resolution.options);
-      plan.label = run_label(method.name(), set, arguments.threads,
-                             session ? session->size() : 1);
+      const int ranks = session ? session->size() : 1;
+      plan.label = run_label(method.name(), set, arguments.threads, ranks);
       std::optional<DirectoryLock> lock;
-      if(!session)
+      const auto begin = [&]
       {
         lock.emplace(directory);
+        const CheckpointFolder folder = CheckpointFolder::in(directory);
         if(arguments.resume.empty())
-          CheckpointFolder::in(directory).begin(
-              checkpoint_interval(plan.resolution.options) > 0
-                  ? request_of(plan, arguments)
-                  : nlohmann::json());
-      }
+          folder.begin(kept_run(plan) ? request_of(plan, arguments, ranks)
+                                      : nlohmann::json());
+        else
+          folder.last(); // throws where the run could not go on from it
+        return "";
+      };
+      session ? session->on_first(begin) : begin();
       const RunRecord record
           = session ? run_shared(plan, arguments, *session) : run_alone(plan, arguments);
       std::fputs(run_text(record, c).c_str(), stdout);
@@ -290,7 +309,7 @@ namespace meltfront::verification
                      ? ", front.csv, picture.svg, fields.pvd"
                            + output_words(cases::output_of(c))
                      : "");
-      if(!session)
+      if(!session || session->rank() == 0)
         conclude_checkpoints(record, directory);
       switch(record.status)
       {
@@ -308,12 +327,10 @@ namespace meltfront::verification
   {
     if(!arguments.resume.empty())
     {
-      if(session)
-        throw cases::InputError("--resume goes on with runs of one process only");
       if(!arguments.settings.empty())
         throw cases::InputError("--resume takes no --set: the run goes on as it began");
-      const auto [c, of_left_run] = left_run(arguments);
-      return run_case(c, of_left_run, arguments.resume, nullptr);
+      const auto [c, of_left_run] = left_run(arguments, session ? session->size() : 1);
+      return run_case(c, of_left_run, arguments.resume, session);
     }
     if(arguments.case_name.empty() || arguments.method.empty())
       throw cases::InputError("run needs a case and --method, or --resume DIRECTORY");

@@ -10,12 +10,13 @@ namespace meltfront::verification
 {
   GatheringObserver::GatheringObserver(const MethodOnRanks &method, MPI_Comm communicator,
                                        cases::Observer *whole, cases::Observer *part,
-                                       double time_limit)
+                                       TimeLimit &limit, cases::StateKeeper *keeper)
     : method(method)
     , communicator(communicator)
     , whole(whole)
     , part(part)
-    , time_limit(time_limit)
+    , limit(limit)
+    , keeper(keeper)
     , gatherer(communicator)
   {
   }
@@ -41,10 +42,11 @@ namespace meltfront::verification
           if(whole)
           {
             wanted = whole->wants(step, time);
-            if(time_limit > 0 && watch.elapsed().wall > time_limit)
+            limit.exceeded = limit.seconds > 0 && watch.elapsed().wall > limit.seconds;
+            if(limit.exceeded)
               throw cases::NumericalError(
                   method.name(), step, time, "the run",
-                  fmt::format("took longer than its time limit of {} s", time_limit));
+                  fmt::format("took longer than its time limit of {} s", limit.seconds));
           }
           part_wanted = part && part->wants(step, time);
         });

@@ -1,9 +1,11 @@
 #include <cases/effect_bounds.h>
 #include <cases/error.h>
 #include <verification/ranks/agreement.h>
+#include <verification/ranks/gathering_keeper.h>
 #include <verification/ranks/gathering_observer.h>
 #include <verification/ranks/ranked_run.h>
 #include <verification/record/json_values.h>
+#include <verification/run/checkpoint/checkpoint_keeper.h>
 #include <verification/run/run_one.h>
 
 #include <deal.II/base/mpi.h>
@@ -57,15 +59,57 @@ namespace meltfront::verification
       }
     }
 
+    /** What stands between the observers of a rank and a run with checkpoints; none of it
+     * without. */
+    struct RankKeepers
+    {
+      /** @param whole null on all ranks but the first
+       * @param evidence of the checkpoints, on the first rank */
+      RankKeepers(MPI_Comm communicator, cases::Observer *whole, cases::Observer &part,
+                  const std::optional<KeptRun> &kept,
+                  std::map<std::string, double> &evidence)
+      {
+        if(!kept)
+          return;
+        if(whole)
+          of_whole.emplace(kept->folder, kept->interval, *whole, evidence);
+        const auto rank = dealii::Utilities::MPI::this_mpi_process(communicator);
+        of_part.emplace(kept->folder.observations_of_rank(static_cast<int>(rank)), part);
+        of_all.emplace(communicator, of_whole ? of_whole->state_keeper() : nullptr,
+                       *of_part);
+      }
+
+      std::optional<CheckpointKeeper> of_whole;
+      std::optional<LoggedObserver> of_part;
+      std::optional<GatheringKeeper> of_all;
+    };
+
+    class RankObserver : private RankKeepers, public GatheringObserver
+    {
+    public:
+      RankObserver(MPI_Comm communicator, const MethodOnRanks &method,
+                   cases::Observer *whole, cases::Observer &part, TimeLimit &limit,
+                   const std::optional<KeptRun> &kept,
+                   std::map<std::string, double> &evidence)
+        : RankKeepers(communicator, whole, part, kept, evidence)
+        , GatheringObserver(method, communicator, of_whole ? &*of_whole : whole,
+                            of_part ? &*of_part : &part, limit,
+                            of_all ? &*of_all : nullptr)
+      {
+      }
+    };
+
     /** What the first rank does: run_one(), the observer being that of all. */
     RankEnd lead(MPI_Comm communicator, const cases::Case &c, const MethodOnRanks &method,
                  const cases::Resolution &resolution, const std::string &label,
                  const std::map<std::string, std::string> &provenance,
-                 cases::Observer &part, double time_limit)
+                 cases::Observer &part, TimeLimit &limit,
+                 const std::optional<KeptRun> &kept)
     {
       RepeatPolicy once;
       once.most = 1;
       RankEnd end;
+      std::map<std::string, double> evidence;
       bool begun = false;
       try
       {
@@ -75,9 +119,10 @@ namespace meltfront::verification
                       {
                         begun = true;
                         together(communicator, [] {});
-                        return std::make_unique<GatheringObserver>(
-                            method, communicator, &whole, &part, time_limit);
+                        return std::make_unique<RankObserver>(
+                            communicator, method, &whole, part, limit, kept, evidence);
                       });
+        end.record.cost.evidence.merge(evidence);
         end.by_another = end.record.message == OtherRankFailed().what();
       }
       catch(const cases::OutputError &error)
@@ -93,7 +138,8 @@ namespace meltfront::verification
     /** What the others do: solve, and keep how that ended. */
     RankEnd follow(MPI_Comm communicator, const cases::Case &c,
                    const MethodOnRanks &method, const cases::Resolution &resolution,
-                   cases::Observer &part, double time_limit)
+                   cases::Observer &part, TimeLimit &limit,
+                   const std::optional<KeptRun> &kept)
     {
       RankEnd end;
       RunRecord &record = end.record;
@@ -104,7 +150,8 @@ namespace meltfront::verification
         const cases::EffectSet effects
             = cases::effects_within(c.scene, c.effect_tolerance);
         const cases::Scene scene = cases::simulated_scene(c.scene, effects);
-        GatheringObserver observer(method, communicator, nullptr, &part, time_limit);
+        std::map<std::string, double> evidence; // the first rank's is recorded
+        RankObserver observer(communicator, method, nullptr, part, limit, kept, evidence);
         record.cost = method.solve(scene, effects, resolution, observer);
         record.status = RunStatus::finished;
       }
@@ -172,17 +219,18 @@ namespace meltfront::verification
                          const std::string &label,
                          const std::map<std::string, std::string> &provenance,
                          cases::Observer &part, double time_limit,
-                         const std::string &file)
+                         const std::string &file, const std::optional<KeptRun> &kept)
   {
     constexpr double patience = 10; // s
     // Messages of its own, so that a rank that waits elsewhere is not taken for met.
     MPI_Comm communicator = MPI_COMM_NULL, meeting = MPI_COMM_NULL;
     MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
     MPI_Comm_dup(MPI_COMM_WORLD, &meeting);
+    TimeLimit limit{time_limit};
     RankEnd end = session.rank() == 0
                       ? lead(communicator, c, method, resolution, label, provenance, part,
-                             time_limit)
-                      : follow(communicator, c, method, resolution, part, time_limit);
+                             limit, kept)
+                      : follow(communicator, c, method, resolution, part, limit, kept);
     if(!meet(meeting, end.failed() ? patience : 1e9))
     {
       RunRecord record = empty_record(c, method, resolution, label, provenance);
@@ -193,6 +241,8 @@ namespace meltfront::verification
                     end.exit_status());
     }
     agree(communicator, end);
+    if(limit.exceeded)
+      end.record.provenance["ended"] = "killed"; // its checkpoint stays
     add_up(communicator, end.record);
     MPI_Comm_free(&meeting);
     MPI_Comm_free(&communicator);

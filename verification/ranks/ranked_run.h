@@ -5,12 +5,21 @@
 #include <verification/ranks/method_on_ranks.h>
 #include <verification/ranks/ranks.h>
 #include <verification/record/run_record.h>
+#include <verification/run/checkpoint/checkpoint_folder.h>
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace meltfront::verification
 {
+  /** Where a run keeps checkpoints, and goes on from the last one. */
+  struct KeptRun
+  {
+    CheckpointFolder folder;
+    double interval = 0; ///< s of wall time
+  };
+
   /**
    * run_one() on all ranks of the session at the same time: one run, which they share,
    * and one record, on the first rank. Its processor times and peak memory are sums over
@@ -21,6 +30,7 @@ namespace meltfront::verification
    *
    * @param part observes the rank's parts of snapshots
    * @param time_limit wall seconds; 0: none
+   * @param kept null: no checkpoints
    * @return the record; on other ranks than the first only its status
    */
   RunRecord run_on_ranks(const RankSession &session, const cases::Case &c,
@@ -28,7 +38,7 @@ namespace meltfront::verification
                          const std::string &label,
                          const std::map<std::string, std::string> &provenance,
                          cases::Observer &part, double time_limit,
-                         const std::string &file);
+                         const std::string &file, const std::optional<KeptRun> &kept);
 } // namespace meltfront::verification
 
 #endif

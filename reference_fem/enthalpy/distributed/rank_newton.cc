@@ -56,6 +56,14 @@ namespace meltfront::reference_fem
       {
         return graph.kirchhoff(temperature_excess);
       }
+      double temperature_scale() const override
+      {
+        return scale;
+      }
+      void set_temperature_scale(double of_steps_before) override
+      {
+        scale = of_steps_before;
+      }
       long work() const override
       {
         return entries_touched + linear_solver->work();

@@ -129,7 +129,7 @@ namespace meltfront::reference_fem
     cost.steps = step_number;
     cost.unknowns = static_cast<long>(n_free);
     const Traffic of_steps = traffic;
-    cost.work = std::lround(sum_of_ranks(static_cast<double>(solver->work())));
+    cost.work = std::lround(sum_of_ranks(static_cast<double>(costs_so_far().work)));
     cost.solver_iterations = iterations;
     cost.most_iterations = statistics.iterations;
     cost.capped_steps = capped_steps;
@@ -149,14 +149,20 @@ namespace meltfront::reference_fem
       cost.evidence["bytes sent per step"]
           = sum_of_ranks(of_steps.sent * sizeof(double)) / steps;
     }
-    if(linear_solver->iterations() > 0)
+    if(const long linear_iterations = costs_so_far().linear_iterations)
       cost.evidence["linear iterations per iteration"]
-          = double(linear_solver->iterations()) / double(iterations);
+          = double(linear_iterations) / double(iterations);
     return cost;
   }
 
-  /** Calls of one rank, bytes and seconds of all. */
-  std::vector<cases::EffectCost> RankRun::effect_costs() const
+  RankRun::Earlier RankRun::costs_so_far() const
+  {
+    return {earlier.work + solver->work(),
+            earlier.linear_iterations + linear_solver->iterations(),
+            effect_costs_of_rank()};
+  }
+
+  std::vector<cases::EffectCost> RankRun::effect_costs_of_rank() const
   {
     const NonlinearSolver::GraphCost graph = solver->graph_cost();
     std::vector<cases::EffectCost> result;
@@ -193,6 +199,18 @@ namespace meltfront::reference_fem
              graph.linearisations > 0 ? static_cast<long>(sizeof(double)) : 0L, 0});
       }
     }
+    for(std::size_t e = 0; e < earlier.effects.size(); ++e)
+    {
+      result[e].calls += earlier.effects[e].calls;
+      result[e].seconds += earlier.effects[e].seconds;
+    }
+    return result;
+  }
+
+  /** Calls of one rank, bytes and seconds of all. */
+  std::vector<cases::EffectCost> RankRun::effect_costs() const
+  {
+    std::vector<cases::EffectCost> result = effect_costs_of_rank();
     for(cases::EffectCost &cost : result)
     {
       cost.bytes = std::lround(sum_of_ranks(static_cast<double>(cost.bytes)));

@@ -36,14 +36,13 @@ namespace meltfront::reference_fem
     , time(scene.start_time)
     , time_before(scene.start_time)
     , breakpoints(cases::breakpoints_of(scene))
+    , queue(scene.start_time, scene.end_time, options.steps, options.start_halvings,
+            breakpoints)
   {
     if(options.refine_at_front)
       throw cases::Refusal(
           "fem-enthalpy refines meshes at the front (refinement = front) "
           "on one rank only, by its serial engine");
-    if(options.checkpoint > 0)
-      throw cases::Refusal("fem-enthalpy keeps checkpoints (checkpoint) by its serial "
-                           "engine only");
     if(options.preconditioner != Preconditioner::automatic)
       throw cases::Refusal("fem-enthalpy has one preconditioner on several ranks: leave "
                            "the option preconditioner at automatic");
@@ -259,10 +258,12 @@ namespace meltfront::reference_fem
 
   void RankRun::take_steps()
   {
-    reached(0, time);
-    StepQueue queue(scene.start_time, scene.end_time, options.steps,
-                    options.start_halvings, breakpoints);
-    u_accepted = u;
+    require_resumable();
+    if(!is_resumed())
+    {
+      reached(0, time);
+      u_accepted = u;
+    }
     while(!queue.empty())
     {
       StepFormula step = formula(queue.next());
@@ -282,12 +283,12 @@ namespace meltfront::reference_fem
           = std::max(statistics.graph_inconsistency, outcome.graph_inconsistency);
       statistics.iterations = std::max(statistics.iterations, outcome.iterations);
       accept(step);
-      reached(step_number, time);
       if(outcome.iterations > comfortable_iterations_of_ranks && !queue.empty())
       {
         queue.halve(time);
         ++statistics.halvings;
       }
+      reached(step_number, time);
     }
   }
 

@@ -61,12 +61,23 @@ namespace meltfront::reference_fem
 
   private:
     void take_steps() override;
+    void require_resumable() const; // this and the next in rank_state.cc
+    void save(boost::archive::binary_oarchive &state) const override;
+    void restore(boost::archive::binary_iarchive &state) override;
+    template <class Archive>
+    void pass_state(Archive &state);
     cases::Snapshot snapshot(long step, double time) override; // in rank_report.cc
 
     /** What a quantity that is summed over time was at the last two times. */
     struct History
     {
       double now = 0, before = 0;
+
+      template <class Archive>
+      void serialize(Archive &archive, unsigned int)
+      {
+        archive &now &before;
+      }
     };
 
     StepProblem problem();
@@ -86,7 +97,22 @@ namespace meltfront::reference_fem
     double source_heat() const;
     double nominal_step() const;
     double latent_heat(std::size_t node) const;
+    std::vector<cases::EffectCost> effect_costs_of_rank() const;
     std::vector<cases::EffectCost> effect_costs() const;
+
+    /** What this rank's part of a run cost before it was resumed. */
+    struct Earlier
+    {
+      long work = 0, linear_iterations = 0;
+      std::vector<cases::EffectCost> effects;
+
+      template <class Archive>
+      void serialize(Archive &archive, unsigned int)
+      {
+        archive &work &linear_iterations &effects;
+      }
+    };
+    Earlier costs_so_far() const;
 
     const cases::Scene &scene;
     const cases::EffectSet &effects;
@@ -96,6 +122,7 @@ namespace meltfront::reference_fem
     cases::TemperatureBounds bounds;
     double time, time_before;
     std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
+    StepQueue queue;
 
     Discretisation mesh;
     std::vector<std::uint64_t> site_numbers;
@@ -122,6 +149,7 @@ namespace meltfront::reference_fem
     double defect = 0; ///< heat at hand less heat received (J)
     long step_number = 0, iterations = 0, capped_steps = 0;
     StepStatistics statistics;
+    Earlier earlier;
     std::vector<double> site_temperature, site_solid_fraction;
   };
 

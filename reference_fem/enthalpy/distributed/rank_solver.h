@@ -16,6 +16,12 @@ namespace meltfront::reference_fem
     long exchanges = 0;  ///< of ghost values with all neighbours
     long reductions = 0; ///< over all ranks
     double sent = 0;     ///< numbers to neighbours
+
+    template <class Archive>
+    void serialize(Archive &archive, unsigned int)
+    {
+      archive &exchanges &reductions &sent;
+    }
   };
 
   /**

@@ -101,6 +101,40 @@ namespace meltfront::verification::tests
     expect_text(outcome, "took longer than its time limit of 2 s");
   }
 
+  /** Left at its time limit as often as it takes, it ends like a run that was not. */
+  TEST(SharedRun, GoesOnWhereItWasLeft)
+  {
+    const TemporaryDirectory scratch;
+    const std::string run
+        = "run line-sink --method fem-enthalpy --n 128 --frames 2 --set "
+          "'Scene/end time=1e5' --set fem-enthalpy.checkpoint=0.02 --out ";
+    const std::string whole = scratch.path("whole").string(),
+                      left = scratch.path("left").string();
+    ASSERT_EQ(run_on_two_ranks(run + whole).status, 0);
+    EXPECT_FALSE(fs::exists(whole + "/checkpoint"));
+    Outcome outcome = run_on_two_ranks(run + left + " --time-limit 0.3");
+    ASSERT_EQ(outcome.status, 3) << outcome.output;
+    ASSERT_TRUE(fs::exists(left + "/checkpoint/state.bin"));
+    const Outcome alone = run_program("run --resume " + left);
+    EXPECT_EQ(alone.status, 2);
+    expect_text(alone, "was begun on 2 ranks and is gone on with on as many, not on 1");
+    for(double limit = 0.3; outcome.status == 3 && limit < 100; limit *= 2)
+      outcome
+          = run_on_two_ranks(fmt::format("run --resume {} --time-limit {}", left, limit));
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    const auto of = [](const std::string &directory)
+    {
+      const nlohmann::json record = read_json(directory + "/run.json");
+      return nlohmann::json{record.at("quantities"), record.at("series"),
+                            record.at("profile"), record.at("cost").at("steps"),
+                            record.at("cost").at("work")};
+    };
+    EXPECT_EQ(of(left), of(whole));
+    EXPECT_GE(read_json(left + "/run.json")["cost"]["evidence"]["times resumed"], 1);
+    for(const fs::directory_entry &entry : fs::directory_iterator(whole))
+      EXPECT_TRUE(fs::exists(fs::path(left) / entry.path().filename())) << entry.path();
+  }
+
   TEST(SharedRun, SaysWhatCannotBeWritten)
   {
     const Outcome outcome = run_on_two_ranks(

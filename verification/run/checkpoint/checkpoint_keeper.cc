@@ -5,49 +5,14 @@
 
 namespace meltfront::verification
 {
-  CheckpointKeeper::CheckpointKeeper(CheckpointFolder folder, double interval,
+  CheckpointKeeper::CheckpointKeeper(const CheckpointFolder &folder, double interval,
                                      cases::Observer &observer,
                                      std::map<std::string, double> &evidence)
-    : folder(std::move(folder))
+    : LoggedObserver(folder.observations(), observer)
+    , folder(folder)
     , interval(interval)
-    , observer(observer)
     , evidence(evidence)
   {
-  }
-
-  void CheckpointKeeper::begin(const cases::RunDescription &description)
-  {
-    log->begin(description);
-    observer.begin(description);
-  }
-
-  bool CheckpointKeeper::wants(long step, double time)
-  {
-    log->step(step, time);
-    return observer.wants(step, time);
-  }
-
-  std::vector<double> CheckpointKeeper::wanted_times() const
-  {
-    return observer.wanted_times();
-  }
-
-  void CheckpointKeeper::observe(const cases::Snapshot &snapshot)
-  {
-    log->snapshot(snapshot);
-    observer.observe(snapshot);
-  }
-
-  void CheckpointKeeper::note(double time, const std::string &event)
-  {
-    log->note(time, event);
-    observer.note(time, event);
-  }
-
-  void CheckpointKeeper::report(const std::string &name, double value)
-  {
-    log->report(name, value);
-    observer.report(name, value);
   }
 
   cases::StateKeeper *CheckpointKeeper::state_keeper()
@@ -60,11 +25,10 @@ namespace meltfront::verification
     std::optional<Checkpoint> last = folder.last();
     if(!last)
     {
-      log.emplace(folder.observations());
+      go_on_behind(0);
       return nullptr;
     }
-    ObservationLog::tell(folder.observations(), last->observed_bytes, observer);
-    log.emplace(folder.observations(), last->observed_bytes);
+    go_on_behind(last->observed_bytes);
     kept = last->kept;
     resumptions = last->resumptions + 1;
     evidence["times resumed"] = resumptions;
@@ -80,7 +44,7 @@ namespace meltfront::verification
       return;
     std::ostringstream state;
     save(state);
-    folder.write({step, time, log->bytes(), ++kept, resumptions, std::move(state).str()});
+    folder.write({step, time, bytes(), ++kept, resumptions, std::move(state).str()});
     evidence["checkpoints"] = double(kept);
     last_kept = Clock::now();
   }

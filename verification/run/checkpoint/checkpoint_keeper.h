@@ -2,11 +2,10 @@
 #define meltfront_verification_run_checkpoint_checkpoint_keeper_h
 
 #include <verification/run/checkpoint/checkpoint_folder.h>
-#include <verification/run/checkpoint/observation_log.h>
+#include <verification/run/checkpoint/logged_observer.h>
 
 #include <chrono>
 #include <map>
-#include <optional>
 
 namespace meltfront::verification
 {
@@ -15,7 +14,7 @@ namespace meltfront::verification
    * and all that the observer was told. A run that is resumed tells its new observer the
    * same first, so that what it measures is that of a run that was never left.
    */
-  class CheckpointKeeper : public cases::Observer, private cases::StateKeeper
+  class CheckpointKeeper : public LoggedObserver, private cases::StateKeeper
   {
   public:
     /**
@@ -23,15 +22,9 @@ namespace meltfront::verification
      * @param interval between checkpoints (s of wall time)
      * @param evidence what was done is put there, for the record
      */
-    CheckpointKeeper(CheckpointFolder folder, double interval, cases::Observer &observer,
-                     std::map<std::string, double> &evidence);
+    CheckpointKeeper(const CheckpointFolder &folder, double interval,
+                     cases::Observer &observer, std::map<std::string, double> &evidence);
 
-    void begin(const cases::RunDescription &description) override;
-    bool wants(long step, double time) override;
-    std::vector<double> wanted_times() const override;
-    void observe(const cases::Snapshot &snapshot) override;
-    void note(double time, const std::string &event) override;
-    void report(const std::string &name, double value) override;
     cases::StateKeeper *state_keeper() override;
 
   private:
@@ -43,9 +36,7 @@ namespace meltfront::verification
 
     CheckpointFolder folder;
     double interval;
-    cases::Observer &observer;
     std::map<std::string, double> &evidence;
-    std::optional<ObservationLog> log;
     long kept = 0;
     int resumptions = 0;
     Clock::time_point last_kept = Clock::now();

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <sstream>
 
 namespace meltfront::reference_fem::tests
 {
@@ -38,7 +39,11 @@ namespace meltfront::reference_fem::tests
       StepStatistics statistics;
     };
 
-    struct Watch : Observer
+    struct Interruption
+    {
+    };
+
+    struct Watch : Observer, private StateKeeper
     {
       explicit Watch(Shown &shown)
         : shown(shown)
@@ -66,41 +71,76 @@ namespace meltfront::reference_fem::tests
         }
       }
 
+      StateKeeper *state_keeper() override
+      {
+        return left_after == 0 && state.empty() ? nullptr : this;
+      }
+
+      std::unique_ptr<std::istream> state_to_resume() override
+      {
+        return state.empty() ? nullptr : std::make_unique<std::istringstream>(state);
+      }
+
+      void offer(long step, double,
+                 const std::function<void(std::ostream &)> &save) override
+      {
+        if(step != left_after)
+          return;
+        std::ostringstream out;
+        save(out);
+        state = out.str();
+        throw Interruption();
+      }
+
       Shown &shown;
+      long left_after = 0; ///< step after which the run is left, its state kept
+      std::string state;   ///< from which it goes on
     };
 
     template <typename Make>
-    Shown show(const Scene &scene, int n, const OptionTexts &options, const Make &make)
+    void watch_run(const Scene &scene, int n, const OptionTexts &options,
+                   const Make &make, Watch &watch)
     {
       const EffectSet effects = effects_called_for(scene);
       const Scene simulated = simulated_scene(scene, effects);
       const auto method = make_fem_enthalpy();
       const Resolution resolution = resolution_of(*method, n, options);
-      Shown shown;
-      Watch watch(shown);
       const Stopwatch stopwatch;
       const auto run = make(simulated, effects, resolution);
-      shown.cost = run->carry_out(simulated, stopwatch, watch);
-      shown.statistics = run->worst_of_steps();
-      return shown;
+      watch.shown.cost = run->carry_out(simulated, stopwatch, watch);
+      watch.shown.statistics = run->worst_of_steps();
+    }
+
+    void watch_on_ranks(const Scene &scene, int n, int ranks, const OptionTexts &options,
+                        Watch &watch)
+    {
+      watch_run(
+          scene, n, options,
+          [ranks](const Scene &simulated, const EffectSet &effects,
+                  const Resolution &resolution)
+          { return std::make_unique<RankRun>(simulated, effects, resolution, ranks); },
+          watch);
     }
 
     Shown on_ranks(const Scene &scene, int n, int ranks, const OptionTexts &options = {})
     {
-      return show(
-          scene, n, options,
-          [ranks](const Scene &simulated, const EffectSet &effects,
-                  const Resolution &resolution)
-          { return std::make_unique<RankRun>(simulated, effects, resolution, ranks); });
+      Shown shown;
+      Watch watch(shown);
+      watch_on_ranks(scene, n, ranks, options, watch);
+      return shown;
     }
 
     Shown serially(const Scene &scene, int n, const OptionTexts &options = {})
     {
-      return show(scene, n, options,
-                  [](const Scene &simulated, const EffectSet &effects,
-                     const Resolution &resolution) {
-                    return std::make_unique<EnthalpyRun>(simulated, effects, resolution);
-                  });
+      Shown shown;
+      Watch watch(shown);
+      watch_run(
+          scene, n, options,
+          [](const Scene &simulated, const EffectSet &effects,
+             const Resolution &resolution)
+          { return std::make_unique<EnthalpyRun>(simulated, effects, resolution); },
+          watch);
+      return shown;
     }
 
     /** Steps, latent heat after each, temperatures at the sites that this rank has. */
@@ -229,6 +269,38 @@ namespace meltfront::reference_fem::tests
     EXPECT_EQ(one.latent, other.latent);
     EXPECT_EQ(one.boundary, other.boundary);
     EXPECT_EQ(one.temperature, other.temperature);
+  }
+
+  TEST(RankRun, GoesOnToTheBitWhereItWasLeft)
+  {
+    for(const auto &[scene, options] :
+        {std::pair(walls_of_all_kinds(), OptionTexts()),
+         std::pair(line_sink_square(), OptionTexts{{"steps", "10"}})})
+    {
+      const Shown whole = on_ranks(scene, 32, all_ranks(), options);
+      for(const long step : {1, 8})
+      {
+        Shown left, resumed;
+        Watch leaves(left), goes_on(resumed);
+        leaves.left_after = step;
+        EXPECT_THROW(watch_on_ranks(scene, 32, all_ranks(), options, leaves),
+                     Interruption);
+        goes_on.state = leaves.state;
+        watch_on_ranks(scene, 32, all_ranks(), options, goes_on);
+        const auto rest
+            = static_cast<std::ptrdiff_t>(whole.time.size() - resumed.time.size());
+        EXPECT_EQ(rest, step + 1);
+        EXPECT_TRUE(std::equal(whole.latent.begin() + rest, whole.latent.end(),
+                               resumed.latent.begin(), resumed.latent.end()));
+        EXPECT_TRUE(std::equal(whole.boundary.begin() + rest, whole.boundary.end(),
+                               resumed.boundary.begin(), resumed.boundary.end()));
+        EXPECT_EQ(resumed.temperature, whole.temperature);
+        EXPECT_EQ(resumed.cost.work, whole.cost.work);
+        EXPECT_EQ(resumed.cost.evidence, whole.cost.evidence);
+        for(std::size_t e = 0; e < whole.cost.effects.size(); ++e)
+          EXPECT_EQ(resumed.cost.effects[e].calls, whole.cost.effects[e].calls);
+      }
+    }
   }
 
   TEST(RankRun, TellsWhatItDid)
