@@ -261,8 +261,8 @@ namespace meltfront::reference_fem
     require_resumable();
     if(!is_resumed())
     {
-      reached(0, time);
       u_accepted = u;
+      reached(0, time);
     }
     while(!queue.empty())
     {

@@ -73,7 +73,7 @@ namespace meltfront::reference_fem::tests
 
       StateKeeper *state_keeper() override
       {
-        return left_after == 0 && state.empty() ? nullptr : this;
+        return left_after < 0 && state.empty() ? nullptr : this;
       }
 
       std::unique_ptr<std::istream> state_to_resume() override
@@ -93,8 +93,8 @@ namespace meltfront::reference_fem::tests
       }
 
       Shown &shown;
-      long left_after = 0; ///< step after which the run is left, its state kept
-      std::string state;   ///< from which it goes on
+      long left_after = -1; ///< step after which the run is left, its state kept
+      std::string state;    ///< from which it goes on
     };
 
     template <typename Make>
@@ -278,7 +278,7 @@ namespace meltfront::reference_fem::tests
          std::pair(line_sink_square(), OptionTexts{{"steps", "10"}})})
     {
       const Shown whole = on_ranks(scene, 32, all_ranks(), options);
-      for(const long step : {1, 8})
+      for(const long step : {0, 1, 8})
       {
         Shown left, resumed;
         Watch leaves(left), goes_on(resumed);
