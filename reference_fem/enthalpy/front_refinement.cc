@@ -130,13 +130,14 @@ namespace meltfront::reference_fem
     for(const cases::PointSource &source : scene.sources)
       from_sources[mesh.cell_at(source.position)] = 0;
     spread(discretisation, kept, from_sources);
-    std::vector<double> u(enthalpy.size());
-    for(std::size_t i = 0; i < u.size(); ++i)
-      u[i] = graph.kirchhoff(graph.temperature_excess_at_enthalpy(enthalpy[i]));
-    const auto [least, largest] = std::ranges::minmax(u);
+    std::vector<double> sensible(enthalpy.size());
+    for(std::size_t i = 0; i < sensible.size(); ++i)
+      sensible[i] = enthalpy[i] - std::clamp(enthalpy[i], 0., graph.enthalpy(0));
+    const auto [least, largest] = std::ranges::minmax(sensible);
     const double allowed
         = smoothness * (largest - least) * discretisation.spacing / scene.domain.side();
-    const std::vector<double> jumps = mesh.jumps(by_site(discretisation, std::move(u)));
+    const std::vector<double> jumps
+        = mesh.jumps(by_site(discretisation, std::move(sensible)));
     const std::vector<int> left = mesh.halvings_left();
     std::vector<Wish> result(layer.size(), Wish::keep);
     for(std::size_t c = 0; c < layer.size(); ++c)

@@ -13,10 +13,11 @@ namespace meltfront::reference_fem
   /**
    * Where a mesh is to be finest (option `refinement`): in some layers of cells around
    * the front and around sources; and elsewhere so fine that a cell's jump of gradients
-   * times its size (RefinableMesh::jumps), of Kirchhoff's variable, is no more than what
-   * that variable changes by across the smallest cells on average: the share `smoothness`
-   * of its span over the domain's side times the smallest spacing. The error of a fixed
-   * mesh at the front is of that order, so that the larger cells add a share of it.
+   * times its size (RefinableMesh::jumps), of the sensible heat per volume, is no more
+   * than the share `smoothness` of what that changes by across the smallest cells on
+   * average: its span over the domain's side times the smallest spacing. The error of a
+   * fixed mesh at the front is of that order, so that the larger cells add a share of it.
+   * Heat, for what the larger cells are wrong by in it is what the front is wrong by.
    *
    * Cells near the front are never joined: what is solid and what is liquid is not mixed.
    */
@@ -31,7 +32,7 @@ namespace meltfront::reference_fem
     static constexpr int layers_kept = 2;
     /** Steps after which the mesh is adapted at the latest. */
     static constexpr int most_steps = 10;
-    static constexpr double smoothness = 0.1;
+    static constexpr double smoothness = 0.4;
     /** Cells that are joined have four times the jump: they are to stay below. */
     static constexpr double joined_below = 1. / 8;
 
