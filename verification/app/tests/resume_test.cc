@@ -57,6 +57,18 @@ namespace meltfront::verification::tests
         EXPECT_TRUE(fs::exists(killed / entry.path().filename())) << entry.path();
     }
 
+    /** greenspan's option of that name is a file. */
+    TEST(Program, RunsWhatKeepsCheckpointsOfItsOwn)
+    {
+      const TemporaryDirectory scratch;
+      const Outcome run = run_program("run greenspan-triangle-fast --method greenspan "
+                                      "--n 28 --set greenspan.checkpoint="
+                                      + scratch.path("state").string() + " --out "
+                                      + scratch.path("run").string());
+      EXPECT_EQ(run.status, 0) << run.output;
+      EXPECT_TRUE(fs::exists(scratch.path("state")));
+    }
+
     TEST(Program, SaysWhatItCannotResume)
     {
       const TemporaryDirectory scratch;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <variant>
 
 namespace meltfront::verification
 {
@@ -51,9 +52,14 @@ namespace meltfront::verification
 
   double checkpoint_interval(const cases::Options &options)
   {
+    // greenspan's names a file that it goes on from by itself.
     const bool declared = std::ranges::any_of(options.declarations(),
                                               [](const cases::OptionDeclaration &option)
-                                              { return option.key == "checkpoint"; });
+                                              {
+                                                return option.key == "checkpoint"
+                                                       && std::holds_alternative<double>(
+                                                           option.default_value);
+                                              });
     return declared ? options.get_double("checkpoint") : 0;
   }
 } // namespace meltfront::verification
