@@ -150,10 +150,26 @@ namespace meltfront::particles::greenspan
       }
     }
 
+    /** @throws cases::Refusal of a solid that overlaps with its own images */
+    void require_room(const ParticleState &state, const std::vector<double> &cell)
+    {
+      for(std::size_t d = 0; d < cell.size(); ++d)
+      {
+        const auto [least, largest] = std::ranges::minmax(state.position[d]);
+        if(cell[d] > 0 && largest - least >= cell[d])
+          throw cases::Refusal(fmt::format(
+              "greenspan: the solid is {:.4g} long in direction {}, where space repeats "
+              "itself after {:.4g}: it would overlap with its images; take a smaller n "
+              "or a larger cell",
+              largest - least, d, cell[d]));
+      }
+    }
+
     ParticleState start_of(const cases::ParticleSolid &solid,
                            const cases::Resolution &resolution, const PairForce &force)
     {
       ParticleState state = places_of(solid, resolution, force);
+      require_room(state, solid.cell);
       if(solid.initial_temperature > 0)
         set_temperature(state, solid.initial_temperature, resolution.seed);
       std::ranges::copy(solid.cell, state.period.begin());

@@ -41,23 +41,6 @@ namespace meltfront::particles::greenspan
       std::map<double, double> intervals; ///< end, by begin
     };
 
-    void require_radius(double radius)
-    {
-      if(!(radius > 0 && std::isfinite(radius)))
-        throw cases::InputError(fmt::format(
-            "the radius of particles in light must be positive, not {}", radius));
-    }
-
-    /** Particles by a key, those of the same key as they are given. */
-    std::vector<std::size_t> order_by(const std::vector<double> &key)
-    {
-      std::vector<std::size_t> order(key.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::stable_sort(order.begin(), order.end(),
-                       [&key](std::size_t i, std::size_t j) { return key[i] < key[j]; });
-      return order;
-    }
-
     /** The part of an interval of angles, of less than a turn, that is not yet covered.
      */
     double add_angles(Cover &cover, double begin, double end)
@@ -71,18 +54,33 @@ namespace meltfront::particles::greenspan
     }
   } // namespace
 
+  void require_light_radius(double radius)
+  {
+    if(!(radius > 0 && std::isfinite(radius)))
+      throw cases::InputError(fmt::format(
+          "the radius of particles in light must be positive, not {}", radius));
+  }
+
+  std::vector<std::size_t> order_of_light(const std::vector<double> &key)
+  {
+    std::vector<std::size_t> order(key.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&key](std::size_t i) { return key[i]; });
+    return order;
+  }
+
   std::vector<Exposure> exposure_to_point(std::span<const double> x,
                                           std::span<const double> y,
                                           const std::array<double, 2> &source,
                                           double radius)
   {
-    require_radius(radius);
+    require_light_radius(radius);
     std::vector<double> distance(x.size());
     for(std::size_t i = 0; i < x.size(); ++i)
       distance[i] = std::hypot(x[i] - source[0], y[i] - source[1]);
     std::vector<Exposure> result(x.size());
     Cover cover;
-    for(const std::size_t i : order_by(distance))
+    for(const std::size_t i : order_of_light(distance))
     {
       if(distance[i] <= radius)
       {
@@ -103,7 +101,7 @@ namespace meltfront::particles::greenspan
                                          const std::array<double, 2> &direction,
                                          double radius)
   {
-    require_radius(radius);
+    require_light_radius(radius);
     const double length = std::hypot(direction[0], direction[1]);
     if(!(length > 0 && std::isfinite(length)))
       throw cases::InputError("the direction of rays must have a length");
@@ -113,7 +111,7 @@ namespace meltfront::particles::greenspan
       depth[i] = c * x[i] + s * y[i];
     std::vector<Exposure> result(x.size());
     Cover cover;
-    for(const std::size_t i : order_by(depth))
+    for(const std::size_t i : order_of_light(depth))
     {
       const double across = c * y[i] - s * x[i];
       result[i].width = cover.add(across - radius, across + radius);

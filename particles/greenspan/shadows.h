@@ -15,6 +15,12 @@ namespace meltfront::particles::greenspan
         = 0; ///< what it catches: angle at a point source, width of parallel rays
   };
 
+  /** @throws cases::InputError unless it is positive */
+  void require_light_radius(double radius);
+
+  /** Particles by their distance or depth, those of the same as they are given. */
+  std::vector<std::size_t> order_of_light(const std::vector<double> &key);
+
   /**
    * Light from a point of the plane on disks of equal radius, each in the shadow of those
    * whose centres are nearer to the source. A disk at distance d spans the angles within

@@ -289,22 +289,6 @@ namespace meltfront::particles::greenspan
       return result;
     }
 
-    void require_radius(double radius)
-    {
-      if(!(radius > 0 && std::isfinite(radius)))
-        throw cases::InputError(fmt::format(
-            "the radius of particles in light must be positive, not {}", radius));
-    }
-
-    /** Particles by a key, those of the same key as they are given. */
-    std::vector<std::size_t> order_by(const std::vector<double> &key)
-    {
-      std::vector<std::size_t> order(key.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::ranges::stable_sort(order, {}, [&key](std::size_t i) { return key[i]; });
-      return order;
-    }
-
     /** Exposures of figures that stand in an order. */
     template <typename Figure>
     std::vector<Exposure> in_given_order(const std::vector<Figure> &figures,
@@ -327,12 +311,12 @@ namespace meltfront::particles::greenspan
                                           const std::array<double, 3> &source,
                                           double radius)
   {
-    require_radius(radius);
+    require_light_radius(radius);
     const std::size_t n = centres[0].size();
     std::vector<double> distance(n);
     for(std::size_t i = 0; i < n; ++i)
       distance[i] = length(place(centres, i) - source);
-    const std::vector<std::size_t> order = order_by(distance);
+    const std::vector<std::size_t> order = order_of_light(distance);
     if(n > 0 && distance[order.front()] <= radius) // the source is within it
     {
       std::vector<Exposure> result(n);
@@ -354,7 +338,7 @@ namespace meltfront::particles::greenspan
                                          const std::array<double, 3> &direction,
                                          double radius)
   {
-    require_radius(radius);
+    require_light_radius(radius);
     const double size = length(direction);
     if(!(size > 0 && std::isfinite(size)))
       throw cases::InputError("the direction of rays must have a length");
@@ -363,7 +347,7 @@ namespace meltfront::particles::greenspan
     std::vector<double> depth(centres[0].size());
     for(std::size_t i = 0; i < depth.size(); ++i)
       depth[i] = dot(place(centres, i), along);
-    const std::vector<std::size_t> order = order_by(depth);
+    const std::vector<std::size_t> order = order_of_light(depth);
     std::vector<Disk> disks;
     for(const std::size_t i : order)
       disks.push_back(

@@ -167,6 +167,10 @@ namespace meltfront::particles::greenspan
       cases::Scene corners = fast_scene(0.1);
       corners.particle_solid->corners = {29};
       EXPECT_THROW(solve(corners, resolution_of(28), recorder), cases::Refusal);
+      cases::Scene crowded = fast_scene(0.1); // 28 spacings across, in space of 20
+      crowded.particle_solid->arrangement = cases::SolidArrangement::disk;
+      crowded.particle_solid->cell = {20, 20};
+      EXPECT_THROW(solve(crowded, resolution_of(28), recorder), cases::Refusal);
     }
 
     TEST(GreenspanMethod, StopsInTheStepInWhichTheMotionBreaks)
