@@ -1,4 +1,5 @@
 # Which instructions the compiler may use: one set for every target, because Eigen's alignment is part of the ABI.
+#   MELTFRONT_KERNELS       see libraries.cmake
 #   MELTFRONT_ARCHITECTURE  what -march takes (x86-64-v2, x86-64-v3, native, ...); empty: x86-64-v3, or x86-64-v2 on a
 #                           processor that lacks it; on other processors than x86-64 the compiler's own default
 set(MELTFRONT_ARCHITECTURE "" CACHE STRING "What -march takes; empty: x86-64-v3, x86-64-v2 on a processor that lacks it")
@@ -23,6 +24,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   list(APPEND architecture_flags -mno-avx512f)
 endif()
 add_compile_options(${architecture_flags})
+if(MELTFRONT_KERNELS)
+  # Libraries of several levels in one program agree about where Eigen's arrays lie.
+  add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=16)
+endif()
 
 # With the very flags of the build, run: what this compiler is known to get wrong must come out right.
 set(check_key "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE} ${architecture_flags}")

@@ -12,6 +12,7 @@
 #include <cases/case_file/prm_library.h>
 #include <cases/case_file/prm_scan.h>
 #include <cases/case_file/scene_reader.h>
+#include <cases/data_folder.h>
 #include <cases/options.h>
 
 #include <fmt/format.h>
@@ -23,7 +24,10 @@ namespace meltfront::cases
 {
   namespace
   {
-    const PrmLibrary library{MELTFRONT_CASE_LIBRARY, "case"};
+    PrmLibrary library()
+    {
+      return {data_path("cases/library"), "case"};
+    }
 
     /** Call a parser of one value; its complaint gets file, line and key. */
     template <typename Parse>
@@ -242,14 +246,14 @@ namespace meltfront::cases
 
   std::vector<std::string> library_names()
   {
-    return library.names();
+    return library().names();
   }
 
   std::string library_title(const std::string &name)
   {
-    const std::string path = library.path(name);
-    const PrmScan scan
-        = scan_prm(expand_includes(read_prm_text(path), path, MELTFRONT_CASE_LIBRARY));
+    const std::string path = library().path(name);
+    const PrmScan scan = scan_prm(
+        expand_includes(read_prm_text(path), path, data_path("cases/library")));
     std::string title;
     for(const PrmAssignment &assignment : scan.assignments)
       if(assignment.subsection.empty() && assignment.key == "title")
@@ -259,12 +263,12 @@ namespace meltfront::cases
 
   std::string library_path(const std::string &name)
   {
-    return library.path(name);
+    return library().path(name);
   }
 
   Case load_case(const std::string &name_or_path)
   {
-    return read_case(library.find(name_or_path));
+    return read_case(library().find(name_or_path));
   }
 
   std::string case_file_reference()

@@ -9,6 +9,7 @@
 #include <cases/case_file/mesh_reader.h>
 #include <cases/case_file/output_reader.h>
 #include <cases/case_file/particle_solid_reader.h>
+#include <cases/data_folder.h>
 #include <cases/effects.h>
 #include <cases/scene.h>
 
@@ -336,7 +337,7 @@ namespace meltfront::cases
 
   PrmFile case_keys()
   {
-    PrmFile prm(MELTFRONT_CASE_LIBRARY);
+    PrmFile prm(data_path("cases/library"));
     prm.allow_constants();
     declare_head(prm);
     declare_domain(prm);

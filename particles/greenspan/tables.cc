@@ -1,3 +1,4 @@
+#include <cases/data_folder.h>
 #include <cases/error.h>
 #include <particles/greenspan/tables.h>
 
@@ -121,6 +122,6 @@ namespace meltfront::particles::greenspan
 
   ParticleState read_table(int table, Errata errata)
   {
-    return read_table(MELTFRONT_CASE_DATA, table, errata);
+    return read_table(cases::data_path("cases/data"), table, errata);
   }
 } // namespace meltfront::particles::greenspan

@@ -8,6 +8,7 @@
 #include <verification/app/crosscheck_command.h>
 #include <verification/app/list.h>
 #include <verification/app/manual/manual.h>
+#include <verification/app/methods.h>
 #include <verification/app/new_case.h>
 #include <verification/app/study_commands.h>
 #include <verification/ranks/ranks.h>
@@ -42,6 +43,7 @@ namespace
     ManualArguments manual_arguments;
     std::string report_directory, kept_directory;
     std::string list_what;
+    std::vector<std::string> plugins;
     bool list_as_json = false, report_details = false;
     std::function<int()> action;
     bool is_run = false; ///< the one command that ranks share
@@ -60,6 +62,7 @@ namespace
                        int (*study)(const StudyArguments &));
     void declare_others();
     void declare_manual();
+    void declare_plugins();
   };
 
   CommandLine::CommandLine()
@@ -86,6 +89,7 @@ namespace
     declare_calibrate();
     declare_others();
     declare_manual();
+    declare_plugins();
     add_examples(app);
   }
 
@@ -436,6 +440,18 @@ namespace
         });
   }
 
+  /** Of every command that methods are named to. */
+  void CommandLine::declare_plugins()
+  {
+    for(const char *command : {"verify", "stability", "run", "compare", "advise",
+                               "crosscheck", "ablate", "sensitivity", "list"})
+      app.get_subcommand(command)
+          ->add_option("--plugin", plugins,
+                       "shared library with methods of its own, which join all others; "
+                       "may be given several times")
+          ->allow_extra_args(false);
+  }
+
   /** What the user may have meant by a first word that is no command; empty otherwise. */
   std::string nearest_command(const CLI::App &app, int argc, char **argv)
   {
@@ -467,6 +483,7 @@ namespace
             fmt::format("'run' is the one command that several ranks share, and this is "
                         "started on {}",
                         ranks));
+      add_plugins(command_line.plugins);
       const int status = command_line.action ? command_line.action() : int(all_well);
       if(std::fflush(stdout) != 0)
         throw meltfront::cases::OutputError("standard output cannot be written to");

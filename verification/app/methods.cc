@@ -16,13 +16,15 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 namespace meltfront::verification
 {
-  const std::vector<std::unique_ptr<cases::Method>> &methods()
+  namespace
   {
-    static const auto registry = []
+    MethodList methods_of_this_program()
     {
-      std::vector<std::unique_ptr<cases::Method>> list;
+      MethodList list;
       list.push_back(particles::make_sph());
       list.push_back(particles::make_sph_2005());
       list.push_back(particles::make_sph_mixture());
@@ -41,8 +43,39 @@ namespace meltfront::verification
       list.push_back(reference_fem::make_fem_cut());
       list.push_back(make_external());
       return list;
-    }();
-    return registry;
+    }
+
+    /** These, and those of plugins after them. */
+    MethodList &registry()
+    {
+      static MethodList list = methods_of_this_program();
+      return list;
+    }
+
+    std::vector<std::string> &added_files()
+    {
+      static std::vector<std::string> files;
+      return files;
+    }
+  } // namespace
+
+  const MethodList &methods()
+  {
+    return registry();
+  }
+
+  void add_plugins(const std::vector<std::string> &files)
+  {
+    for(const std::string &file : files)
+    {
+      add_plugin(file, registry());
+      added_files().push_back(std::filesystem::absolute(file).string());
+    }
+  }
+
+  const std::vector<std::string> &plugin_files()
+  {
+    return added_files();
   }
 
   const cases::Method &method_named(const std::string &name)

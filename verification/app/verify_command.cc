@@ -1,3 +1,4 @@
+#include <cases/data_folder.h>
 #include <cases/error.h>
 #include <verification/app/commands.h>
 #include <verification/app/methods.h>
@@ -61,6 +62,8 @@ namespace meltfront::verification
                      {"--shared", std::filesystem::absolute(arguments.shared).string()});
       if(arguments.memory > 0)
         words.insert(words.end(), {"--memory", fmt::format("{}", arguments.memory)});
+      for(const std::string &plugin : plugin_files())
+        words.insert(words.end(), {"--plugin", plugin});
       words.push_back("--only");
       return words;
     }
@@ -131,7 +134,7 @@ namespace meltfront::verification
     {
       std::map<std::string, double> seconds;
       const std::string file
-          = fmt::format("{}/results/reference/{}.json", MELTFRONT_SOURCE, matrix);
+          = cases::data_path(fmt::format("results/reference/{}.json", matrix));
       if(std::filesystem::exists(file))
         for(const auto &[run, figures] : read_baseline(file).runs)
           seconds[run] = figures.cpu_seconds;

@@ -1,3 +1,4 @@
+#include <cases/data_folder.h>
 #include <cases/error.h>
 #include <verification/external/protocol.h>
 #include <verification/record/json_values.h>
@@ -68,7 +69,7 @@ namespace meltfront::verification::external
 
   std::string folder_path(const std::string &name)
   {
-    return fmt::format("{}/{}", MELTFRONT_EXTERNAL_FOLDER, name);
+    return cases::data_path("verification/external/" + name);
   }
 
   std::string breach_of_protocol(const json &message, const std::string &definition)

@@ -2,6 +2,7 @@
 // program does not answer with a value or a sentence.
 //   fuzz_files [COUNT [SEED [KIND]]]   COUNT texts of each kind (1000), from SEED on (1)
 #include <cases/case_file/case_file.h>
+#include <cases/data_folder.h>
 #include <cases/effects.h>
 #include <cases/error.h>
 #include <verification/app/methods.h>
@@ -66,8 +67,8 @@ namespace meltfront::verification
     {
       FileKind kind{"matrix", {}, {}};
       for(const std::string &name : matrix_names())
-        kind.originals.push_back(
-            text_of_file(fmt::format("{}/{}.prm", MELTFRONT_MATRIX_LIBRARY, name)));
+        kind.originals.push_back(text_of_file(
+            cases::data_path(fmt::format("verification/matrix/library/{}.prm", name))));
       kind.read = [](const std::string &text) { read_matrix_text(text, "mutated.prm"); };
       return kind;
     }

@@ -1,6 +1,7 @@
 #include <verification/matrix/job.h>
 #include <verification/record/hash.h>
 #include <verification/record/json_values.h>
+#include <verification/record/provenance.h>
 
 #include <fmt/format.h>
 
@@ -45,7 +46,7 @@ namespace meltfront::verification
           record.n,
           record.seed,
           record.threads,
-          job.method->further_provenance(job.run.resolution.options),
+          method_provenance(*job.method, job.run.resolution.options),
           options.program_version,
           options.program_hash};
       return fmt::format("{}/{}.json", options.shared, sha256(identity.dump()));
@@ -83,7 +84,7 @@ namespace meltfront::verification
     for(const char *key : {"case_hash", "program_version", "program_hash"})
       same_provenance = same_provenance && was[key] == expected.provenance[key];
     for(const auto &[key, value] :
-        job.method->further_provenance(job.run.resolution.options))
+        method_provenance(*job.method, job.run.resolution.options))
       same_provenance = same_provenance && was[key] == value;
     return same_provenance && record.method == expected.method
            && record.case_name == expected.case_name && record.label == expected.label

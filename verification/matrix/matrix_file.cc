@@ -1,5 +1,6 @@
 #include <cases/case_file/prm_file.h>
 #include <cases/case_file/prm_library.h>
+#include <cases/data_folder.h>
 #include <cases/error.h>
 #include <verification/judge/finding_reader.h>
 #include <verification/matrix/criteria_reader.h>
@@ -18,7 +19,11 @@ namespace meltfront::verification
     using cases::PrmFile;
     using cases::PrmKind;
 
-    const cases::PrmLibrary library{MELTFRONT_MATRIX_LIBRARY, "matrix"};
+    cases::PrmLibrary library()
+    {
+      return {cases::data_path("verification/matrix/library"), "matrix"};
+    }
+
     constexpr int most_blocks = 64;
 
     std::string block_name(int number)
@@ -28,7 +33,7 @@ namespace meltfront::verification
 
     PrmFile matrix_keys()
     {
-      PrmFile prm(library.folder);
+      PrmFile prm(library().folder);
       prm.declare("", {"title", PrmKind::text, "", "", "One line."});
       prm.declare("", {"description", PrmKind::text, "", "", "What the matrix shows."});
       prm.declare("", {"hard cases", PrmKind::boolean, "false", "",
@@ -237,12 +242,12 @@ namespace meltfront::verification
 
   std::vector<std::string> matrix_names()
   {
-    return library.names();
+    return library().names();
   }
 
   Matrix load_matrix(const std::string &name_or_path)
   {
-    const std::string path = library.find(name_or_path);
+    const std::string path = library().find(name_or_path);
     if(!std::filesystem::exists(path))
       throw cases::InputError(fmt::format("there is no matrix file '{}'; a matrix of the "
                                           "library is named without a path",

@@ -8,7 +8,7 @@
 #include <verification/matrix/runner.h>
 #include <verification/matrix/timing_rounds.h>
 #include <verification/matrix/workers.h>
-#include <verification/record/hash.h>
+#include <verification/record/provenance.h>
 #include <verification/record/json_values.h>
 #include <verification/record/label.h>
 
@@ -47,7 +47,7 @@ namespace meltfront::verification
       if(options.jobs <= 0)
         options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
       if(options.program_hash.empty())
-        options.program_hash = sha256_of_file("/proc/self/exe");
+        options.program_hash = verification::program_hash();
       return options;
     }
 

@@ -23,7 +23,7 @@ namespace meltfront::verification
     /** Most memory that a run may take (bytes); see cases::Resolution::memory_limit. */
     double memory_limit = std::numeric_limits<double>::infinity();
     std::string program_version;
-    std::string program_hash; ///< empty: the SHA-256 of the running program's file
+    std::string program_hash; ///< empty: program_hash()
     std::string command_line;
     std::FILE *progress = nullptr; ///< null: say nothing
     RepeatPolicy repeats{};

@@ -140,7 +140,7 @@ namespace meltfront::verification
     record.threads = resolution.threads;
     record.options = resolution.options.values();
     record.provenance = build_provenance();
-    for(const auto &[key, value] : method.further_provenance(resolution.options))
+    for(const auto &[key, value] : method_provenance(method, resolution.options))
       record.provenance[key] = value;
     for(const auto &[key, value] : provenance)
       record.provenance[key] = value;

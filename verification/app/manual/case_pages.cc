@@ -1,4 +1,5 @@
 #include <cases/case_file/case_file.h>
+#include <cases/data_folder.h>
 #include <verification/app/manual/case_pages.h>
 #include <verification/app/methods.h>
 #include <verification/judge/baseline.h>
@@ -81,7 +82,7 @@ namespace meltfront::verification
     std::string seconds_of(const std::string &matrix)
     {
       const std::string file
-          = fmt::format("{}/results/reference/{}.json", MELTFRONT_SOURCE, matrix);
+          = cases::data_path(fmt::format("results/reference/{}.json", matrix));
       if(!std::filesystem::exists(file))
         return "";
       double seconds = 0;

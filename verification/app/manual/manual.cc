@@ -156,6 +156,9 @@ h4{font-size:.95rem;margin:1.4rem 0 .3rem} h5{font-size:.9rem;margin:1rem 0 .2re
           {"adding", "Adding", page_of("adding")},
           {"external", "Your own solver",
            markdown(source_text("verification/external/README.md"), 2)},
+          {"plugins", "Plugins",
+           markdown(source_text("verification/plugins/README.md"), 2)},
+          {"installing", "Installing", page_of("installing")},
           {"limits", "Limits", page_of("limits")}};
     }
 

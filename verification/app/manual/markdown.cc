@@ -1,3 +1,4 @@
+#include <cases/data_folder.h>
 #include <cases/error.h>
 #include <verification/app/manual/markdown.h>
 
@@ -97,7 +98,7 @@ namespace meltfront::verification
 
   std::string source_text(const std::string &path)
   {
-    const std::string full = fmt::format("{}/{}", MELTFRONT_SOURCE, path);
+    const std::string full = cases::data_path(path);
     std::ifstream in(full, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(in), {}};
     if(!in || text.empty())

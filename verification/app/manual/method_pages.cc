@@ -1,3 +1,4 @@
+#include <cases/data_folder.h>
 #include <cases/effects.h>
 #include <verification/app/capability_list.h>
 #include <verification/app/list.h>
@@ -188,7 +189,7 @@ namespace meltfront::verification
       for(const std::string &matrix : matrix_names())
       {
         const std::string file
-            = fmt::format("{}/results/reference/{}.json", MELTFRONT_SOURCE, matrix);
+            = cases::data_path(fmt::format("results/reference/{}.json", matrix));
         if(!std::filesystem::exists(file) || load_matrix(matrix).hard_cases)
           continue;
         for(const Reached &run : finest_of(read_baseline(file)))

@@ -85,6 +85,7 @@ namespace meltfront::verification
       add("processor", joined(values_of(result, "cpu")));
       add("compiler", joined(values_of(result, "compiler")));
       add("flags", joined(values_of(result, "flags")));
+      add("particle methods compiled for", joined(values_of(result, "kernels")));
       add("packages", joined(values_of(result, "packages")));
       add("threads per run", numbers(threads));
       add("times are the least of", repeats.empty() ? "" : numbers(repeats) + " runs");

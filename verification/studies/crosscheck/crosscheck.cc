@@ -2,6 +2,7 @@
 #include <verification/matrix/directory_lock.h>
 #include <verification/matrix/progress.h>
 #include <verification/record/hash.h>
+#include <verification/record/provenance.h>
 #include <verification/record/json_values.h>
 #include <verification/studies/crosscheck/crosscheck.h>
 #include <verification/studies/crosscheck/scene_generator.h>
@@ -58,7 +59,7 @@ namespace meltfront::verification
           settings.jobs
               = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
         if(settings.program_hash.empty())
-          settings.program_hash = sha256_of_file("/proc/self/exe");
+          settings.program_hash = verification::program_hash();
       }
 
       nlohmann::json run()

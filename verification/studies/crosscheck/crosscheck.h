@@ -22,7 +22,7 @@ namespace meltfront::verification
     double within = 20; ///< longest time of a run (processor s)
     std::vector<const cases::Method *> methods;
     std::string program_version;
-    std::string program_hash;      ///< empty: the SHA-256 of the running program's file
+    std::string program_hash;      ///< empty: program_hash()
     std::FILE *progress = nullptr; ///< null: say nothing
     ShrinkBudget shrink{};
   };

@@ -1,0 +1,10 @@
+# meltfront_headers(RESULT SOURCE folder...): the headers of folders of the source tree, relative to it, but those of tests.
+function(meltfront_headers result source)
+  set(patterns)
+  foreach(folder IN LISTS ARGN)
+    list(APPEND patterns ${source}/${folder}/*.h)
+  endforeach()
+  file(GLOB_RECURSE headers RELATIVE ${source} ${patterns})
+  list(FILTER headers EXCLUDE REGEX "/(tests|benchmarks)/")
+  set(${result} ${headers} PARENT_SCOPE)
+endfunction()
