@@ -1,0 +1,18 @@
+# cpack -G DEB: one package with the program, its libraries and headers. dpkg-shlibdeps finds what it depends on.
+set(CPACK_PACKAGE_NAME meltfront)
+set(CPACK_PACKAGE_VENDOR "")
+set(CPACK_PACKAGE_CONTACT "meltfront <meltfront@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "What accuracy costs when a melting or freezing front moves")
+set(CPACK_PACKAGE_DESCRIPTION "The Stefan problem by particle methods and finite elements on the same case files, each measured against exact solutions and against the others.")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/${meltfront_library_folder})
+# Plots are drawn by a program. What else a method of one's own is compiled with is needed by few.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS gnuplot-nox)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libfmt-dev, libboost-dev, libboost-serialization-dev, libeigen3-dev, nlohmann-json3-dev, libssl-dev, libdeal.ii-dev, python3-numpy, freefem++")
+include(CPack)
