@@ -147,6 +147,20 @@ namespace meltfront::verification
       return ranking.empty() ? figure : pair(element("div", figure), ranking);
     }
 
+    /** What heats and cools in stages: its energy by its temperature. */
+    Markup stages(const ReportContext &context, const CaseRuns &runs)
+    {
+      const Plot plot = energy_over_temperature(runs, context.styles);
+      if(nothing_to_draw(plot))
+        return {};
+      return element("h3", "Energy against temperature")
+             + context.plots.figure(
+                 runs.record->name() + "-stages", plot,
+                 text("Means over the second half of each stage, joined in the order of "
+                      "the stages; bars: one standard deviation over the runs. A step "
+                      "between two branches is a latent heat."));
+    }
+
     /** Where energy is conserved: its error by the time step. */
     Markup energy(const ReportContext &context, const CaseRuns &runs)
     {
@@ -173,7 +187,8 @@ namespace meltfront::verification
                 element("div", element("h3", "What is moved") + solid_equations(record)),
                 "pair scene");
     content += effects_and_parameters(context, runs) + ensembles(context, runs)
-               + energy(context, runs) + solid_over_time(context, runs);
+               + stages(context, runs) + energy(context, runs)
+               + solid_over_time(context, runs);
     if(run && run->particle_frames.size() > 1)
       content += frames(context, record, *run);
     return chapter_of(record, content + criteria(context, record) + limits(runs));

@@ -2,6 +2,7 @@
 #include <verification/report/plots/seed_curves.h>
 #include <verification/report/plots/solid_plots.h>
 
+#include <cases/reported_scalars.h>
 #include <verification/measure/formulas/order_fit.h>
 #include <verification/report/plots/curve_labels.h>
 
@@ -95,6 +96,38 @@ namespace meltfront::verification
     shorten_labels(plot);
     if(Curve printed = printed_points(*runs.record); !printed.x.empty())
       plot.curves.push_back(std::move(printed));
+    return plot;
+  }
+
+  Plot energy_over_temperature(const CaseRuns &runs, const MethodStyles &styles)
+  {
+    Plot plot;
+    plot.description = "Energy of a particle against temperature, " + runs.record->name();
+    plot.x.label = with_unit("temperature", unit_of(*runs.record, "K"));
+    plot.y.label = "energy of a particle";
+    for(const LabelRuns &label : runs.labels)
+      for(const Level &level : label.levels)
+      {
+        Curve curve;
+        curve.label = label.label;
+        curve.style = styles.style(label.label);
+        for(int stage = 1; stage <= cases::most_stages; ++stage)
+        {
+          const std::string energy = fmt::format("energy_stage_{}", stage);
+          const double temperature
+              = level.value(fmt::format("temperature_stage_{}", stage));
+          if(!std::isfinite(temperature + level.value(energy)))
+            continue;
+          curve.x.push_back(temperature);
+          curve.y.push_back(level.value(energy));
+          curve.spread.push_back(level.spread(energy));
+        }
+        if(level.finished_count < 2)
+          curve.spread.clear();
+        if(curve.x.size() > 1)
+          plot.curves.push_back(std::move(curve));
+      }
+    shorten_labels(plot);
     return plot;
   }
 

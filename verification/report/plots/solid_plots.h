@@ -12,6 +12,11 @@ namespace meltfront::verification
    * at their intermediate times. Nothing to draw where the number never changes. */
   Plot solid_particles_over_time(const CaseRuns &runs, const MethodStyles &styles);
 
+  /** Energy of a particle against temperature, means over the stages of the case's runs
+   * in their order, with the spread of runs; labels of one stage have a point. Nothing to
+   * draw where runs have no stages. */
+  Plot energy_over_temperature(const CaseRuns &runs, const MethodStyles &styles);
+
   /** Largest change of the energy against the time step, over all labels. */
   Plot energy_over_time_step(const CaseRuns &runs, const MethodStyles &styles);
 

@@ -194,6 +194,27 @@ namespace meltfront::verification
               "dt^2.00");
   }
 
+  TEST(Ensemble, StagesJoinEnergyAndTemperature)
+  {
+    MatrixResult result = solids(0);
+    for(const int seed : {1, 2})
+    {
+      RunRecord &run = result.runs.emplace_back(solid_run("solid", seed));
+      run.quantities = {{"temperature_stage_1", 30},
+                        {"temperature_stage_2", 20. + seed},
+                        {"temperature_stage_3", 46},
+                        {"energy_stage_1", -110},
+                        {"energy_stage_2", -120 + seed}};
+    }
+    const Plot plot = energy_over_temperature(collect_runs(result, result.cases[0]),
+                                              MethodStyles({"greenspan"}));
+    ASSERT_EQ(plot.curves.size(), 1u);
+    EXPECT_EQ(plot.curves[0].x, (std::vector<double>{30, 21.5}));
+    EXPECT_EQ(plot.curves[0].y, (std::vector<double>{-110, -118.5}));
+    EXPECT_EQ(plot.curves[0].spread[0], 0);
+    EXPECT_NEAR(plot.curves[0].spread[1], std::sqrt(0.5), 1e-12);
+  }
+
   TEST(ParticleFrames, DrawBondsOfSolidsAndArrowsOfFastFluid)
   {
     const StoredCase record = solid_case("solid");
