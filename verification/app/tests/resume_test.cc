@@ -1,32 +1,9 @@
 #include <verification/app/tests/run_program.h>
 
-#include <chrono>
-#include <csignal>
-#include <thread>
-
-#include <unistd.h>
-
 namespace meltfront::verification::tests
 {
   namespace
   {
-    /** Start the program in a session of its own and kill all of it after a moment. */
-    void run_and_kill(const std::string &arguments, double seconds)
-    {
-      const pid_t child = fork();
-      if(child == 0)
-      {
-        setsid();
-        const std::string command = "exec " + std::string(MELTFRONT_PROGRAM) + " "
-                                    + arguments + " >/dev/null 2>&1";
-        execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-        _exit(127);
-      }
-      std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-      kill(-child, SIGKILL);
-      waitpid(child, nullptr, 0);
-    }
-
     nlohmann::json outcome(const fs::path &directory)
     {
       nlohmann::json run = read_json(directory / "run.json");

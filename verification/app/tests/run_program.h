@@ -7,12 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 
 /** The program called as a user calls it. */
 namespace meltfront::verification::tests
@@ -40,6 +44,23 @@ namespace meltfront::verification::tests
     const int status = pclose(pipe);
     outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return outcome;
+  }
+
+  /** Start the program in a session of its own and kill all of it after a moment. */
+  inline void run_and_kill(const std::string &arguments, double seconds)
+  {
+    const pid_t child = fork();
+    if(child == 0)
+    {
+      setsid();
+      const std::string command = "exec " + std::string(MELTFRONT_PROGRAM) + " "
+                                  + arguments + " >/dev/null 2>&1";
+      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      _exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    kill(-child, SIGKILL);
+    waitpid(child, nullptr, 0);
   }
 
   inline nlohmann::json read_json(const fs::path &path)
