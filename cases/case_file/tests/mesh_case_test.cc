@@ -104,7 +104,9 @@ namespace meltfront::cases::test
                                                    : BoundaryKind::insulated)
             << name << ": what the case does not name is insulated";
         if(name == "x_min")
+        {
           EXPECT_EQ(boundary.value({0, 1, 0}, 0), -6);
+        }
       }
       const TemperatureBounds bounds = temperature_bounds(c.scene);
       EXPECT_EQ(bounds.lower, -std::numeric_limits<double>::infinity()) << "a sink";

@@ -101,7 +101,7 @@ namespace meltfront::verification
     std::vector<int> levels{std::max(2, static_cast<int>(std::lround(n / 2.))),
                             std::max(2, static_cast<int>(std::lround(n / std::sqrt(2.)))),
                             n};
-    levels.erase(std::ranges::unique(levels).begin(), levels.end());
+    levels.resize(std::ranges::unique(levels).begin() - levels.begin());
     return levels;
   }
 
