@@ -40,4 +40,9 @@ namespace meltfront::cases
   {
     return data_folder() + "/" + path;
   }
+
+  std::string program_call()
+  {
+    return std::filesystem::exists(data_path("meltfront")) ? "./meltfront" : "meltfront";
+  }
 } // namespace meltfront::cases

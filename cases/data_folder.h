@@ -16,6 +16,10 @@ namespace meltfront::cases
 
   /** A file or folder in data_folder(). @param path `cases/library` */
   std::string data_path(const std::string &path);
+
+  /** How a user calls the program: `./meltfront` in a clone, whose script stands in the
+   * data folder; `meltfront` where it is installed. */
+  std::string program_call();
 } // namespace meltfront::cases
 
 #endif

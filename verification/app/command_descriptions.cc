@@ -1,3 +1,4 @@
+#include <cases/data_folder.h>
 #include <verification/app/command_descriptions.h>
 
 #include <fmt/format.h>
@@ -9,34 +10,43 @@ namespace meltfront::verification
 {
   namespace
   {
-    // Each runs as it stands in a fresh clone; a test does so.
+    // What follows the program's name. Each runs as it stands in a fresh clone; a test
+    // does so.
     const std::map<std::string, std::vector<std::string>> examples{
         {"verify",
-         {"./meltfront verify scenes",
-          "./meltfront verify default --against results/reference",
-          "./meltfront verify default --list-runs"}},
-        {"stability", {"./meltfront stability --jobs 2"}},
+         {"verify scenes", "verify default --against results/reference",
+          "verify default --list-runs"}},
+        {"stability", {"stability --jobs 2"}},
         {"run",
-         {"./meltfront run plane-freezing --method sph --n 80 --out results/first",
-          "./meltfront run pipe-freezing --method fem-fitted --n 32 --set "
+         {"run plane-freezing --method sph --n 80 --out results/first",
+          "run pipe-freezing --method fem-fitted --n 32 --set "
           "'Scene/Material/latent heat=300 kJ/kg'",
-          "./meltfront run corner-freezing --method fem-enthalpy --set "
+          "run corner-freezing --method fem-enthalpy --set "
           "fem-enthalpy.steps=200 --memory 4 --time-limit 600"}},
-        {"compare", {"./meltfront compare plane-freezing --within 30"}},
-        {"advise", {"./meltfront advise plane-freezing --front-error 1e-4 --within 60"}},
-        {"crosscheck", {"./meltfront crosscheck --scenes 20 --seed 1 --dimension 1"}},
-        {"ablate", {"./meltfront ablate plane-freezing-water --within 60"}},
-        {"sensitivity", {"./meltfront sensitivity plane-freezing-water --within 60"}},
-        {"calibrate", {"./meltfront calibrate greenspan --substance rectangle"}},
-        {"list",
-         {"./meltfront list cases", "./meltfront list keys",
-          "./meltfront list capabilities --json"}},
-        {"new", {"./meltfront new cold-pipe --like pipe-freezing"}},
+        {"compare", {"compare plane-freezing --within 30"}},
+        {"advise", {"advise plane-freezing --front-error 1e-4 --within 60"}},
+        {"crosscheck", {"crosscheck --scenes 20 --seed 1 --dimension 1"}},
+        {"ablate", {"ablate plane-freezing-water --within 60"}},
+        {"sensitivity", {"sensitivity plane-freezing-water --within 60"}},
+        {"calibrate", {"calibrate greenspan --substance rectangle"}},
+        {"list", {"list cases", "list keys", "list capabilities --json"}},
+        {"new", {"new cold-pipe --like pipe-freezing"}},
         {"manual",
-         {"./meltfront manual --out results/manual.html",
-          "./meltfront manual --format bash --out results/meltfront.bash"}},
-        {"report", {"./meltfront report results/default"}},
-        {"test", {"./meltfront test"}}};
+         {"manual --out results/manual.html",
+          "manual --format bash --out results/meltfront.bash"}},
+        {"report", {"report results/default"}},
+        {"test", {"test"}}};
+
+    std::vector<std::string> examples_of(const std::string &command)
+    {
+      const auto found = examples.find(command);
+      if(found == examples.end())
+        throw std::logic_error(fmt::format("the command '{}' has no example", command));
+      std::vector<std::string> lines;
+      for(const std::string &example : found->second)
+        lines.push_back(cases::program_call() + " " + example);
+      return lines;
+    }
 
     /** The choices that stand in an option's type, `TEXT:{quick,careful}`. */
     std::vector<std::string> choices_of(const CLI::Option &option)
@@ -69,12 +79,9 @@ namespace meltfront::verification
   {
     for(CLI::App *command : app.get_subcommands({}))
     {
-      const auto found = examples.find(command->get_name());
-      if(found == examples.end())
-        throw std::logic_error(
-            fmt::format("the command '{}' has no example", command->get_name()));
-      std::string text = found->second.size() > 1 ? "Examples:" : "Example:";
-      for(const std::string &example : found->second)
+      const std::vector<std::string> lines = examples_of(command->get_name());
+      std::string text = lines.size() > 1 ? "Examples:" : "Example:";
+      for(const std::string &example : lines)
         text += "\n  " + example;
       command->footer(text);
     }
@@ -87,7 +94,7 @@ namespace meltfront::verification
     {
       CommandDescription one{command->get_name(),
                              command->get_description(),
-                             examples.at(command->get_name()),
+                             examples_of(command->get_name()),
                              {}};
       for(const CLI::Option *option : command->get_options())
         if(option->get_name() != "--help" && option->get_name() != "-h,--help")

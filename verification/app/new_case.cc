@@ -1,5 +1,6 @@
 #include <cases/case_file/case_file.h>
 #include <cases/case_file/vary_case.h>
+#include <cases/data_folder.h>
 #include <cases/error.h>
 #include <verification/app/commands.h>
 #include <verification/app/new_case.h>
@@ -28,12 +29,12 @@ namespace meltfront::verification
                             begun.scene.name, begun.title);
     write_atomically(file, head + cases::text_without_figures(begun.text, file));
     fmt::print("Written to {0}. What comes next:\n"
-               "  ./meltfront compare {0} --within 30    every method that can, with "
+               "  {2} compare {0} --within 30    every method that can, with "
                "error bars\n"
-               "  ./meltfront run {0} --method {1} --n 40    one run, with fields for "
+               "  {2} run {0} --method {1} --n 40    one run, with fields for "
                "ParaView\n"
-               "  ./meltfront list keys    what a case file may say\n",
-               file, "fem-enthalpy");
+               "  {2} list keys    what a case file may say\n",
+               file, "fem-enthalpy", cases::program_call());
     return all_well;
   }
 } // namespace meltfront::verification

@@ -122,7 +122,7 @@ namespace meltfront::verification
       std::vector<std::string> names;
       for(const std::string &one : case_names(matrix))
         names.push_back(short_case_name(one));
-      entries += element("dt", element("code", "./meltfront verify " + name))
+      entries += element("dt", element("code", cases::program_call() + " verify " + name))
                  + element("dd",
                            element("b", matrix.title) + text(". " + matrix.description)
                                + element("div", {{"class", "tags"}},

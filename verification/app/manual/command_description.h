@@ -22,7 +22,7 @@ namespace meltfront::verification
   {
     std::string name;
     std::string description;
-    std::vector<std::string> examples; ///< whole lines, `./meltfront ...`
+    std::vector<std::string> examples; ///< whole lines, with cases::program_call()
     std::vector<CommandOption> options;
   };
 
