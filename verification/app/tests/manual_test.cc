@@ -237,8 +237,8 @@ TEST(Manual, EveryCommandRuns)
       const std::string arguments = arguments_in(line);
       // The script's own commands; a reader's own solver; minutes of particles.
       if(arguments.empty() || arguments.starts_with("test")
-         || arguments.starts_with("bench") || arguments.starts_with("calibrate")
-         || has_placeholder(arguments)
+         || arguments.starts_with("bench") || arguments.starts_with("package")
+         || arguments.starts_with("calibrate") || has_placeholder(arguments)
          || arguments.find("external.manifest") != std::string::npos
          || !done.insert(arguments).second)
         continue;
