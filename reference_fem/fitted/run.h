@@ -28,7 +28,6 @@ namespace meltfront::reference_fem::fitted
   private:
     void take_steps() override;
     cases::Snapshot snapshot(long step, double time) override; // in run_report.cc
-    void refuse_start_at_melting_wall() const;
     IntegrationOptions integration_options() const;
     void enter(const RunSegment &segment);
     double clock_step() const;
@@ -54,7 +53,7 @@ namespace meltfront::reference_fem::fitted
     long most_unknowns = 0;
     IntegrationCost integration;
     double front_before = 0;                       ///< time of the state checked last (s)
-    std::vector<double> fronts;                    ///< its coordinates by ray (m)
+    std::vector<double> fronts;                    ///< then, by front and ray (m)
     const dealii::Vector<double> *shown = nullptr; ///< the state to take a snapshot of
   };
 } // namespace meltfront::reference_fem::fitted

@@ -1,4 +1,5 @@
 #include <reference_fem/fitted/events/cold_start.h>
+#include <reference_fem/fitted/events/profile.h>
 
 #include <cases/error.h>
 #include <cases/exact/line_sink.h>
@@ -50,7 +51,7 @@ namespace meltfront::reference_fem::fitted
     /** Fewest steps of a segment that begins during the run. */
     constexpr int fewest_steps = 20;
 
-    double temperature_at_end(const EventScene &setting, const OnePhase &state,
+    double temperature_at_end(const EventScene &setting, const LayeredState &state,
                               const bool inner)
     {
       const RayScene &rays = setting.rays;
@@ -59,7 +60,7 @@ namespace meltfront::reference_fem::fitted
     }
 
     /** By how much a wall is held above what lies at it (K). */
-    double jump_at_wall(const EventScene &setting, const OnePhase &state,
+    double jump_at_wall(const EventScene &setting, const LayeredState &state,
                         const bool inner)
     {
       const RayScene &rays = setting.rays;
@@ -96,9 +97,9 @@ namespace meltfront::reference_fem::fitted
     /** Heat that a sink draws around the time of seeds; its law in time must be the one
      * that the similarity solution asks for. */
     std::shared_ptr<const cases::ExactSolution> sink_start(const EventScene &setting,
-                                                           const OnePhase &initial)
+                                                           const LayeredState &initial)
     {
-      if(initial.solid)
+      if(initial.solid_inside)
         throw cases::Refusal("fem-fitted starts in one phase from sinks that freeze "
                              "liquid; this one lies in solid");
       const cases::Scene &scene = setting.scene;
@@ -125,18 +126,29 @@ namespace meltfront::reference_fem::fitted
                                                  { return sink.strength(early); });
     }
 
+    std::string text_of(const std::vector<SuddenStart> &starts,
+                        const std::vector<NewLayer> &layers)
+    {
+      std::string result;
+      for(std::size_t k = 0; k < starts.size(); ++k)
+        result += fmt::format("{}a front starts at {}, {:.3g} m away at first, from the "
+                              "similarity solution",
+                              k > 0 ? "; " : "", starts[k].cause, layers[k].width);
+      return result;
+    }
+
     /** Since the start (s). */
     double seed_time(const EventScene &setting, const SuddenStart &start,
-                     const double time)
+                     const LayeredState &state)
     {
       const cases::Scene &scene = setting.scene;
-      const double length = setting.rays.outer - setting.rays.inner;
+      const double length = room_at_wall(setting, state, start.at_inner_end);
       const cases::PhaseProperties &old
           = start.local->solid_at_origin() ? scene.material.liquid : scene.material.solid;
       const double by_front = std::pow(seed_share * length / start.local->front(1), 2);
       const double by_layer = std::pow(length / layers_in_ray, 2) / old.diffusivity();
-      return std::min({by_front, by_layer, latest_seed * (scene.end_time - time),
-                       0.5 * time_to_breakpoint(scene, time)});
+      return std::min({by_front, by_layer, latest_seed * (scene.end_time - state.time),
+                       0.5 * time_to_breakpoint(scene, state.time)});
     }
   } // namespace
 
@@ -160,22 +172,115 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  OnePhase initial_phase(const EventScene &setting, const double heat)
+  LayeredState initial_layers(const EventScene &setting, const RunSegment &segment)
   {
+    LayeredState result = layers_of(segment, segment.time, segment.state);
     const RayMesh geometry(setting.rays.surface, setting.rays.inner, setting.rays.outer,
                            {0, 1});
-    const cases::Scene &scene = setting.scene;
-    OnePhase result;
-    result.time = scene.start_time;
-    result.temperature = [&scene, geometry](const double r)
+    result.temperature = [&scene = setting.scene, geometry](const double r)
     { return scene.initial.temperature(geometry.position(0, r), scene.start_time); };
-    result.solid = initial_front(scene, setting.rays).solid_inside;
-    result.heat = heat;
     return result;
   }
 
+  LayeredState layers_of(const RunSegment &segment, const double time,
+                         const dealii::Vector<double> &u)
+  {
+    const FittedProblem &problem = *segment.problem;
+    const HeatContent heat = problem.heat(time, u);
+    LayeredState result;
+    result.time = time;
+    for(unsigned int front = 0; front < problem.mesh().n_fronts(); ++front)
+      result.fronts.push_back(u[problem.mesh().front_node(0, front)]);
+    result.solid_inside = problem.phase(0).solid;
+    result.shares = problem.mesh().shares;
+    result.temperature = [profile = Profile(problem, time, u),
+                          melting = problem.physics().melting_temperature](const double r)
+    { return melting + profile.value(r); };
+    result.heat = heat.sensible + heat.latent;
+    result.before = segment.before;
+    result.before.walls += heat.walls;
+    result.before.sources += heat.sources;
+    result.after_front = segment.after_front || problem.mesh().has_front();
+    return result;
+  }
+
+  double room_at_wall(const EventScene &setting, const LayeredState &state,
+                      const bool inner)
+  {
+    const RayScene &rays = setting.rays;
+    if(state.fronts.empty())
+      return rays.outer - rays.inner;
+    return inner ? state.fronts.front() - rays.inner : rays.outer - state.fronts.back();
+  }
+
+  Physics physics_between(const EventScene &setting, const bool solid_inside,
+                          const std::size_t fronts)
+  {
+    const bool moves = setting.effects.contains(cases::Effect::liquid_motion);
+    if(moves && fronts > 1)
+      throw cases::Refusal("fem-fitted follows one front where the densities of the "
+                           "phases differ, not several");
+    Physics physics = physics_of(setting.scene, setting.effects, setting.options,
+                                 solid_inside || fronts == 0);
+    if(fronts > 0)
+      return physics;
+    if(!solid_inside)
+      std::swap(physics.phases[0], physics.phases[1]);
+    // Liquid moves only where a front makes it.
+    physics.displacement = 0;
+    return physics;
+  }
+
+  std::vector<double> fronts_with(const EventScene &setting, const LayeredState &state,
+                                  const std::vector<NewLayer> &layers)
+  {
+    std::vector<double> result = state.fronts;
+    for(const NewLayer &layer : layers)
+      if(layer.inner)
+        result.insert(result.begin(), setting.rays.inner + layer.width);
+      else
+        result.push_back(setting.rays.outer - layer.width);
+    return result;
+  }
+
+  std::shared_ptr<FittedProblem> problem_with(const EventScene &setting,
+                                              const LayeredState &state,
+                                              const std::vector<NewLayer> &layers,
+                                              const double far_layer, const Clock &clock)
+  {
+    const RayScene &rays = setting.rays;
+    std::vector<std::vector<double>> shares = state.shares;
+    bool solid_inside = state.solid_inside;
+    if(!state.after_front)
+    {
+      std::array<double, 2> thickness{far_layer, far_layer};
+      for(const NewLayer &layer : layers)
+        thickness[layer.inner ? 0 : 1] = layer.layer;
+      shares = {shares_of_layers(rays, thickness[0], thickness[1])};
+    }
+    const std::vector<double> equal
+        = graded_shares(std::max(1, rays.cells / 2), 1, false);
+    for(const NewLayer &layer : layers)
+    {
+      if(state.after_front)
+      {
+        std::vector<double> &old = layer.inner ? shares.front() : shares.back();
+        old = drawn_shares(old,
+                           4 * layer.layer
+                               / (rays.cells * room_at_wall(setting, state, layer.inner)),
+                           widening(rays), layer.inner);
+      }
+      shares.insert(layer.inner ? shares.begin() : shares.end(), equal);
+      solid_inside = solid_inside != layer.inner;
+    }
+    Physics physics = physics_between(setting, solid_inside, shares.size() - 1);
+    physics.clock = clock;
+    return std::make_shared<FittedProblem>(
+        RayMesh(rays.surface, rays.inner, rays.outer, shares), physics);
+  }
+
   std::optional<SuddenStart> start_at_wall(const EventScene &setting,
-                                           const OnePhase &state, const bool inner)
+                                           const LayeredState &state, const bool inner)
   {
     const RayScene &rays = setting.rays;
     const cases::Side side = side_at(setting.scene, inner);
@@ -187,7 +292,7 @@ namespace meltfront::reference_fem::fitted
     const double at_wall
         = wall.value(geometry.position(0, inner ? rays.inner : rays.outer), state.time);
     const double beside = temperature_at_end(setting, state, inner);
-    const double sign = state.solid ? 1 : -1;
+    const double sign = state.solid_at(inner) ? 1 : -1;
     // A metastable phase stays as it is.
     const double round_off
         = rounding * (std::abs(material.melting_temperature) + std::abs(beside));
@@ -199,63 +304,81 @@ namespace meltfront::reference_fem::fitted
                        fmt::format("the wall {}", to_string(side))};
   }
 
-  std::optional<SuddenStart> sudden_start(const EventScene &setting,
-                                          const OnePhase &initial)
+  std::vector<SuddenStart> sudden_starts(const EventScene &setting,
+                                         const LayeredState &initial)
   {
+    std::vector<SuddenStart> result;
     const bool centre = setting.rays.surface.exponent > 0 && setting.rays.inner == 0;
-    if(setting.effects.contains(cases::Effect::heat_sources))
-      return SuddenStart{true, sink_start(setting, initial), "the sink at the centre"};
+    if(setting.effects.contains(cases::Effect::heat_sources) && initial.fronts.empty())
+      result.push_back({true, sink_start(setting, initial), "the sink at the centre"});
     for(const bool inner : {true, false})
       if(!inner || !centre)
         if(auto start = start_at_wall(setting, initial, inner))
-          return start;
-    return std::nullopt;
+          result.push_back(*start);
+    return result;
   }
 
-  RunSegment seeded_stretch(const EventScene &setting, const SuddenStart &start,
-                            const OnePhase &state)
+  RunSegment seeded_stretch(const EventScene &setting,
+                            const std::vector<SuddenStart> &starts,
+                            const LayeredState &state)
   {
     const cases::Scene &scene = setting.scene;
     const RayScene &rays = setting.rays;
-    const bool inner = start.at_inner_end;
-    const double since = seed_time(setting, start, state.time);
-    const double width = start.local->front(since);
-    const bool new_is_solid = start.local->solid_at_origin();
+    if(setting.effects.contains(cases::Effect::volumetric_source))
+      throw cases::Refusal("fem-fitted does not start a front at once at a wall where "
+                           "heat is released throughout");
+    double since = std::numeric_limits<double>::infinity();
+    for(const SuddenStart &start : starts)
+      since = std::min(since, seed_time(setting, start, state));
 
-    // The old phase's thermal layer or the new phase, whichever is thinner.
-    const cases::PhaseProperties &old
-        = new_is_solid ? scene.material.liquid : scene.material.solid;
-    const double thermal_layer = 2 * std::sqrt(old.diffusivity() * since);
-    const double layer = std::min(width, thermal_layer);
-    Physics physics
-        = physics_of(scene, setting.effects, setting.options, inner == new_is_solid);
-    const double jump = jump_at_wall(setting, state, !inner),
-                 far_jump
-                 = std::abs(jump) > least_jump * physics.temperature_scale ? jump : 0;
+    std::vector<NewLayer> layers;
+    std::vector<double> thermal_layers;
+    for(const SuddenStart &start : starts)
+    {
+      // The old phase's thermal layer or the new phase, whichever is thinner.
+      const double width = start.local->front(since);
+      const cases::PhaseProperties &old = start.local->solid_at_origin()
+                                              ? scene.material.liquid
+                                              : scene.material.solid;
+      thermal_layers.push_back(2 * std::sqrt(old.diffusivity() * since));
+      layers.push_back(
+          {start.at_inner_end, width, std::min(width, thermal_layers.back())});
+    }
+    const bool inner = starts[0].at_inner_end;
+    double far_jump = starts.size() == 1 && state.fronts.empty()
+                          ? jump_at_wall(setting, state, !inner)
+                          : 0;
+    Physics physics = physics_between(setting, true, 0);
+    if(std::abs(far_jump) <= least_jump * physics.temperature_scale)
+      far_jump = 0;
     if(setting.options.clock != "t")
       physics.clock = {true, state.time};
+    const double far_layer = far_jump != 0 ? thermal_layers[0] : 0;
 
     RunSegment result;
-    result.problem = std::make_shared<FittedProblem>(
-        seed_mesh(rays, inner, layer, far_jump != 0 ? thermal_layer : 0), physics);
+    result.problem = problem_with(setting, state, layers, far_layer, physics.clock);
     result.time = state.time + since;
-    const double far = temperature_at_end(setting, state, inner);
     result.state = result.problem->state(
-        result.time, {inner ? rays.inner + width : rays.outer - width},
+        result.time, fronts_with(setting, state, layers),
         [&](const cases::Position &p)
         {
-          const double r
-              = setting.scene.domain.round() ? std::hypot(p[0], p[1], p[2]) : p[0];
-          const double distance = inner ? r - rays.inner : rays.outer - r;
-          if(distance < width)
-            return start.local->temperature(distance, since);
-          // The state need not be uniform farther away.
+          const double r = scene.domain.round() ? std::hypot(p[0], p[1], p[2]) : p[0];
           const double from_far_end = inner ? rays.outer - r : r - rays.inner;
-          const double there
-              = state.temperature(r) + far_jump * std::erfc(from_far_end / thermal_layer);
-          return distance > width + far_in_layers * thermal_layer
-                     ? there
-                     : start.local->temperature(distance, since) + there - far;
+          double sum = state.temperature(r);
+          if(far_jump != 0)
+            sum += far_jump * std::erfc(from_far_end / far_layer);
+          // The state need not be uniform farther away.
+          for(std::size_t k = 0; k < starts.size(); ++k)
+          {
+            const SuddenStart &start = starts[k];
+            const double distance = start.at_inner_end ? r - rays.inner : rays.outer - r;
+            if(distance < layers[k].width)
+              return start.local->temperature(distance, since);
+            if(distance <= layers[k].width + far_in_layers * thermal_layers[k])
+              sum += start.local->temperature(distance, since)
+                     - temperature_at_end(setting, state, start.at_inner_end);
+          }
+          return sum;
         });
     result.before = state.before;
     for(const cases::PointSource &source : scene.sources)
@@ -267,10 +390,8 @@ namespace meltfront::reference_fem::fitted
     result.steps = lengthening_steps(
         clock.clock(result.time), clock.clock(scene.end_time),
         steps_for(setting, state.time), clock.root ? lengthening : 2 * lengthening);
-    result.event = {state.time,
-                    fmt::format("a front starts at {}, {:.3g} m away at first, from the "
-                                "similarity solution",
-                                start.cause, width)};
+    result.event = {state.time, text_of(starts, layers)};
+    result.after_front = true;
     return result;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -20,18 +20,61 @@ namespace meltfront::reference_fem::fitted
     RayScene rays;
   };
 
-  /** One phase along the ray, at a time. */
-  struct OnePhase
+  /** The phases along a ray at a time. */
+  struct LayeredState
   {
-    double time = 0;                               ///< s
+    double time = 0;              ///< s
+    std::vector<double> fronts{}; ///< from the inner end on (m)
+    bool solid_inside = true;
+    std::vector<std::vector<double>> shares{};     ///< of the cells, by interval
     std::function<double(double r)> temperature{}; ///< by coordinate on the ray (m)
-    bool solid = true;
-    double heat = 0;    ///< that it holds, sensible and latent
-    HeatContent before; ///< walls and sources: what came in until then
+    double heat = 0;         ///< that it holds, sensible and latent
+    HeatContent before;      ///< walls and sources: what came in until then
+    bool after_front = false; ///< see RunSegment
+
+    bool solid_at(bool inner) const
+    {
+      return solid_inside == (inner || fronts.size() % 2 == 0);
+    }
   };
 
-  /** The scene's initial state, which holds so much heat. */
-  OnePhase initial_phase(const EventScene &setting, double heat);
+  /** The scene's initial state, as it has been put on a mesh. */
+  LayeredState initial_layers(const EventScene &setting, const RunSegment &segment);
+
+  /** That of a segment at a time. It refers to the arguments. */
+  LayeredState layers_of(const RunSegment &segment, double time,
+                         const dealii::Vector<double> &u);
+
+  /** Distance from a wall to the first front, or to the other wall (m). */
+  double room_at_wall(const EventScene &setting, const LayeredState &state, bool inner);
+
+  /** A phase that appears at a wall or a sink, with the thickness of the layer in which
+   * the heat of the old phase changes. */
+  struct NewLayer
+  {
+    bool inner = true;
+    double width = 0, layer = 0; ///< m
+  };
+
+  /**
+   * The problem with further phases at one end of the ray or both, each of equal cells;
+   * cells of the old phases are drawn to them, and to an end where a layer of heat forms
+   * without a front.
+   * @param far_layer its thickness (m), 0 without one
+   */
+  std::shared_ptr<FittedProblem> problem_with(const EventScene &setting,
+                                              const LayeredState &state,
+                                              const std::vector<NewLayer> &layers,
+                                              double far_layer, const Clock &clock);
+
+  /** Coordinates of the fronts with those of the new phases (m). */
+  std::vector<double> fronts_with(const EventScene &setting, const LayeredState &state,
+                                  const std::vector<NewLayer> &layers);
+
+  /** Phases, walls and source between so many fronts.
+   * @throws Refusal for liquid that moves between several */
+  Physics physics_between(const EventScene &setting, bool solid_inside,
+                          std::size_t fronts);
 
   /** Steps for the rest of the run (s). */
   int steps_for(const EventScene &setting, double from);
@@ -50,28 +93,31 @@ namespace meltfront::reference_fem::fitted
     std::string cause;
   };
 
-  /** Whether a front appears at the start of the scene, which starts in one phase.
+  /** The fronts that appear at once in a state: of a source at the centre that the scene
+   * starts with in one phase, and start_at_wall().
    * @throws Refusal for sources that start none or grow by another law. */
-  std::optional<SuddenStart> sudden_start(const EventScene &setting,
-                                          const OnePhase &initial);
+  std::vector<SuddenStart> sudden_starts(const EventScene &setting,
+                                         const LayeredState &initial);
 
   /** The front that a wall starts whose temperature is, or jumps to, beyond the melting
    * temperature of what lies at it; none where it is not. */
   std::optional<SuddenStart> start_at_wall(const EventScene &setting,
-                                           const OnePhase &state, bool inner);
+                                           const LayeredState &state, bool inner);
 
   /**
-   * The run from a front that is so close to its end of the ray that the local solution
-   * holds: 1e-4 of the ray, or less where little time or a fast liquid demands it. The
-   * new phase has equal cells, the old one cells that widen from the front; the clock is
-   * the root of the time since the start, and its steps lengthen. A wall at the other end
-   * that is held elsewhere than what lies at it has its layer, too, that of a half-space.
+   * The run from fronts that are so close to their ends of the ray that the local
+   * solutions hold: 1e-4 of the room there, or less where little time or a fast liquid
+   * demands it. New phases have equal cells, the old one cells that widen from the front;
+   * the clock is the root of the time since the start, and its steps lengthen. A wall of
+   * a ray in one phase that is held elsewhere than what lies at it has its layer, too,
+   * that of a half-space.
    *
-   * Heat that came in through the wall before is by definition what the seed holds more
+   * Heat that came in through the walls before is by definition what the seed holds more
    * than the state did, less what sources gave.
    */
-  RunSegment seeded_stretch(const EventScene &setting, const SuddenStart &start,
-                            const OnePhase &state);
+  RunSegment seeded_stretch(const EventScene &setting,
+                            const std::vector<SuddenStart> &starts,
+                            const LayeredState &state);
 } // namespace meltfront::reference_fem::fitted
 
 #endif

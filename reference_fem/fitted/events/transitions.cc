@@ -17,12 +17,22 @@ namespace meltfront::reference_fem::fitted
     using cases::BoundaryKind;
     using dealii::Vector;
 
-    /** How long after the crossing a front is seeded, of the time that is left. */
-    constexpr double late_share = 1e-5;
+    /** How long after the crossing a front is seeded, of the time that is left; and where
+     * no layer of heat announces it, so that the state of the crossing is taken. */
+    constexpr double late_share = 1e-5, share_at_once = 1e-8;
+
+    /** A wall at the melting temperature starts a front at once if this share of its flux
+     * is not conducted away. */
+    constexpr double not_conducted = 1e-2;
 
     /** The same, of the time that the wall took to get there: for so long its
      * temperature is a ramp. */
     constexpr double ramp_share = 1e-2;
+
+    /** A seed is so wide at least, of the ray, lest it be lost in rounding; if the time is
+     * too short for that, it is made longer, up to this share of what is left. */
+    constexpr double thinnest_seed = 1e-11, latest_share = 1e-3;
+    constexpr double longer = 4;
 
     constexpr double growth_of_steps = 2;
 
@@ -33,6 +43,9 @@ namespace meltfront::reference_fem::fitted
 
     /** Secant steps for the front's place: its heat is all but linear in it. */
     constexpr int balance_steps = 6;
+
+    /** Images farther away than so many layers are none: i^2erfc(6) is 1e-19. */
+    constexpr double far_image = 6;
 
     HeatContent sum_of(const HeatContent &a, const HeatContent &b)
     {
@@ -48,14 +61,45 @@ namespace meltfront::reference_fem::fitted
                 - 2 * x * std::exp(-x * x) / std::sqrt(std::numbers::pi));
     }
 
-    Physics one_phase_physics(const EventScene &setting, const bool solid)
+    double coordinate_of(const EventScene &setting, const cases::Position &p)
     {
-      Physics physics = physics_of(setting.scene, setting.effects, setting.options, true);
-      if(!solid)
-        std::swap(physics.phases[0], physics.phases[1]);
-      // Liquid moves only where a front makes it.
-      physics.displacement = 0;
-      return physics;
+      return setting.scene.domain.round() ? std::hypot(p[0], p[1], p[2]) : p[0];
+    }
+
+    /** Halve the cells of an interval on both sides of the face at @p place until those
+     * next to it are that small. */
+    std::vector<double> halved_towards(std::vector<double> shares, const double place,
+                                       const double smallest)
+    {
+      auto face = std::ranges::min_element(
+          shares, {}, [&](const double share) { return std::abs(share - place); });
+      for(; face != shares.begin() && *face - *(face - 1) > smallest; ++face)
+        face = shares.insert(face, 0.5 * (*face + *(face - 1)));
+      while(face + 1 != shares.end() && *(face + 1) - *face > smallest)
+        face = shares.insert(face + 1, 0.5 * (*face + *(face + 1))) - 1;
+      return shares;
+    }
+
+    /** The state of a segment on a mesh with more faces, and steps to come. */
+    RunSegment on_finer_mesh(const EventScene &setting, const RunSegment &segment,
+                             const std::vector<std::vector<double>> &shares,
+                             const Clock &clock)
+    {
+      const FittedProblem &old = *segment.problem;
+      const RayMesh &mesh = old.mesh();
+      Physics physics = old.physics();
+      physics.clock = clock;
+      const LayeredState layers = layers_of(segment, segment.time, segment.state);
+      RunSegment result;
+      result.problem = std::make_shared<FittedProblem>(
+          RayMesh(mesh.surface, mesh.inner, mesh.outer, shares), physics);
+      result.time = segment.time;
+      result.state = result.problem->state(
+          segment.time, layers.fronts, [&](const cases::Position &p)
+          { return layers.temperature(coordinate_of(setting, p)); });
+      result.before = layers.before;
+      result.after_front = segment.after_front;
+      return result;
     }
   } // namespace
 
@@ -65,7 +109,8 @@ namespace meltfront::reference_fem::fitted
     const RayScene &rays = setting.rays;
     const RayMesh mesh(rays.surface, rays.inner, rays.outer,
                        graded_shares(rays.cells, 1, true));
-    Physics physics = one_phase_physics(setting, initial_front(scene, rays).solid_inside);
+    Physics physics
+        = physics_between(setting, initial_fronts(scene, rays).solid_inside, 0);
     physics.clock = {};
     // A sink makes a front at once: this is the state before it is switched on.
     physics.power = {};
@@ -85,42 +130,19 @@ namespace meltfront::reference_fem::fitted
   RunSegment refined_stretch(const EventScene &setting, const RunSegment &segment,
                              const bool inner, const double soon)
   {
-    const FittedProblem &old = *segment.problem;
-    const RayMesh &mesh = old.mesh();
-    const Phase &phase = old.physics().phases[0];
-    const double length = mesh.outer - mesh.inner;
-    const double layer = std::sqrt(phase.conductivity / phase.capacity * soon)
-                         / (cells_in_layer * length);
-    std::vector<double> shares;
-    for(const Layer &cells : mesh.layers)
-      shares.push_back((cells.fixed[0] - mesh.inner) / length);
-    shares.push_back(1);
-    // From the wall on, as distances.
-    if(!inner)
-      std::ranges::reverse(shares);
-    while(std::abs(shares[1] - shares[0]) > layer)
-      shares.insert(shares.begin() + 1, 0.5 * (shares[0] + shares[1]));
-    if(!inner)
-      std::ranges::reverse(shares);
-
-    Physics physics = old.physics();
-    physics.clock = {true, segment.time};
-    RunSegment result;
-    result.problem = std::make_shared<FittedProblem>(
-        RayMesh(mesh.surface, mesh.inner, mesh.outer, shares), physics);
-    result.time = segment.time;
-    const Profile profile(old, segment.state);
-    result.state
-        = result.problem->state(segment.time, {},
-                                [&](const cases::Position &p)
-                                {
-                                  const double r = setting.scene.domain.round()
-                                                       ? std::hypot(p[0], p[1], p[2])
-                                                       : p[0];
-                                  return physics.melting_temperature + profile.value(r);
-                                });
-    const HeatContent before = old.heat(segment.time, segment.state);
-    result.before = sum_of(segment.before, {0, 0, before.walls, before.sources});
+    const RayMesh &mesh = segment.problem->mesh();
+    const unsigned int interval = inner ? 0 : mesh.n_fronts();
+    const Phase &phase = segment.problem->phase(interval);
+    const double length
+        = room_at_wall(setting, layers_of(segment, segment.time, segment.state), inner);
+    std::vector<std::vector<double>> shares = mesh.shares;
+    shares[interval]
+        = halved_towards(shares[interval], inner ? 0 : 1,
+                         std::sqrt(phase.conductivity / phase.capacity * soon)
+                             / (cells_in_layer * length));
+    RunSegment result
+        = on_finer_mesh(setting, segment, shares, Clock{true, segment.time});
+    const Physics &physics = result.problem->physics();
     const double early = std::min(physics.clock.clock(segment.time + 2 * soon),
                                   physics.clock.clock(setting.scene.end_time));
     const double end = physics.clock.clock(setting.scene.end_time);
@@ -137,170 +159,440 @@ namespace meltfront::reference_fem::fitted
   }
 
   double time_of_seed(const EventScene &setting, const RunSegment &past,
-                      const double crossing)
+                      const WallPassing &passing)
   {
-    return std::min({late_share * (setting.scene.end_time - crossing),
-                     ramp_share * (crossing - past.time),
-                     0.5 * time_to_breakpoint(setting.scene, crossing)});
+    const double crossing = passing.time,
+                 left = setting.scene.end_time - crossing,
+                 to_breakpoint = 0.5 * time_to_breakpoint(setting.scene, crossing);
+    if(passing.at_once)
+      return std::min(share_at_once * left, to_breakpoint);
+    const double result = std::min(late_share * left, to_breakpoint);
+    return crossing > past.time ? std::min(result, ramp_share * (crossing - past.time))
+                                : result;
   }
+
+  bool leads_at_once(const FittedProblem &problem, const bool inner, const double time,
+                     const Vector<double> &u)
+  {
+    const RayMesh &mesh = problem.mesh();
+    const Phase &phase = problem.phase(inner ? 0 : mesh.n_fronts());
+    const cases::Boundary &law
+        = inner ? problem.physics().inner_wall : problem.physics().outer_wall;
+    if(law.kind == BoundaryKind::fixed_temperature)
+      return false;
+    const double wall = inner ? mesh.inner : mesh.outer;
+    const double flux = cases::heat_through(law, mesh.position(0, wall), time,
+                                            problem.physics().melting_temperature)
+                            .flux;
+    const double outflow
+        = phase.conductivity * Profile(problem, time, u).slope(wall) * (inner ? 1 : -1);
+    return (phase.solid ? 1 : -1) * (flux + outflow) > not_conducted * std::abs(flux);
+  }
+
+  namespace
+  {
+    /** A phase that is seeded at a wall, everything by distance from it: positive slopes
+     * lead away. */
+    struct LateLayer
+    {
+      NewLayer place;
+      double wall = 0;      ///< coordinate (m)
+      double room = 0;      ///< up to the next front (m)
+      bool reflects = true; ///< there is one
+      double excess = 0;    ///< of the wall without the new phase (K)
+      double latent = 0;    ///< of the new phase, negative where it melts (J/m^3)
+      double gradient = 0;  ///< of the new phase (K/m)
+      bool held = false;    ///< the wall, at a temperature
+
+      /** What the old phase loses by being held at the melting temperature (K). */
+      double response(const double distance) const
+      {
+        if(excess == 0 || (reflects && distance >= room))
+          return 0;
+        double sum = second_integral(distance / place.layer);
+        for(double image = 2 * room;
+            reflects && image - distance < far_image * place.layer; image += 2 * room)
+          sum += second_integral((image + distance) / place.layer)
+                 - second_integral((image - distance) / place.layer);
+        return 4 * excess * sum;
+      }
+    };
+
+    LateLayer late_layer(const EventScene &setting, const WallPassing &passing,
+                         const FittedProblem &problem, const LayeredState &state,
+                         const Profile &profile, const double wall_excess)
+    {
+      const cases::Scene &scene = setting.scene;
+      const Physics &physics = problem.physics();
+      const bool inner = passing.inner;
+      const Phase &old = problem.phase(inner ? 0 : problem.mesh().n_fronts());
+      const double direction = old.solid ? -1 : 1;
+      const double since = state.time - passing.time;
+      const double diffusivity = old.conductivity / old.capacity;
+      const cases::Boundary &law = inner ? physics.inner_wall : physics.outer_wall;
+      const cases::PhaseProperties &grown
+          = old.solid ? scene.material.liquid : scene.material.solid;
+      LateLayer result;
+      result.wall = inner ? setting.rays.inner : setting.rays.outer;
+      result.room = room_at_wall(setting, state, inner);
+      result.reflects = !state.fronts.empty();
+      result.held = law.kind == BoundaryKind::fixed_temperature;
+      const double latent = scene.material.latent_heat * grown.density;
+      result.latent = direction * latent;
+      result.excess = passing.at_once ? 0. : wall_excess;
+      const double outflow
+          = old.conductivity * profile.slope(result.wall) * (inner ? 1 : -1);
+      const double flux
+          = result.held ? 0
+                        : cases::heat_through(
+                              law, problem.mesh().position(0, result.wall), state.time,
+                              scene.material.melting_temperature)
+                              .flux;
+      double width = 0;
+      if(result.held)
+      {
+        const double rate = std::abs(wall_excess) / since;
+        width = since
+                * (std::sqrt(std::pow(outflow, 2)
+                             + 4 * latent * grown.conductivity * rate)
+                   - direction * outflow)
+                / (2 * latent);
+      }
+      else if(passing.at_once)
+        width = since * direction * (-flux - outflow) / latent;
+      else
+        width = 4. / 3 * old.conductivity * std::abs(wall_excess) * std::sqrt(since)
+                / (latent * std::sqrt(std::numbers::pi * diffusivity));
+      result.place = {inner, width, 2 * std::sqrt(diffusivity * since)};
+      result.gradient = result.held ? -wall_excess / width : -flux / grown.conductivity;
+      return result;
+    }
+
+    std::vector<NewLayer> places_of(const std::vector<LateLayer> &layers)
+    {
+      std::vector<NewLayer> result;
+      for(const LateLayer &layer : layers)
+        result.push_back(layer.place);
+      return result;
+    }
+
+    /** Seeds layers in what the solution without them has become. */
+    class LateSeed
+    {
+    public:
+      LateSeed(const EventScene &setting, const LayeredState &state, const Clock &clock,
+               std::vector<LateLayer> layers)
+        : layers(std::move(layers))
+        , problem(problem_with(setting, state, places_of(this->layers), 0, clock))
+        , setting(setting)
+        , state(state)
+      {
+        place();
+      }
+
+      /** Heat that it holds more than the state. */
+      double surplus() const
+      {
+        const HeatContent now = problem->heat(state.time, u);
+        return now.sensible + now.latent - state.heat;
+      }
+
+      /** Move the fronts behind given fluxes to where the heat balances. False where there
+       * is no such place. */
+      bool balance()
+      {
+        const int exponent = setting.rays.surface.exponent;
+        const double measure = exponent == 0   ? 1
+                               : exponent == 1 ? 2 * std::numbers::pi
+                                               : 4 * std::numbers::pi;
+        const auto area
+            = [&](double r) { return std::pow(r, exponent) * measure; };
+        double all = 0;
+        for(const LateLayer &layer : layers)
+          all += std::abs(layer.latent) * area(layer.wall) * layer.place.width;
+        std::vector<double> shares;
+        for(const LateLayer &layer : layers)
+          shares.push_back(std::abs(layer.latent) * area(layer.wall) * layer.place.width
+                           / all);
+        for(int step = 0; step < balance_steps; ++step)
+        {
+          const double excess = surplus();
+          for(std::size_t k = 0; k < layers.size(); ++k)
+          {
+            double &width = layers[k].place.width;
+            width += shares[k] * excess / (layers[k].latent * area(layers[k].wall));
+            if(!(width > 0 && width < layers[k].room))
+              return false;
+          }
+          place();
+        }
+        return true;
+      }
+
+      std::vector<LateLayer> layers;
+      std::shared_ptr<FittedProblem> problem;
+      Vector<double> u;
+
+    private:
+      void place()
+      {
+        u = problem->state(
+            state.time, fronts_with(setting, state, places_of(layers)),
+            [&](const cases::Position &p)
+            {
+              const double r = coordinate_of(setting, p);
+              double temperature = state.temperature(r);
+              for(const LateLayer &layer : layers)
+              {
+                const double distance = std::abs(r - layer.wall);
+                if(distance < layer.place.width)
+                  return setting.scene.material.melting_temperature
+                         + layer.gradient * (distance - layer.place.width);
+                temperature -= layer.response(distance);
+              }
+              return temperature;
+            });
+      }
+
+      const EventScene &setting;
+      const LayeredState &state;
+    };
+
+    /** Whether the seeds are wide enough to be told from their walls. */
+    bool tells(const EventScene &setting, const std::vector<LateLayer> &layers)
+    {
+      const double ray = setting.rays.outer - setting.rays.inner;
+      return std::ranges::all_of(layers,
+                                 [&](const LateLayer &layer)
+                                 {
+                                   return layer.place.width > thinnest_seed * ray
+                                          && layer.place.width < 0.5 * layer.room;
+                                 });
+    }
+
+    std::string text_of(const EventScene &setting,
+                        const std::vector<WallPassing> &passings)
+    {
+      std::string result;
+      for(const WallPassing &passing : passings)
+        result += fmt::format("{}the wall {} passes the melting temperature "
+                              "and a front starts there",
+                              result.empty() ? "" : "; ",
+                              to_string(side_at(setting.scene, passing.inner)));
+      return result;
+    }
+  } // namespace
 
   RunSegment late_stretch(const EventScene &setting, const RunSegment &past,
-                          const double crossing, const Vector<double> &u,
-                          const bool inner, const IntegrationOptions &integration)
+                          const std::vector<WallPassing> &passings, double tau,
+                          const Vector<double> &u, const IntegrationOptions &integration)
   {
     const cases::Scene &scene = setting.scene;
-    const RayScene &rays = setting.rays;
-    const Physics &old = past.problem->physics();
-    const double since = time_of_seed(setting, past, crossing);
-    const double time = crossing + since;
-
-    if(old.power)
-      throw cases::Refusal(fmt::format(
-          "fem-fitted follows one front beside a source; at t = {:.6g} a wall passes the "
-          "melting temperature",
-          crossing));
-    Integrator beyond(*past.problem, integration);
-    beyond.start(old.clock.clock(crossing), u);
-    beyond.advance_to(old.clock.clock(time), scene.end_time);
-    const Profile profile(*past.problem, beyond.state());
-    const double wall = inner ? rays.inner : rays.outer;
-    const double excess = past.problem->wall_excess(inner, 0, time, beyond.state());
-    const Phase &phase = old.phases[0];
-    const bool new_is_solid = !phase.solid;
-    if((excess < 0) != new_is_solid || excess == 0)
-      throw cases::NumericalError(integration.method, 0, time, "the wall",
-                                  "turned back from the melting temperature at once");
-
-    Physics physics
-        = physics_of(scene, setting.effects, setting.options, inner == new_is_solid);
-    physics.clock = {true, crossing};
-    const Phase &new_phase = physics.phases[inner ? 0 : 1];
-    const double latent
-        = scene.material.latent_heat
-          * (new_is_solid ? scene.material.solid.density : scene.material.liquid.density);
-    const double diffusivity = phase.conductivity / phase.capacity;
-    const double layer = 2 * std::sqrt(diffusivity * since);
-    RunSegment result;
-    result.problem
-        = std::make_shared<FittedProblem>(seed_mesh(rays, inner, layer, 0), physics);
-    result.time = time;
-
-    // Everything by distance from the wall; positive slopes lead away from it.
-    const cases::Boundary &wall_law = inner ? old.inner_wall : old.outer_wall;
-    const double outflow = phase.conductivity * profile.slope(wall) * (inner ? 1 : -1);
-    const double rate = std::abs(excess) / since;
-    const double direction = new_is_solid ? 1 : -1;
-    const bool held = wall_law.kind == BoundaryKind::fixed_temperature;
-    double width = 4. / 3 * phase.conductivity * std::abs(excess) * std::sqrt(since)
-                   / (latent * std::sqrt(std::numbers::pi * diffusivity));
-    if(held)
-      width = since
-              * (std::sqrt(std::pow(outflow, 2)
-                           + 4 * latent * new_phase.conductivity * rate)
-                 - direction * outflow)
-              / (2 * latent);
-    const RayMesh &mesh = result.problem->mesh();
-    const double gradient
-        = held ? -excess / width
-               : -cases::heat_through(wall_law, mesh.position(0, wall), time,
-                                      scene.material.melting_temperature)
-                         .flux
-                     / new_phase.conductivity;
-    const auto state_with = [&](const double front)
+    const Clock &old_clock = past.problem->physics().clock;
+    const double crossing = passings.back().time;
+    const double latest = std::min(latest_share * (scene.end_time - crossing),
+                                   0.5 * time_to_breakpoint(scene, crossing));
+    const std::string where = text_of(setting, passings);
+    const Profile at_crossing(*past.problem, crossing, u);
+    for(;; tau *= longer)
     {
-      return result.problem->state(
-          time, {inner ? wall + front : wall - front},
-          [&](const cases::Position &p)
-          {
-            const double r = scene.domain.round() ? std::hypot(p[0], p[1], p[2]) : p[0];
-            const double distance = std::abs(r - wall);
-            const double above
-                = distance < front
-                      ? gradient * (distance - front)
-                      : profile.value(r) - 4 * excess * second_integral(distance / layer);
-            return scene.material.melting_temperature + above;
-          });
-    };
-    const HeatContent before = past.problem->heat(time, beyond.state());
-    const auto surplus = [&](const Vector<double> &state)
-    {
-      const HeatContent now = result.problem->heat(time, state);
-      return now.sensible + now.latent - before.sensible - before.latent;
-    };
-    result.state = state_with(width);
-    const double area = std::pow(wall, rays.surface.exponent)
-                        * (rays.surface.exponent == 0   ? 1
-                           : rays.surface.exponent == 1 ? 2 * std::numbers::pi
-                                                        : 4 * std::numbers::pi);
-    for(int step = 0; !held && step < balance_steps; ++step)
-    {
-      width += direction * surplus(result.state) / (latent * area);
-      if(!(width > 0))
+      Integrator beyond(*past.problem, integration);
+      beyond.start(old_clock.clock(crossing), u);
+      beyond.advance_to(old_clock.clock(crossing + tau), scene.end_time);
+      LayeredState state = layers_of(past, crossing + tau, beyond.state());
+      const Profile profile(*past.problem, state.time, beyond.state());
+      std::vector<LateLayer> layers;
+      for(const WallPassing &passing : passings)
+      {
+        if(passing.at_once)
+          state.temperature = [&](double r)
+          { return scene.material.melting_temperature + at_crossing.value(r); };
+        const double excess = past.problem->wall_excess(passing.inner, 0, state.time,
+                                                        beyond.state());
+        if(excess == 0 || (excess < 0) == !state.solid_at(passing.inner))
+        {
+          layers.push_back(late_layer(setting, passing, *past.problem, state,
+                                      passing.at_once ? at_crossing : profile,
+                                      excess));
+          continue;
+        }
+        throw cases::NumericalError(integration.method, 0, state.time, "the wall",
+                                    "turned back from the melting temperature at once");
+      }
+      if(!tells(setting, layers))
+      {
+        if(longer * tau <= latest)
+          continue;
+        throw cases::Refusal(fmt::format(
+            "{} cannot start a front at t = {:.6g} ({}): it is not to be told from its "
+            "wall before the phase there has changed",
+            integration.method, crossing, where));
+      }
+      LateSeed seed(setting, state, Clock{true, passings.front().time}, layers);
+      const bool balances
+          = std::ranges::none_of(layers, [](const LateLayer &layer) { return layer.held; })
+            && std::ranges::none_of(passings, &WallPassing::at_once);
+      if(balances && !seed.balance())
         throw cases::Refusal(
-            fmt::format("{} cannot start a front at the wall {} at t = {:.6g}: no place "
-                        "of it balances "
-                        "the heat of its cells there; more cells would help",
-                        integration.method, to_string(side_at(scene, inner)), time));
-      result.state = state_with(width);
+            fmt::format("{} cannot start a front at t = {:.6g} ({}): no place of it "
+                        "balances the heat of its cells there; more cells would help",
+                        integration.method, crossing, where));
+      RunSegment result;
+      result.problem = seed.problem;
+      result.state = seed.u;
+      result.time = state.time;
+      result.before = state.before;
+      result.before.walls += seed.surplus();
+      const Clock &clock = result.problem->physics().clock;
+      result.steps
+          = lengthening_steps(clock.clock(state.time), clock.clock(scene.end_time),
+                              steps_for(setting, crossing), growth_of_steps);
+      result.event = {crossing, where};
+      result.after_front = true;
+      return result;
     }
-    result.before = sum_of(past.before, {0, 0, before.walls, before.sources});
-    result.before.walls += surplus(result.state);
-    result.steps = lengthening_steps(physics.clock.clock(time),
-                                     physics.clock.clock(scene.end_time),
-                                     steps_for(setting, crossing), growth_of_steps);
-    result.event = {crossing, fmt::format("the wall {} passes the melting temperature "
-                                          "and a front starts there",
-                                          to_string(side_at(scene, inner)))};
-    return result;
   }
+
+  namespace
+  {
+    /** The cells of an interval without those of others that are no more. */
+    std::vector<double> shares_between(const std::vector<double> &faces)
+    {
+      std::vector<double> shares;
+      for(const double face : faces)
+        shares.push_back((face - faces.front()) / (faces.back() - faces.front()));
+      return shares;
+    }
+
+    std::string what_vanishes(const EventScene &setting, const RayMesh &mesh,
+                              const unsigned int vanished, const double place)
+    {
+      if(vanished > 0 && vanished < mesh.n_fronts())
+        return fmt::format("two fronts meet at {:.6g}", place);
+      return fmt::format(
+          "the front reaches {}",
+          vanished == 0 && mesh.has_centre()
+              ? "the centre"
+              : fmt::format("the wall {}",
+                            to_string(side_at(setting.scene, vanished == 0))));
+    }
+  } // namespace
+
+  namespace
+  {
+    /** A segment on cells that are halved towards a place where the temperature bends. */
+    RunSegment with_bend(const EventScene &setting, const RunSegment &segment,
+                         const double place, const std::string &event)
+    {
+      const RayMesh &mesh = segment.problem->mesh();
+      const Clock &clock = segment.problem->physics().clock;
+      const double begin = clock.clock(segment.time),
+                   end = clock.clock(setting.scene.end_time);
+      const int n = steps_for(setting, segment.time);
+      const std::vector<StepRange> steps = lengthening_steps(
+          begin, end, n, clock.root ? growth_of_steps : 2 * growth_of_steps);
+      const double first = clock.time(steps.front().end) - segment.time;
+      std::vector<std::vector<double>> shares = mesh.shares;
+      const LayeredState layers = layers_of(segment, segment.time, segment.state);
+      double lower = mesh.inner;
+      for(unsigned int k = 0; k <= mesh.n_fronts(); ++k)
+      {
+        const double upper = k < mesh.n_fronts() ? layers.fronts[k] : mesh.outer;
+        const double length = upper - lower;
+        if(place >= lower && place <= upper)
+        {
+          const Phase &phase = segment.problem->phase(k);
+          const double smallest
+              = std::sqrt(phase.conductivity / phase.capacity * first)
+                / (cells_in_layer * length);
+          shares[k] = halved_towards(shares[k], (place - lower) / length, smallest);
+        }
+        lower = upper;
+      }
+      RunSegment result = on_finer_mesh(setting, segment, shares, clock);
+      result.steps = steps;
+      result.event = {segment.time, event};
+      return result;
+    }
+  } // namespace
 
   RunSegment remaining_stretch(const EventScene &setting, const RunSegment &past,
                                const double time, const Vector<double> &u,
-                               const bool inner_vanishes)
+                               const unsigned int vanished)
   {
-    const RayScene &rays = setting.rays;
     const FittedProblem &old = *past.problem;
-    if(inner_vanishes && old.physics().power)
+    const RayMesh &mesh = old.mesh();
+    if(vanished == 0 && old.physics().power)
       throw cases::Refusal(fmt::format(
           "fem-fitted does not simulate a source whose own phase vanishes, which "
           "leaves no field to split off: at t = {:.6g}",
           time));
-    const int kept = inner_vanishes ? 1 : 0;
-    const unsigned int front = old.mesh().front_level();
-    const unsigned int first = inner_vanishes ? front : 0;
-    const unsigned int last = inner_vanishes ? old.mesh().n_levels() - 1 : front;
+    const unsigned int degree = mesh.surface.degree, n = mesh.n_fronts();
+    const bool at_inner = vanished == 0, at_outer = vanished == n;
 
-    // The same cells, which now reach the wall.
-    const double from = old.coordinate(0, first, u), to = old.coordinate(0, last, u);
-    std::vector<double> shares;
-    for(unsigned int level = first; level <= last; level += rays.surface.degree)
-      shares.push_back((old.coordinate(0, level, u) - from) / (to - from));
-    Physics physics = one_phase_physics(setting, old.physics().phases[kept].solid);
+    // What is left, level by level; the levels on both sides of the gap are one, and the
+    // cells next to it reach as far as it does.
+    std::vector<unsigned int> levels, intervals;
+    for(unsigned int level = 0; level < mesh.n_levels(); ++level)
+    {
+      const bool before = vanished > 0 && level <= mesh.front_level(vanished - 1);
+      const bool beyond = vanished < n && level >= mesh.front_level(vanished);
+      if(!before && (!beyond || (!at_inner && level == mesh.front_level(vanished))))
+        continue;
+      levels.push_back(level);
+      intervals.push_back(before ? mesh.interval_of(level)
+                                 : std::max(mesh.interval_of(level), vanished + 1));
+    }
+    const double lower = at_inner ? mesh.inner : u[mesh.front_node(0, vanished - 1)];
+    const double upper = at_outer ? mesh.outer : u[mesh.front_node(0, vanished)];
+    const double place = at_inner ? lower : at_outer ? upper : 0.5 * (lower + upper);
+
+    std::vector<double> fronts;
+    std::vector<std::vector<double>> shares(1);
+    std::vector<double> faces;
+    for(std::size_t i = 0; i < levels.size(); i += degree)
+    {
+      const unsigned int level = levels[i], front = mesh.front_at(level);
+      const bool gap = front != RayMesh::none
+                       && (front + 1 == vanished || front == vanished);
+      faces.push_back(gap ? place : old.coordinate(0, level, u));
+      if(front == RayMesh::none || gap)
+        continue;
+      fronts.push_back(faces.back());
+      shares.back() = shares_between(faces);
+      shares.emplace_back();
+      faces = {faces.back()};
+    }
+    shares.back() = shares_between(faces);
+
+    Physics physics
+        = physics_between(setting, old.phase(at_inner ? 1 : 0).solid, fronts.size());
     if(setting.options.clock != "t")
       physics.clock = {true, time};
-
-    RunSegment result;
-    result.problem = std::make_shared<FittedProblem>(
-        RayMesh(rays.surface, rays.inner, rays.outer, shares), physics);
-    result.time = time;
-    result.state.reinit(result.problem->size());
-    for(unsigned int level = first; level <= last; ++level)
-      result.state[result.problem->mesh().node(0, level - first)]
-          = old.theta(kept, 0, level, time, u);
+    RunSegment left;
+    left.problem = std::make_shared<FittedProblem>(
+        RayMesh(mesh.surface, mesh.inner, mesh.outer, shares), physics);
+    left.time = time;
+    left.state.reinit(left.problem->size());
+    const RayMesh &mesh_left = left.problem->mesh();
+    for(unsigned int front = 0; front < fronts.size(); ++front)
+      left.state[mesh_left.front_node(0, front)] = fronts[front];
+    for(unsigned int i = 0; i < levels.size(); ++i)
+      if(mesh_left.front_at(i) == RayMesh::none)
+      {
+        const double r = left.problem->coordinate(0, i, left.state);
+        left.state[i] = old.theta(intervals[i], 0, levels[i], time, u);
+        if(r > 0)
+          left.state[i]
+              += old.source(intervals[i], time).value(old.coordinate(0, levels[i], u))
+                 - left.problem->source(mesh_left.interval_of(i), time).value(r);
+      }
     const HeatContent before = old.heat(time, u),
-                      now = result.problem->heat(time, result.state);
-    result.before = sum_of(past.before, before);
-    result.before.sensible -= now.sensible;
-    result.before.latent -= now.latent;
-    const double end = physics.clock.clock(setting.scene.end_time);
-    result.steps = {{end, (end - physics.clock.clock(time)) / steps_for(setting, time)}};
-    result.event
-        = {time, fmt::format("the front reaches {}",
-                             inner_vanishes && old.mesh().has_centre()
-                                 ? "the centre"
-                                 : fmt::format(
-                                     "the wall {}",
-                                     to_string(side_at(setting.scene, inner_vanishes))))};
-    return result;
+                      now = left.problem->heat(time, left.state);
+    left.before = sum_of(past.before, before);
+    left.before.sensible -= now.sensible;
+    left.before.latent -= now.latent;
+    left.after_front = true;
+    return with_bend(setting, left, place, what_vanishes(setting, mesh, vanished, place));
   }
 } // namespace meltfront::reference_fem::fitted

@@ -1,0 +1,136 @@
+#include <reference_fem/fitted/events/profile.h>
+#include <reference_fem/fitted/events/timeline.h>
+
+#include <cases/error.h>
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::reference_fem::fitted
+{
+  namespace
+  {
+    using dealii::Vector;
+
+    /** A wall that is so shortly after it has passed the melting temperature, of the time
+     * to the seed, as far off it as this share of what it is at the seed, has jumped. */
+    constexpr double shortly = 1e-3, already = 0.1;
+
+    /** A wall that passes the melting temperature within this share of the time from
+     * another one's passing to its seed has its front seeded with that. */
+    constexpr double together = 0.5;
+  } // namespace
+
+  Timeline::LocatedPassing Timeline::locate(const RunSegment &segment,
+                                            Integrator &integrator, const Point &before,
+                                            const WallCrossing &crossing) const
+  {
+    const FittedProblem &problem = *segment.problem;
+    const Clock &clock = problem.physics().clock;
+    const bool inner = crossing.inner;
+    const auto excess_at = [&](const double end)
+    {
+      integrator.start(before.clock, before.u);
+      integrator.advance_to(end, crossing.clock - before.clock);
+      return problem.wall_excess(inner, 0, clock.time(end), integrator.state());
+    };
+    const double at_start
+        = problem.wall_excess(inner, 0, clock.time(before.clock), before.u),
+        at_end = excess_at(crossing.clock);
+    // A step may end on the melting temperature, up to rounding.
+    if(at_start * at_end >= 0)
+    {
+      const double time = clock.time(before.clock);
+      const bool begins = before.clock == clock.clock(segment.time);
+      return {{inner, begins ? segment.time : time,
+               begins && leads_at_once(problem, inner, time, before.u)},
+              before.clock};
+    }
+    std::uintmax_t iterations = 100;
+    const auto [lower, upper] = boost::math::tools::toms748_solve(
+        [&](const double end) { return end == before.clock ? at_start : excess_at(end); },
+        before.clock, crossing.clock, at_start, at_end,
+        boost::math::tools::eps_tolerance<double>(50), iterations);
+    const double middle = 0.5 * (lower + upper), time = clock.time(middle);
+    // Of a jump the far side: the wall is to show the value that it jumps to.
+    if(has_jumped(segment, {inner, time}))
+      return {{inner, clock.time(upper)}, lower};
+    return {{inner, time}, middle};
+  }
+
+  RunSegment Timeline::pass_walls(const RunSegment &segment, Integrator &integrator,
+                                  const Point &before,
+                                  const std::vector<WallCrossing> &crossings)
+  {
+    std::vector<LocatedPassing> located;
+    for(const WallCrossing &crossing : crossings)
+      located.push_back(locate(segment, integrator, before, crossing));
+    std::ranges::stable_sort(located, {}, [](const LocatedPassing &wall)
+                             { return wall.passing.time; });
+    const WallPassing first = located.front().passing;
+    const auto state_at = [&](const double clock_then)
+    {
+      integrator.start(before.clock, before.u);
+      if(clock_then > before.clock)
+        integrator.advance_to(clock_then, setting.scene.end_time);
+      return integrator.state();
+    };
+    if(has_jumped(segment, first))
+      return after_jump(segment, first.time, state_at(located.front().clock));
+    double tau = time_of_seed(setting, segment, first);
+    std::vector<WallPassing> passings{first};
+    if(located.size() == 2)
+    {
+      const WallPassing second = located[1].passing;
+      const double later = second.time - first.time;
+      if(later <= together * tau && second.at_once == first.at_once
+         && !has_jumped(segment, second))
+        passings.push_back(second);
+      else if(later > 0)
+        tau = std::min(tau, 0.5 * later);
+    }
+    return late_stretch(setting, segment, passings, tau,
+                        state_at(located[passings.size() - 1].clock),
+                        options_for(segment));
+  }
+
+  bool Timeline::has_jumped(const RunSegment &segment, const WallPassing &passing) const
+  {
+    const FittedProblem &problem = *segment.problem;
+    const Physics &physics = problem.physics();
+    const cases::Boundary &wall
+        = passing.inner ? physics.inner_wall : physics.outer_wall;
+    if(wall.kind != cases::BoundaryKind::fixed_temperature)
+      return false;
+    const RayMesh &mesh = problem.mesh();
+    const double since = time_of_seed(setting, segment, passing);
+    const auto excess_after = [&](const double share)
+    {
+      return std::abs(
+          wall.value(mesh.position(0, passing.inner ? mesh.inner : mesh.outer),
+                     passing.time + share * since)
+          - physics.melting_temperature);
+    };
+    return excess_after(shortly) > already * excess_after(1);
+  }
+
+  RunSegment Timeline::after_jump(const RunSegment &segment, const double time,
+                                  const Vector<double> &u) const
+  {
+    LayeredState state = layers_of(segment, time, u);
+    std::vector<SuddenStart> starts;
+    for(const bool inner : {true, false})
+      if(auto start = start_at_wall(setting, state, inner))
+        if(has_jumped(segment, {inner, time}))
+          starts.push_back(*start);
+    if(starts.empty())
+      throw cases::Refusal(fmt::format("fem-fitted cannot start a front at a wall that "
+                                       "jumps across the melting temperature at t = "
+                                       "{:.6g}",
+                                       time));
+    return seeded_stretch(setting, starts, state);
+  }
+} // namespace meltfront::reference_fem::fitted
