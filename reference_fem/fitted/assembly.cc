@@ -252,12 +252,10 @@ namespace meltfront::reference_fem::fitted
     if(!matrices)
       return;
     const std::vector<unsigned int> &cell = rays.surface.cells[surface_cell];
-    const std::vector<unsigned int> fronts
-        = rays.fronts_of(rays.layers[layer].interval);
+    const std::vector<unsigned int> fronts = rays.fronts_of(rays.layers[layer].interval);
     for(std::size_t k = 0; k < fronts.size(); ++k)
     {
-      const Eigen::MatrixXd by_front
-          = integrals.source_flow_front(k, released, slope);
+      const Eigen::MatrixXd by_front = integrals.source_flow_front(k, released, slope);
       for(std::size_t a = 0; a < cell.size(); ++a)
       {
         const unsigned int column = rays.front_node(cell[a], fronts[k]);

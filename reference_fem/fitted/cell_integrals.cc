@@ -119,8 +119,7 @@ namespace meltfront::reference_fem::fitted
     if(physics.displacement != 0)
     {
       front = tables.rays * state.front[0];
-      liquid_speed
-          = physics.displacement * (tables.rays * state.front_rate[0]).array();
+      liquid_speed = physics.displacement * (tables.rays * state.front_rate[0]).array();
       for(int m = 0; m < exponent; ++m)
         liquid_speed *= front / r;
       speed -= liquid_speed;

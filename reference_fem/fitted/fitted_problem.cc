@@ -300,8 +300,7 @@ namespace meltfront::reference_fem::fitted
         if(front > 0 && front < n)
           return fmt::format("the fronts at r = {:.6g} and {:.6g} have met", before, h);
         return fmt::format("the front at r = {:.6g} has reached the wall at {:g}",
-                           front == 0 ? h : before,
-                           front == 0 ? rays.inner : rays.outer);
+                           front == 0 ? h : before, front == 0 ? rays.inner : rays.outer);
       }
     }
     return reason_inverted(u);

@@ -36,9 +36,9 @@ namespace meltfront::reference_fem::fitted
           layer.carried.push_back({1 - from, 1 - to});
         if(interval < last)
           layer.carried.push_back({from, to});
-        layer.fixed = last == 0          ? std::array{inner + (outer - inner) * from,
-                                                      inner + (outer - inner) * to}
-                      : interval == 0    ? std::array{inner * (1 - from), inner * (1 - to)}
+        layer.fixed = last == 0       ? std::array{inner + (outer - inner) * from,
+                                             inner + (outer - inner) * to}
+                      : interval == 0 ? std::array{inner * (1 - from), inner * (1 - to)}
                       : interval == last ? std::array{outer * from, outer * to}
                                          : std::array{0., 0.};
         layers.push_back(layer);

@@ -39,15 +39,16 @@ namespace meltfront::reference_fem::fitted
   public:
     static constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
 
-    /** Intervals that fronts separate, by the shares of their lengths at which cells begin
-     * and end. */
+    /** Intervals that fronts separate, by the shares of their lengths at which cells
+     * begin and end. */
     RayMesh(FrontSurface surface, double inner, double outer,
             std::vector<std::vector<double>> shares);
 
     /** One phase from the inner to the outer wall. */
     RayMesh(FrontSurface surface, double inner, double outer,
             const std::vector<double> &shares)
-      : RayMesh(std::move(surface), inner, outer, std::vector<std::vector<double>>(1, shares))
+      : RayMesh(std::move(surface), inner, outer,
+                std::vector<std::vector<double>>(1, shares))
     {
     }
 

@@ -110,9 +110,10 @@ namespace meltfront::reference_fem::fitted
     const int inside = rays.cells / 2;
     const int most = rays.cells - inside;
     if(grading > 1 && fronts > 1)
-      throw Refusal(fmt::format("fem-fitted.grading = {:g} draws cells to one front; here "
-                                "are {}",
-                                grading, fronts));
+      throw Refusal(
+          fmt::format("fem-fitted.grading = {:g} draws cells to one front; here "
+                      "are {}",
+                      grading, fronts));
     // Of cells r^0 ... r^(m-1) the smallest is (r - 1)/(r^m - 1) of all.
     const double smallest = std::log(grading - 1) - most * std::log(grading);
     if(grading > 1 && smallest < std::log(smallest_cell))

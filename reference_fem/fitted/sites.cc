@@ -87,7 +87,8 @@ namespace meltfront::reference_fem::fitted
         // For pictures: the centre of a source shows the temperature half way to its
         // neighbour.
         const double shown = r > 0 ? r : 0.5 * problem.coordinate(ray, 1, u);
-        temperature[node] = melting + u[node] + problem.source(interval, time).value(shown);
+        temperature[node]
+            = melting + u[node] + problem.source(interval, time).value(shown);
         solid_fraction[node] = problem.phase(interval).solid ? 1 : 0;
       }
   }

@@ -34,9 +34,13 @@ namespace meltfront::reference_fem::fitted
      * 5e-176, and what is left of it is no number. */
     constexpr double far_in_layers = 20;
 
-    /** Of the temperature scale: the other wall is held elsewhere than what lies at it.
-     */
+    /** Of the temperature scale: a wall is held elsewhere than what lies at it, or its
+     * flux makes a difference of that much over the ray. */
     constexpr double least_jump = 1e-6;
+
+    /** Distance of the points, of the room at a wall, by which the slope there is taken.
+     */
+    constexpr double difference = 1e-5;
 
     /** Steps are equal in this root of the clock. */
     constexpr double lengthening = 3;
@@ -57,21 +61,6 @@ namespace meltfront::reference_fem::fitted
       const RayScene &rays = setting.rays;
       const double distance = beside_wall * (rays.outer - rays.inner);
       return state.temperature(inner ? rays.inner + distance : rays.outer - distance);
-    }
-
-    /** By how much a wall is held above what lies at it (K). */
-    double jump_at_wall(const EventScene &setting, const LayeredState &state,
-                        const bool inner)
-    {
-      const RayScene &rays = setting.rays;
-      const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
-      if(inner && geometry.has_centre())
-        return 0;
-      const cases::Boundary &wall = setting.scene.boundary(side_at(setting.scene, inner));
-      if(wall.kind != BoundaryKind::fixed_temperature)
-        return 0;
-      return wall.value(geometry.position(0, inner ? rays.inner : rays.outer), state.time)
-             - temperature_at_end(setting, state, inner);
     }
 
     /** The front constant for which a sink of the given kind removes @p heat. */
@@ -179,6 +168,7 @@ namespace meltfront::reference_fem::fitted
                            {0, 1});
     result.temperature = [&scene = setting.scene, geometry](const double r)
     { return scene.initial.temperature(geometry.position(0, r), scene.start_time); };
+    result.untouched = result.fronts.empty();
     return result;
   }
 
@@ -200,7 +190,6 @@ namespace meltfront::reference_fem::fitted
     result.before = segment.before;
     result.before.walls += heat.walls;
     result.before.sources += heat.sources;
-    result.after_front = segment.after_front || problem.mesh().has_front();
     return result;
   }
 
@@ -243,33 +232,85 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
+  double WallLayer::temperature(const double distance, const double thickness) const
+  {
+    const double x = distance / thickness;
+    if(!forms() || x > far_in_layers)
+      return 0;
+    return jump * std::erfc(x)
+           + slope * thickness
+                 * (std::exp(-x * x) / std::sqrt(std::numbers::pi) - x * std::erfc(x));
+  }
+
+  std::array<WallLayer, 2> layers_at_walls(const EventScene &setting,
+                                           const LayeredState &state)
+  {
+    const cases::Scene &scene = setting.scene;
+    const RayScene &rays = setting.rays;
+    const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
+    const Physics physics = physics_between(setting, true, 0);
+    std::array<WallLayer, 2> result;
+    for(const bool inner : {true, false})
+    {
+      if(inner && geometry.has_centre())
+        continue;
+      const cases::Boundary &wall = inner ? physics.inner_wall : physics.outer_wall;
+      const cases::Position place = geometry.position(0, inner ? rays.inner : rays.outer);
+      const double beside = temperature_at_end(setting, state, inner);
+      if(wall.exact)
+        continue;
+      if(wall.kind == BoundaryKind::fixed_temperature)
+      {
+        const double jump = wall.value(place, state.time) - beside;
+        if(std::abs(jump) > least_jump * physics.temperature_scale)
+          result[inner ? 0 : 1].jump = jump;
+        continue;
+      }
+      // By the parabola through three points beside the wall.
+      const double room = room_at_wall(setting, state, inner), h = difference * room;
+      const auto at = [&](const int k)
+      { return state.temperature(inner ? rays.inner + k * h : rays.outer - k * h); };
+      const double conducted = (-2.5 * at(1) + 4 * at(2) - 1.5 * at(3)) / h;
+      const double given
+          = wall.kind == BoundaryKind::insulated
+                ? 0
+                : cases::heat_through(wall, place, state.time, beside).flux;
+      const cases::PhaseProperties &phase
+          = state.solid_at(inner) ? scene.material.solid : scene.material.liquid;
+      const double slope = given / phase.conductivity + conducted;
+      if(std::abs(slope) * (rays.outer - rays.inner)
+         > least_jump * physics.temperature_scale)
+        result[inner ? 0 : 1].slope = slope;
+    }
+    return result;
+  }
+
   std::shared_ptr<FittedProblem> problem_with(const EventScene &setting,
                                               const LayeredState &state,
                                               const std::vector<NewLayer> &layers,
-                                              const double far_layer, const Clock &clock)
+                                              std::array<double, 2> thickness,
+                                              const Clock &clock)
   {
     const RayScene &rays = setting.rays;
     std::vector<std::vector<double>> shares = state.shares;
-    bool solid_inside = state.solid_inside;
-    if(!state.after_front)
-    {
-      std::array<double, 2> thickness{far_layer, far_layer};
-      for(const NewLayer &layer : layers)
-        thickness[layer.inner ? 0 : 1] = layer.layer;
+    for(const NewLayer &layer : layers)
+      thickness[layer.inner ? 0 : 1] = layer.layer;
+    if(state.untouched)
       shares = {shares_of_layers(rays, thickness[0], thickness[1])};
-    }
+    else
+      for(const bool inner : {true, false})
+        if(const double layer = thickness[inner ? 0 : 1]; layer > 0)
+        {
+          std::vector<double> &old = inner ? shares.front() : shares.back();
+          old = drawn_shares(
+              old, 4 * layer / (rays.cells * room_at_wall(setting, state, inner)),
+              widening(rays), inner);
+        }
     const std::vector<double> equal
         = graded_shares(std::max(1, rays.cells / 2), 1, false);
+    bool solid_inside = state.solid_inside;
     for(const NewLayer &layer : layers)
     {
-      if(state.after_front)
-      {
-        std::vector<double> &old = layer.inner ? shares.front() : shares.back();
-        old = drawn_shares(old,
-                           4 * layer.layer
-                               / (rays.cells * room_at_wall(setting, state, layer.inner)),
-                           widening(rays), layer.inner);
-      }
       shares.insert(layer.inner ? shares.begin() : shares.end(), equal);
       solid_inside = solid_inside != layer.inner;
     }
@@ -337,36 +378,39 @@ namespace meltfront::reference_fem::fitted
     {
       // The old phase's thermal layer or the new phase, whichever is thinner.
       const double width = start.local->front(since);
-      const cases::PhaseProperties &old = start.local->solid_at_origin()
-                                              ? scene.material.liquid
-                                              : scene.material.solid;
+      const cases::PhaseProperties &old
+          = start.local->solid_at_origin() ? scene.material.liquid : scene.material.solid;
       thermal_layers.push_back(2 * std::sqrt(old.diffusivity() * since));
       layers.push_back(
           {start.at_inner_end, width, std::min(width, thermal_layers.back())});
     }
-    const bool inner = starts[0].at_inner_end;
-    double far_jump = starts.size() == 1 && state.fronts.empty()
-                          ? jump_at_wall(setting, state, !inner)
-                          : 0;
-    Physics physics = physics_between(setting, true, 0);
-    if(std::abs(far_jump) <= least_jump * physics.temperature_scale)
-      far_jump = 0;
+    std::array<WallLayer, 2> forms = layers_at_walls(setting, state);
+    for(const SuddenStart &start : starts)
+      forms[start.at_inner_end ? 0 : 1] = {};
+    std::array<double, 2> thickness{};
+    for(const bool inner : {true, false})
+      if(forms[inner ? 0 : 1].forms())
+        thickness[inner ? 0 : 1]
+            = 2
+              * std::sqrt(
+                  (state.solid_at(inner) ? scene.material.solid : scene.material.liquid)
+                      .diffusivity()
+                  * since);
+    Clock clock = physics_between(setting, true, 0).clock;
     if(setting.options.clock != "t")
-      physics.clock = {true, state.time};
-    const double far_layer = far_jump != 0 ? thermal_layers[0] : 0;
+      clock = {true, state.time};
 
     RunSegment result;
-    result.problem = problem_with(setting, state, layers, far_layer, physics.clock);
+    result.problem = problem_with(setting, state, layers, thickness, clock);
     result.time = state.time + since;
     result.state = result.problem->state(
         result.time, fronts_with(setting, state, layers),
         [&](const cases::Position &p)
         {
           const double r = scene.domain.round() ? std::hypot(p[0], p[1], p[2]) : p[0];
-          const double from_far_end = inner ? rays.outer - r : r - rays.inner;
-          double sum = state.temperature(r);
-          if(far_jump != 0)
-            sum += far_jump * std::erfc(from_far_end / far_layer);
+          double sum = state.temperature(r)
+                       + forms[0].temperature(r - rays.inner, thickness[0])
+                       + forms[1].temperature(rays.outer - r, thickness[1]);
           // The state need not be uniform farther away.
           for(std::size_t k = 0; k < starts.size(); ++k)
           {
@@ -386,12 +430,10 @@ namespace meltfront::reference_fem::fitted
     const HeatContent seed = result.problem->heat(result.time, result.state);
     result.before.walls += seed.sensible + seed.latent - state.heat
                            - (result.before.sources - state.before.sources);
-    const Clock &clock = physics.clock;
     result.steps = lengthening_steps(
         clock.clock(result.time), clock.clock(scene.end_time),
         steps_for(setting, state.time), clock.root ? lengthening : 2 * lengthening);
     result.event = {state.time, text_of(starts, layers)};
-    result.after_front = true;
     return result;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -28,9 +28,10 @@ namespace meltfront::reference_fem::fitted
     bool solid_inside = true;
     std::vector<std::vector<double>> shares{};     ///< of the cells, by interval
     std::function<double(double r)> temperature{}; ///< by coordinate on the ray (m)
-    double heat = 0;         ///< that it holds, sensible and latent
-    HeatContent before;      ///< walls and sources: what came in until then
-    bool after_front = false; ///< see RunSegment
+    double heat = 0;                               ///< that it holds, sensible and latent
+    HeatContent before; ///< walls and sources: what came in until then
+    /** One phase as the scene gives it: its cells are chosen by what happens to it. */
+    bool untouched = false;
 
     bool solid_at(bool inner) const
     {
@@ -57,15 +58,39 @@ namespace meltfront::reference_fem::fitted
   };
 
   /**
+   * The layer of heat that forms at a wall from a moment on: its temperature jumps, or
+   * its flux is not what is conducted there. In the distance x from it, in a half-space,
+   *
+   *   T - T_before = jump erfc(x/l) + slope l ierfc(x/l),  l = 2 sqrt(a t).
+   */
+  struct WallLayer
+  {
+    double jump = 0;  ///< K
+    double slope = 0; ///< K/m
+
+    bool forms() const
+    {
+      return jump != 0 || slope != 0;
+    }
+
+    double temperature(double distance, double thickness) const;
+  };
+
+  /** At the inner and the outer wall, as of a state. */
+  std::array<WallLayer, 2> layers_at_walls(const EventScene &setting,
+                                           const LayeredState &state);
+
+  /**
    * The problem with further phases at one end of the ray or both, each of equal cells;
-   * cells of the old phases are drawn to them, and to an end where a layer of heat forms
+   * cells of the old phases are drawn to them, and to walls where layers of heat form
    * without a front.
-   * @param far_layer its thickness (m), 0 without one
+   * @param thickness of such layers, inner and outer (m); 0 without one
    */
   std::shared_ptr<FittedProblem> problem_with(const EventScene &setting,
                                               const LayeredState &state,
                                               const std::vector<NewLayer> &layers,
-                                              double far_layer, const Clock &clock);
+                                              std::array<double, 2> thickness,
+                                              const Clock &clock);
 
   /** Coordinates of the fronts with those of the new phases (m). */
   std::vector<double> fronts_with(const EventScene &setting, const LayeredState &state,
@@ -108,9 +133,8 @@ namespace meltfront::reference_fem::fitted
    * The run from fronts that are so close to their ends of the ray that the local
    * solutions hold: 1e-4 of the room there, or less where little time or a fast liquid
    * demands it. New phases have equal cells, the old one cells that widen from the front;
-   * the clock is the root of the time since the start, and its steps lengthen. A wall of
-   * a ray in one phase that is held elsewhere than what lies at it has its layer, too,
-   * that of a half-space.
+   * the clock is the root of the time since the start, and its steps lengthen. A wall
+   * without a front has its layers_at_walls(), too.
    *
    * Heat that came in through the walls before is by definition what the seed holds more
    * than the state did, less what sources gave.

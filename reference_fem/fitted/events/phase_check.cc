@@ -207,10 +207,11 @@ namespace meltfront::reference_fem::fitted
               solid ? "solid" : "liquid", solid ? "above" : "below",
               physics.melting_temperature + excess, r));
         if(physics.volumetric_source.value)
-          throw cases::Refusal(fmt::format(
-              "fem-fitted follows fronts that walls start; at t = {:.6g} the heat released "
-              "throughout {} at r = {:.6g} away from them",
-              time, solid ? "melts solid" : "freezes liquid", r));
+          throw cases::Refusal(fmt::format("fem-fitted follows fronts that walls start; "
+                                           "at t = {:.6g} the heat released "
+                                           "throughout {} at r = {:.6g} away from them",
+                                           time, solid ? "melts solid" : "freezes liquid",
+                                           r));
         throw cases::NumericalError(
             method, step, time, fmt::format("the temperature at r = {:.6g}", r),
             fmt::format("is {:.6g}, {} the melting point in {} away from the front; "

@@ -36,8 +36,6 @@ namespace meltfront::reference_fem::fitted
 
     std::vector<StepRange> steps;
     Event event;
-    /** A front has been there: what it left behind need not be smooth. */
-    bool after_front = false;
   };
 
   /**

@@ -38,6 +38,10 @@ namespace meltfront::reference_fem::fitted
      * so while steps and cells do not resolve how it gets there. */
     constexpr int early_steps = 4;
 
+    /** A segment ends so far before a jump of a wall, of the time at the end, and the
+     * next begins as far behind it; and what of the larger value is a jump. */
+    constexpr double beside_jump = 1e-13, least_jump_of_wall = 1e-3;
+
     /** Of the temperature scale: rounding of a wall at the melting temperature. */
     constexpr double at_melting = 1e-12;
 
@@ -55,7 +59,7 @@ namespace meltfront::reference_fem::fitted
     struct Approach
     {
       unsigned int interval = 0;
-      double thickness = 0; ///< m
+      double thickness = 0;                                       ///< m
       double remaining = std::numeric_limits<double>::infinity(); ///< on the clock
     };
 
@@ -69,8 +73,7 @@ namespace meltfront::reference_fem::fitted
       const bool first = interval == 0, last = interval == mesh.n_fronts();
       const unsigned int lower = first ? 0 : mesh.front_node(0, interval - 1),
                          upper = last ? 0 : mesh.front_node(0, interval);
-      result.thickness
-          = (last ? mesh.outer : u[upper]) - (first ? mesh.inner : u[lower]);
+      result.thickness = (last ? mesh.outer : u[upper]) - (first ? mesh.inner : u[lower]);
       const double growth = (last ? 0 : rate[upper]) - (first ? 0 : rate[lower]);
       if(growth < 0)
         result.remaining = result.thickness / -growth;
@@ -100,17 +103,17 @@ namespace meltfront::reference_fem::fitted
       return approach.thickness < share * (mesh.outer - mesh.inner);
     }
 
-    /** Whether a wall passes the melting temperature when the phase at it may already have
-     * vanished: the step was too long to tell. */
-    bool doubtful(const FittedProblem &problem, const std::vector<WallCrossing> &crossings,
-                  const Vector<double> &u, const Vector<double> &rate, const double step)
+    /** Whether a wall passes the melting temperature when the phase at it may already
+     * have vanished: the step was too long to tell. */
+    bool doubtful(const FittedProblem &problem,
+                  const std::vector<WallCrossing> &crossings, const Vector<double> &u,
+                  const Vector<double> &rate, const double step)
     {
       return std::ranges::any_of(
           crossings,
           [&](const WallCrossing &crossing)
           {
-            const unsigned int interval
-                = crossing.inner ? 0 : problem.mesh().n_fronts();
+            const unsigned int interval = crossing.inner ? 0 : problem.mesh().n_fronts();
             return step > believed * approach_of(problem, interval, u, rate).remaining;
           });
     }
@@ -140,6 +143,20 @@ namespace meltfront::reference_fem::fitted
           = [&](const AcceptedStep &step) { return goes_on = after_step(step); };
       for(auto range = ranges.begin(); goes_on && range != ranges.end(); ++range)
         integrator.advance_to(range->end, range->step * (1 + 1e-9), watched);
+    }
+
+    /** Planned steps, none beyond an end. */
+    std::vector<StepRange> steps_until(const std::vector<StepRange> &planned,
+                                       const double end)
+    {
+      std::vector<StepRange> result;
+      for(const StepRange &range : planned)
+      {
+        result.push_back({std::min(range.end, end), range.step});
+        if(range.end >= end)
+          break;
+      }
+      return result;
     }
 
     void add(const IntegrationCost &cost, IntegrationCost &total)
@@ -175,20 +192,8 @@ namespace meltfront::reference_fem::fitted
     listener.step(0, segment->time, segment->state, false);
     if(follows_events())
     {
-      const LayeredState initial = initial_layers(setting, *segment);
-      std::vector<SuddenStart> starts = sudden_starts(setting, initial);
-      std::erase_if(starts,
-                    [&](const SuddenStart &start)
-                    {
-                      return has_front
-                             && !phases.has_passed(problem, start.at_inner_end, 0,
-                                                   segment->time, segment->state);
-                    });
-      if(!starts.empty())
-      {
-        segment = seeded_stretch(setting, starts, initial);
-        begin(*segment);
-      }
+      if(auto next = set_out(*segment, initial_layers(setting, *segment)))
+        begin(*(segment = std::move(next)));
     }
     else
     {
@@ -200,6 +205,64 @@ namespace meltfront::reference_fem::fitted
     while((segment = integrate(*segment)))
       begin(*segment);
     total.steps = steps;
+  }
+
+  std::optional<RunSegment> Timeline::set_out(const RunSegment &segment,
+                                              const LayeredState &state) const
+  {
+    const bool starts_here = state.time == setting.scene.start_time;
+    std::vector<SuddenStart> starts;
+    if(starts_here)
+      starts = sudden_starts(setting, state);
+    else
+      for(const bool inner : {true, false})
+        if(auto start = start_at_wall(setting, state, inner))
+          starts.push_back(*start);
+    const std::array<WallLayer, 2> forms = layers_at_walls(setting, state);
+    std::erase_if(starts,
+                  [&](const SuddenStart &start)
+                  {
+                    const bool inner = start.at_inner_end;
+                    return !(starts_here && state.fronts.empty())
+                           && (forms[inner ? 0 : 1].jump == 0
+                               || !phases.has_passed(*segment.problem, inner, 0,
+                                                     state.time, segment.state));
+                  });
+    if(!starts.empty())
+      return seeded_stretch(setting, starts, state);
+    if(forms[0].forms() || forms[1].forms())
+      return drawn_to_walls(setting, segment, forms);
+    return std::nullopt;
+  }
+
+  double Timeline::next_jump(const double time) const
+  {
+    double result = std::numeric_limits<double>::infinity();
+    if(!follows_events())
+      return result;
+    const RayScene &rays = setting.rays;
+    const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
+    for(const bool inner : {true, false})
+    {
+      if(inner && geometry.has_centre())
+        continue;
+      const cases::Boundary &wall = setting.scene.boundary(side_at(setting.scene, inner));
+      if(wall.kind == cases::BoundaryKind::insulated || wall.exact)
+        continue;
+      const cases::Position place = geometry.position(0, inner ? rays.inner : rays.outer);
+      for(const double point : wall.value.breakpoints)
+      {
+        const double shift = beside_jump * setting.scene.end_time;
+        if(!(point - shift > time) || !(point + shift < setting.scene.end_time))
+          continue;
+        const double before = wall.value(place, point - shift),
+                     behind = wall.value(place, point + shift);
+        if(std::abs(behind - before)
+           > least_jump_of_wall * std::max(std::abs(before), std::abs(behind)))
+          result = std::min(result, point);
+      }
+    }
+    return result;
   }
 
   void Timeline::begin(const RunSegment &segment)
@@ -233,9 +296,12 @@ namespace meltfront::reference_fem::fitted
     const FittedProblem &problem = *segment.problem;
     const Clock &clock = problem.physics().clock;
     const double from = clock.clock(segment.time);
+    const double jump = next_jump(segment.time),
+                 shift = beside_jump * setting.scene.end_time;
+    const double end = clock.clock(std::min(jump - shift, setting.scene.end_time));
     const std::vector<StepRange> ranges
-        = fit_to_data(segment.steps, from, clock, data_of(problem, segment.state),
-                      options.tolerance > 0);
+        = fit_to_data(steps_until(segment.steps, end), from, clock,
+                      data_of(problem, segment.state), options.tolerance > 0);
     if(may_pass_early(segment))
       if(auto next = refined(segment, ranges))
         return next;
@@ -243,7 +309,7 @@ namespace meltfront::reference_fem::fitted
     integrator.start(from, segment.state);
     Point last{from, segment.state, Vector<double>(segment.state.size())};
     std::optional<RunSegment> next;
-    while(!next && last.clock < clock.clock(setting.scene.end_time))
+    while(!next && last.clock < end)
     {
       const Halt halt = take_planned_steps(segment, ranges, integrator, last);
       if(!halt.crossings.empty())
@@ -252,6 +318,8 @@ namespace meltfront::reference_fem::fitted
         next = approach_end(segment, ranges, integrator, last);
     }
     add(integrator.cost(), total);
+    if(!next && jump < setting.scene.end_time)
+      next = after_jump(segment, jump + shift, last.u);
     return next;
   }
 
@@ -263,8 +331,7 @@ namespace meltfront::reference_fem::fitted
     Halt halt;
     const auto after_step = [&](const AcceptedStep &step)
     {
-      halt.crossings
-          = phases.wall_crossings(problem, last.clock, step.clock, step.u);
+      halt.crossings = phases.wall_crossings(problem, last.clock, step.clock, step.u);
       if(!halt.crossings.empty() && !follows_events())
         phases.refuse(halt.crossings[0].inner,
                       problem.physics().clock.time(halt.crossings[0].clock));
@@ -281,9 +348,9 @@ namespace meltfront::reference_fem::fitted
             "{} follows a front that reaches an end of the domain only along a line "
             "(symmetry other than none); here it does at t = {:.6g}",
             options.method, problem.physics().clock.time(step.clock)));
-      halt.shrinks = follows_events()
-                     && soonest(problem, last.u, last.rate).remaining
-                            < steps_ahead * step.size;
+      halt.shrinks
+          = follows_events()
+            && soonest(problem, last.u, last.rate).remaining < steps_ahead * step.size;
       return !halt.shrinks;
     };
     if(integrator.clock() != last.clock)
@@ -303,7 +370,7 @@ namespace meltfront::reference_fem::fitted
     const RayMesh &mesh = problem.mesh();
     if(!follows_events() || !mesh.has_front())
       return follows_events();
-    if(segment.after_front)
+    if(!segment.event.text.empty())
       return false;
     const Physics &physics = problem.physics();
     for(const bool inner : {true, false})
@@ -349,8 +416,8 @@ namespace meltfront::reference_fem::fitted
       std::erase_if(crossings,
                     [&](const WallCrossing &crossing)
                     {
-                      return std::abs(problem.wall_excess(crossing.inner, 0,
-                                                          present.time, present.state))
+                      return std::abs(problem.wall_excess(crossing.inner, 0, present.time,
+                                                          present.state))
                              <= at_melting * problem.physics().temperature_scale;
                     });
       if(crossings.empty())
@@ -372,7 +439,7 @@ namespace meltfront::reference_fem::fitted
   {
     const FittedProblem &problem = *segment.problem;
     const Clock &clock = problem.physics().clock;
-    const double end = clock.clock(setting.scene.end_time);
+    const double end = ranges.back().end;
     Approach state = soonest(problem, last.u, last.rate);
     std::vector<WallCrossing> crossings;
     bool too_long = false;
@@ -412,8 +479,7 @@ namespace meltfront::reference_fem::fitted
     }
     if(last.clock < end)
       throw cases::NumericalError(options.method, steps, clock.time(last.clock),
-                                  "a phase",
-                                  "comes close to its end and stays there");
+                                  "a phase", "comes close to its end and stays there");
     return std::nullopt;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -67,6 +67,9 @@ namespace meltfront::reference_fem::fitted
     /** Integrate a segment; the one that follows it, if an event ends it. */
     std::optional<RunSegment> integrate(const RunSegment &segment);
 
+    /** The time of the next jump of what a wall prescribes, infinite without one. */
+    double next_jump(double time) const;
+
     Halt take_planned_steps(const RunSegment &segment,
                             const std::vector<StepRange> &ranges, Integrator &integrator,
                             Point &last);
@@ -75,6 +78,10 @@ namespace meltfront::reference_fem::fitted
     std::optional<RunSegment> approach_end(const RunSegment &segment,
                                            const std::vector<StepRange> &ranges,
                                            Integrator &integrator, Point &last);
+
+    /** Segments from a state whose walls start fronts or layers of heat at once. */
+    std::optional<RunSegment> set_out(const RunSegment &segment,
+                                      const LayeredState &state) const;
 
     /** The segment anew with finer cells and steps if a wall passes the melting
      * temperature within the first of its steps. */
@@ -97,8 +104,10 @@ namespace meltfront::reference_fem::fitted
                           const Point &before, const WallCrossing &crossing) const;
 
     /** Whether a wall of fixed temperature jumped when it passed the melting
-     * temperature, and the fronts that start then. */
+     * temperature. */
     bool has_jumped(const RunSegment &segment, const WallPassing &passing) const;
+
+    /** The run on from a jump of a wall: fronts that start, layers of heat that form. */
     RunSegment after_jump(const RunSegment &segment, double time,
                           const dealii::Vector<double> &u) const;
 

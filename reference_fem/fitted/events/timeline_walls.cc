@@ -68,8 +68,8 @@ namespace meltfront::reference_fem::fitted
     std::vector<LocatedPassing> located;
     for(const WallCrossing &crossing : crossings)
       located.push_back(locate(segment, integrator, before, crossing));
-    std::ranges::stable_sort(located, {}, [](const LocatedPassing &wall)
-                             { return wall.passing.time; });
+    std::ranges::stable_sort(
+        located, {}, [](const LocatedPassing &wall) { return wall.passing.time; });
     const WallPassing first = located.front().passing;
     const auto state_at = [&](const double clock_then)
     {
@@ -101,8 +101,7 @@ namespace meltfront::reference_fem::fitted
   {
     const FittedProblem &problem = *segment.problem;
     const Physics &physics = problem.physics();
-    const cases::Boundary &wall
-        = passing.inner ? physics.inner_wall : physics.outer_wall;
+    const cases::Boundary &wall = passing.inner ? physics.inner_wall : physics.outer_wall;
     if(wall.kind != cases::BoundaryKind::fixed_temperature)
       return false;
     const RayMesh &mesh = problem.mesh();
@@ -120,17 +119,16 @@ namespace meltfront::reference_fem::fitted
   RunSegment Timeline::after_jump(const RunSegment &segment, const double time,
                                   const Vector<double> &u) const
   {
-    LayeredState state = layers_of(segment, time, u);
-    std::vector<SuddenStart> starts;
-    for(const bool inner : {true, false})
-      if(auto start = start_at_wall(setting, state, inner))
-        if(has_jumped(segment, {inner, time}))
-          starts.push_back(*start);
-    if(starts.empty())
-      throw cases::Refusal(fmt::format("fem-fitted cannot start a front at a wall that "
-                                       "jumps across the melting temperature at t = "
-                                       "{:.6g}",
-                                       time));
-    return seeded_stretch(setting, starts, state);
+    RunSegment here = segment;
+    here.time = time;
+    here.state = u;
+    if(auto next = set_out(here, layers_of(here, time, u)))
+      return *next;
+    // What jumps makes no difference here, as the surroundings of a wall without
+    // exchange.
+    const Clock &clock = here.problem->physics().clock;
+    const double end = clock.clock(setting.scene.end_time);
+    here.steps = {{end, (end - clock.clock(time)) / steps_for(setting, time)}};
+    return here;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -29,8 +29,8 @@ namespace meltfront::reference_fem::fitted
      * temperature is a ramp. */
     constexpr double ramp_share = 1e-2;
 
-    /** A seed is so wide at least, of the ray, lest it be lost in rounding; if the time is
-     * too short for that, it is made longer, up to this share of what is left. */
+    /** A seed is so wide at least, of the ray, lest it be lost in rounding; if the time
+     * is too short for that, it is made longer, up to this share of what is left. */
     constexpr double thinnest_seed = 1e-11, latest_share = 1e-3;
     constexpr double longer = 4;
 
@@ -94,11 +94,12 @@ namespace meltfront::reference_fem::fitted
       result.problem = std::make_shared<FittedProblem>(
           RayMesh(mesh.surface, mesh.inner, mesh.outer, shares), physics);
       result.time = segment.time;
-      result.state = result.problem->state(
-          segment.time, layers.fronts, [&](const cases::Position &p)
-          { return layers.temperature(coordinate_of(setting, p)); });
+      result.state
+          = result.problem->state(segment.time, layers.fronts,
+                                  [&](const cases::Position &p) {
+                                    return layers.temperature(coordinate_of(setting, p));
+                                  });
       result.before = layers.before;
-      result.after_front = segment.after_front;
       return result;
     }
   } // namespace
@@ -161,8 +162,7 @@ namespace meltfront::reference_fem::fitted
   double time_of_seed(const EventScene &setting, const RunSegment &past,
                       const WallPassing &passing)
   {
-    const double crossing = passing.time,
-                 left = setting.scene.end_time - crossing,
+    const double crossing = passing.time, left = setting.scene.end_time - crossing,
                  to_breakpoint = 0.5 * time_to_breakpoint(setting.scene, crossing);
     if(passing.at_once)
       return std::min(share_at_once * left, to_breakpoint);
@@ -243,20 +243,20 @@ namespace meltfront::reference_fem::fitted
       const double outflow
           = old.conductivity * profile.slope(result.wall) * (inner ? 1 : -1);
       const double flux
-          = result.held ? 0
-                        : cases::heat_through(
-                              law, problem.mesh().position(0, result.wall), state.time,
-                              scene.material.melting_temperature)
-                              .flux;
+          = result.held
+                ? 0
+                : cases::heat_through(law, problem.mesh().position(0, result.wall),
+                                      state.time, scene.material.melting_temperature)
+                      .flux;
       double width = 0;
       if(result.held)
       {
         const double rate = std::abs(wall_excess) / since;
-        width = since
-                * (std::sqrt(std::pow(outflow, 2)
-                             + 4 * latent * grown.conductivity * rate)
-                   - direction * outflow)
-                / (2 * latent);
+        width
+            = since
+              * (std::sqrt(std::pow(outflow, 2) + 4 * latent * grown.conductivity * rate)
+                 - direction * outflow)
+              / (2 * latent);
       }
       else if(passing.at_once)
         width = since * direction * (-flux - outflow) / latent;
@@ -283,7 +283,7 @@ namespace meltfront::reference_fem::fitted
       LateSeed(const EventScene &setting, const LayeredState &state, const Clock &clock,
                std::vector<LateLayer> layers)
         : layers(std::move(layers))
-        , problem(problem_with(setting, state, places_of(this->layers), 0, clock))
+        , problem(problem_with(setting, state, places_of(this->layers), {}, clock))
         , setting(setting)
         , state(state)
       {
@@ -297,16 +297,15 @@ namespace meltfront::reference_fem::fitted
         return now.sensible + now.latent - state.heat;
       }
 
-      /** Move the fronts behind given fluxes to where the heat balances. False where there
-       * is no such place. */
+      /** Move the fronts behind given fluxes to where the heat balances. False where
+       * there is no such place. */
       bool balance()
       {
         const int exponent = setting.rays.surface.exponent;
         const double measure = exponent == 0   ? 1
                                : exponent == 1 ? 2 * std::numbers::pi
                                                : 4 * std::numbers::pi;
-        const auto area
-            = [&](double r) { return std::pow(r, exponent) * measure; };
+        const auto area = [&](double r) { return std::pow(r, exponent) * measure; };
         double all = 0;
         for(const LateLayer &layer : layers)
           all += std::abs(layer.latent) * area(layer.wall) * layer.place.width;
@@ -336,22 +335,21 @@ namespace meltfront::reference_fem::fitted
     private:
       void place()
       {
-        u = problem->state(
-            state.time, fronts_with(setting, state, places_of(layers)),
-            [&](const cases::Position &p)
-            {
-              const double r = coordinate_of(setting, p);
-              double temperature = state.temperature(r);
-              for(const LateLayer &layer : layers)
-              {
-                const double distance = std::abs(r - layer.wall);
-                if(distance < layer.place.width)
-                  return setting.scene.material.melting_temperature
-                         + layer.gradient * (distance - layer.place.width);
-                temperature -= layer.response(distance);
-              }
-              return temperature;
-            });
+        u = problem->state(state.time, fronts_with(setting, state, places_of(layers)),
+                           [&](const cases::Position &p)
+                           {
+                             const double r = coordinate_of(setting, p);
+                             double temperature = state.temperature(r);
+                             for(const LateLayer &layer : layers)
+                             {
+                               const double distance = std::abs(r - layer.wall);
+                               if(distance < layer.place.width)
+                                 return setting.scene.material.melting_temperature
+                                        + layer.gradient * (distance - layer.place.width);
+                               temperature -= layer.response(distance);
+                             }
+                             return temperature;
+                           });
       }
 
       const EventScene &setting;
@@ -407,13 +405,12 @@ namespace meltfront::reference_fem::fitted
         if(passing.at_once)
           state.temperature = [&](double r)
           { return scene.material.melting_temperature + at_crossing.value(r); };
-        const double excess = past.problem->wall_excess(passing.inner, 0, state.time,
-                                                        beyond.state());
+        const double excess
+            = past.problem->wall_excess(passing.inner, 0, state.time, beyond.state());
         if(excess == 0 || (excess < 0) == !state.solid_at(passing.inner))
         {
           layers.push_back(late_layer(setting, passing, *past.problem, state,
-                                      passing.at_once ? at_crossing : profile,
-                                      excess));
+                                      passing.at_once ? at_crossing : profile, excess));
           continue;
         }
         throw cases::NumericalError(integration.method, 0, state.time, "the wall",
@@ -429,9 +426,9 @@ namespace meltfront::reference_fem::fitted
             integration.method, crossing, where));
       }
       LateSeed seed(setting, state, Clock{true, passings.front().time}, layers);
-      const bool balances
-          = std::ranges::none_of(layers, [](const LateLayer &layer) { return layer.held; })
-            && std::ranges::none_of(passings, &WallPassing::at_once);
+      const bool balances = std::ranges::none_of(layers, [](const LateLayer &layer)
+                                                 { return layer.held; })
+                            && std::ranges::none_of(passings, &WallPassing::at_once);
       if(balances && !seed.balance())
         throw cases::Refusal(
             fmt::format("{} cannot start a front at t = {:.6g} ({}): no place of it "
@@ -448,7 +445,6 @@ namespace meltfront::reference_fem::fitted
           = lengthening_steps(clock.clock(state.time), clock.clock(scene.end_time),
                               steps_for(setting, crossing), growth_of_steps);
       result.event = {crossing, where};
-      result.after_front = true;
       return result;
     }
   }
@@ -480,17 +476,17 @@ namespace meltfront::reference_fem::fitted
 
   namespace
   {
-    /** A segment on cells that are halved towards a place where the temperature bends. */
-    RunSegment with_bend(const EventScene &setting, const RunSegment &segment,
-                         const double place, const std::string &event)
+    /** A segment on cells that are halved towards places where the temperature bends,
+     * with steps that lengthen from short ones. */
+    RunSegment drawn_segment(const EventScene &setting, const RunSegment &segment,
+                             const std::vector<double> &places, const Clock &clock,
+                             const std::string &event)
     {
       const RayMesh &mesh = segment.problem->mesh();
-      const Clock &clock = segment.problem->physics().clock;
-      const double begin = clock.clock(segment.time),
-                   end = clock.clock(setting.scene.end_time);
-      const int n = steps_for(setting, segment.time);
       const std::vector<StepRange> steps = lengthening_steps(
-          begin, end, n, clock.root ? growth_of_steps : 2 * growth_of_steps);
+          clock.clock(segment.time), clock.clock(setting.scene.end_time),
+          steps_for(setting, segment.time),
+          clock.root ? growth_of_steps : 2 * growth_of_steps);
       const double first = clock.time(steps.front().end) - segment.time;
       std::vector<std::vector<double>> shares = mesh.shares;
       const LayeredState layers = layers_of(segment, segment.time, segment.state);
@@ -498,15 +494,13 @@ namespace meltfront::reference_fem::fitted
       for(unsigned int k = 0; k <= mesh.n_fronts(); ++k)
       {
         const double upper = k < mesh.n_fronts() ? layers.fronts[k] : mesh.outer;
-        const double length = upper - lower;
-        if(place >= lower && place <= upper)
-        {
-          const Phase &phase = segment.problem->phase(k);
-          const double smallest
-              = std::sqrt(phase.conductivity / phase.capacity * first)
-                / (cells_in_layer * length);
-          shares[k] = halved_towards(shares[k], (place - lower) / length, smallest);
-        }
+        const Phase &phase = segment.problem->phase(k);
+        const double smallest = std::sqrt(phase.conductivity / phase.capacity * first)
+                                / (cells_in_layer * (upper - lower));
+        for(const double place : places)
+          if(place >= lower && place <= upper)
+            shares[k]
+                = halved_towards(shares[k], (place - lower) / (upper - lower), smallest);
         lower = upper;
       }
       RunSegment result = on_finer_mesh(setting, segment, shares, clock);
@@ -515,6 +509,27 @@ namespace meltfront::reference_fem::fitted
       return result;
     }
   } // namespace
+
+  RunSegment drawn_to_walls(const EventScene &setting, const RunSegment &segment,
+                            const std::array<WallLayer, 2> &forms)
+  {
+    Clock clock = segment.problem->physics().clock;
+    if(setting.options.clock != "t")
+      clock = {true, segment.time};
+    std::vector<double> places;
+    std::string walls;
+    for(const bool inner : {true, false})
+      if(forms[inner ? 0 : 1].forms())
+      {
+        places.push_back(inner ? setting.rays.inner : setting.rays.outer);
+        walls += fmt::format("{}{}", walls.empty() ? "" : " and ",
+                             to_string(side_at(setting.scene, inner)));
+      }
+    return drawn_segment(setting, segment, places, clock,
+                         fmt::format("cells and steps are drawn to the wall {}, where a "
+                                     "layer of heat forms",
+                                     walls));
+  }
 
   RunSegment remaining_stretch(const EventScene &setting, const RunSegment &past,
                                const double time, const Vector<double> &u,
@@ -553,8 +568,8 @@ namespace meltfront::reference_fem::fitted
     for(std::size_t i = 0; i < levels.size(); i += degree)
     {
       const unsigned int level = levels[i], front = mesh.front_at(level);
-      const bool gap = front != RayMesh::none
-                       && (front + 1 == vanished || front == vanished);
+      const bool gap
+          = front != RayMesh::none && (front + 1 == vanished || front == vanished);
       faces.push_back(gap ? place : old.coordinate(0, level, u));
       if(front == RayMesh::none || gap)
         continue;
@@ -592,7 +607,7 @@ namespace meltfront::reference_fem::fitted
     left.before = sum_of(past.before, before);
     left.before.sensible -= now.sensible;
     left.before.latent -= now.latent;
-    left.after_front = true;
-    return with_bend(setting, left, place, what_vanishes(setting, mesh, vanished, place));
+    return drawn_segment(setting, left, {place}, physics.clock,
+                         what_vanishes(setting, mesh, vanished, place));
   }
 } // namespace meltfront::reference_fem::fitted

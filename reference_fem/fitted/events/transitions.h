@@ -18,6 +18,11 @@ namespace meltfront::reference_fem::fitted
   RunSegment refined_stretch(const EventScene &setting, const RunSegment &segment,
                              bool inner, double soon);
 
+  /** A segment anew from its state on cells that are halved towards walls where layers of
+   * heat form at that moment, with steps that lengthen from short ones. */
+  RunSegment drawn_to_walls(const EventScene &setting, const RunSegment &segment,
+                            const std::array<WallLayer, 2> &forms);
+
   /** A wall that is at the melting temperature at a time (s) and is led beyond it. */
   struct WallPassing
   {
@@ -64,9 +69,9 @@ namespace meltfront::reference_fem::fitted
 
   /**
    * The run from the moment at which an interval is so thin that it is dropped: at an end
-   * of the ray with its front, between two fronts with both, so that its neighbours become
-   * one. What heat it still held is kept in RunSegment::before. Cells are halved towards
-   * the place, where the temperature has a bend.
+   * of the ray with its front, between two fronts with both, so that its neighbours
+   * become one. What heat it still held is kept in RunSegment::before. Cells are halved
+   * towards the place, where the temperature has a bend.
    */
   RunSegment remaining_stretch(const EventScene &setting, const RunSegment &past,
                                double time, const dealii::Vector<double> &u,
