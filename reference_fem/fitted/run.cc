@@ -1,3 +1,4 @@
+#include <reference_fem/fitted/events/resolution.h>
 #include <reference_fem/fitted/run.h>
 
 #include <cases/error.h>
@@ -43,14 +44,16 @@ namespace meltfront::reference_fem::fitted
     }
     else
     {
-      problem = std::make_shared<FittedProblem>(
-          mesh_between_fronts(rays, fronts.number, options.grading),
-          physics_between({scene, effects, options, rays}, fronts.solid_inside,
-                          fronts.number));
-      initial_state
-          = problem->state(scene.start_time, fronts.coordinates,
-                           [&](const cases::Position &p)
-                           { return scene.initial.temperature(p, scene.start_time); });
+      RayMesh mesh = mesh_between_fronts(rays, fronts.number, options.grading);
+      const Physics physics = physics_between({scene, effects, options, rays},
+                                              fronts.solid_inside, fronts.number);
+      const auto temperature = [&](const cases::Position &p)
+      { return scene.initial.temperature(p, scene.start_time); };
+      if(options.dimension == 1)
+        mesh = resolving_mesh(mesh, physics, scene.start_time, fronts.coordinates,
+                              temperature);
+      problem = std::make_shared<FittedProblem>(mesh, physics);
+      initial_state = problem->state(scene.start_time, fronts.coordinates, temperature);
     }
     const std::string reason_invalid = problem->reason_invalid(initial_state);
     if(!reason_invalid.empty())
@@ -203,15 +206,17 @@ namespace meltfront::reference_fem::fitted
                      {},
                      {{clock.clock(scene.end_time), clock_step()}},
                      {}};
-    Timeline timeline({scene, effects, options, rays_of(scene, options)},
-                      integration_options(),
-                      {[&](const RunSegment &segment) { enter(segment); },
-                       [&](long step, double time, const dealii::Vector<double> &u, bool)
-                       {
-                         check_temperatures(step, time, u);
-                         shown = &u;
-                         reached(step, time);
-                       }});
+    Timeline timeline(
+        {scene, effects, options, rays_of(scene, options)}, integration_options(),
+        {[&](const RunSegment &segment) { enter(segment); },
+         [&](long step, double time, const dealii::Vector<double> &u, bool last)
+         {
+           check_temperatures(step, time, u);
+           if(last && options.dimension == 1)
+             highest_mode = std::ranges::max(highest_modes(*problem, time, u));
+           shown = &u;
+           reached(step, time);
+         }});
     timeline.run(std::move(first));
     integration = timeline.cost();
     add_effect_costs();

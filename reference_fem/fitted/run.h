@@ -52,8 +52,9 @@ namespace meltfront::reference_fem::fitted
     long events = 0;
     long most_unknowns = 0;
     IntegrationCost integration;
-    double front_before = 0;                       ///< time of the state checked last (s)
-    std::vector<double> fronts;                    ///< then, by front and ray (m)
+    double highest_mode = 0;    ///< of a cell at the end; see highest_modes()
+    double front_before = 0;    ///< time of the state checked last (s)
+    std::vector<double> fronts; ///< then, by front and ray (m)
     const dealii::Vector<double> *shown = nullptr; ///< the state to take a snapshot of
   };
 } // namespace meltfront::reference_fem::fitted

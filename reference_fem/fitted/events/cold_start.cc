@@ -128,10 +128,11 @@ namespace meltfront::reference_fem::fitted
 
     /** Since the start (s). */
     double seed_time(const EventScene &setting, const SuddenStart &start,
-                     const LayeredState &state)
+                     const LayeredState &state, const bool shares_room)
     {
       const cases::Scene &scene = setting.scene;
-      const double length = room_at_wall(setting, state, start.at_inner_end);
+      const double length
+          = room_at_wall(setting, state, start.at_inner_end) * (shares_room ? 0.5 : 1);
       const cases::PhaseProperties &old
           = start.local->solid_at_origin() ? scene.material.liquid : scene.material.solid;
       const double by_front = std::pow(seed_share * length / start.local->front(1), 2);
@@ -370,7 +371,8 @@ namespace meltfront::reference_fem::fitted
                            "heat is released throughout");
     double since = std::numeric_limits<double>::infinity();
     for(const SuddenStart &start : starts)
-      since = std::min(since, seed_time(setting, start, state));
+      since = std::min(since, seed_time(setting, start, state,
+                                        starts.size() > 1 && state.fronts.empty()));
 
     std::vector<NewLayer> layers;
     std::vector<double> thermal_layers;

@@ -370,8 +370,6 @@ namespace meltfront::reference_fem::fitted
     const RayMesh &mesh = problem.mesh();
     if(!follows_events() || !mesh.has_front())
       return follows_events();
-    if(!segment.event.text.empty())
-      return false;
     const Physics &physics = problem.physics();
     for(const bool inner : {true, false})
     {

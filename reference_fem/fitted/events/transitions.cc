@@ -485,8 +485,7 @@ namespace meltfront::reference_fem::fitted
       const RayMesh &mesh = segment.problem->mesh();
       const std::vector<StepRange> steps = lengthening_steps(
           clock.clock(segment.time), clock.clock(setting.scene.end_time),
-          steps_for(setting, segment.time),
-          clock.root ? growth_of_steps : 2 * growth_of_steps);
+          steps_for(setting, segment.time), clock.root ? 1 : 2);
       const double first = clock.time(steps.front().end) - segment.time;
       std::vector<std::vector<double>> shares = mesh.shares;
       const LayeredState layers = layers_of(segment, segment.time, segment.state);

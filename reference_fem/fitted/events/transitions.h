@@ -19,7 +19,7 @@ namespace meltfront::reference_fem::fitted
                              bool inner, double soon);
 
   /** A segment anew from its state on cells that are halved towards walls where layers of
-   * heat form at that moment, with steps that lengthen from short ones. */
+   * heat form at that moment, with steps that are equal in the root of time. */
   RunSegment drawn_to_walls(const EventScene &setting, const RunSegment &segment,
                             const std::array<WallLayer, 2> &forms);
 

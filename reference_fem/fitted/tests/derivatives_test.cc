@@ -91,8 +91,8 @@ namespace meltfront::reference_fem::fitted
     double worst_difference(const FrontSurface &surface, double inner,
                             const Physics &laws, double wave)
     {
-      const FittedProblem problem(RayMesh(surface, inner, 1.1, {{0, 0.4, 1}, {0, 0.5, 1}}),
-                                  laws);
+      const FittedProblem problem(
+          RayMesh(surface, inner, 1.1, {{0, 0.4, 1}, {0, 0.5, 1}}), laws);
       const Vector<double> u = random_state(problem, 0.6, wave);
       EXPECT_EQ(problem.reason_invalid(u), "");
       return worst_difference(problem, u);

@@ -109,8 +109,9 @@ namespace meltfront::reference_fem::fitted::tests
     const double mean = numbers.between(-0.6, 0.6), swing = numbers.between(-0.6, 0.6);
     const int waves = numbers.below(4); // of half a length; 0: uniform
     scene.initial.temperature.constant = false;
-    scene.initial.temperature.value = [=](const cases::Position &p, double)
-    { return waves == 0 ? mean : mean + swing * std::cos(waves * std::numbers::pi * p[0]); };
+    scene.initial.temperature.value = [=](const cases::Position &p, double) {
+      return waves == 0 ? mean : mean + swing * std::cos(waves * std::numbers::pi * p[0]);
+    };
     for(const cases::Side side : {cases::Side::x_min, cases::Side::x_max})
       test_support::set_boundary(scene, side, random_wall(numbers, end));
     return scene;
