@@ -1,7 +1,7 @@
 #ifndef meltfront_reference_fem_fitted_events_phase_check_h
 #define meltfront_reference_fem_fitted_events_phase_check_h
 
-#include <reference_fem/fitted/events/cold_start.h>
+#include <reference_fem/fitted/events/layered_state.h>
 
 #include <string>
 #include <vector>

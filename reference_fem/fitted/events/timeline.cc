@@ -1,3 +1,4 @@
+#include <reference_fem/fitted/events/approach.h>
 #include <reference_fem/fitted/events/data_steps.h>
 #include <reference_fem/fitted/events/timeline.h>
 
@@ -16,12 +17,8 @@ namespace meltfront::reference_fem::fitted
   {
     using dealii::Vector;
 
-    /** The share of a ray, at its centre of the volume, at which a phase is dropped: less
-     * than that is lost in the rounding of the heat of all. */
-    constexpr double thinnest = 1e-9;
-
-    /** The same where many rays are followed, of which one arrives before the others: how
-     * a phase breaks up is not simulated. */
+    /** The share of a ray at which a phase is about to break up where many rays are
+     * followed, of which one arrives before the others: that is not simulated. */
     constexpr double thinnest_of_many = 1e-3;
 
     /** A front is approached that will reach an end within so many steps. */
@@ -38,85 +35,14 @@ namespace meltfront::reference_fem::fitted
      * so while steps and cells do not resolve how it gets there. */
     constexpr int early_steps = 4;
 
-    /** A segment ends so far before a jump of a wall, of the time at the end, and the
-     * next begins as far behind it; and what of the larger value is a jump. */
-    constexpr double beside_jump = 1e-13, least_jump_of_wall = 1e-3;
-
     /** Of the temperature scale: rounding of a wall at the melting temperature. */
     constexpr double at_melting = 1e-12;
 
     /** Refinements after which a wall is at the melting temperature from the start. */
     constexpr int most_refinements = 12;
 
-    /** A crossing of a wall whose phase is about to vanish is believed in steps of at
-     * most this share of the time left to that. */
-    constexpr double believed = 0.2;
-
     /** An approach is left when so many steps of the usual length are left to its end. */
-    constexpr double steps_away = 4;
-
-    /** An interval that becomes thinner, and for how long. */
-    struct Approach
-    {
-      unsigned int interval = 0;
-      double thickness = 0;                                       ///< m
-      double remaining = std::numeric_limits<double>::infinity(); ///< on the clock
-    };
-
-    Approach approach_of(const FittedProblem &problem, const unsigned int interval,
-                         const Vector<double> &u, const Vector<double> &rate)
-    {
-      const RayMesh &mesh = problem.mesh();
-      Approach result{interval, mesh.outer - mesh.inner};
-      if(!mesh.has_front())
-        return result;
-      const bool first = interval == 0, last = interval == mesh.n_fronts();
-      const unsigned int lower = first ? 0 : mesh.front_node(0, interval - 1),
-                         upper = last ? 0 : mesh.front_node(0, interval);
-      result.thickness = (last ? mesh.outer : u[upper]) - (first ? mesh.inner : u[lower]);
-      const double growth = (last ? 0 : rate[upper]) - (first ? 0 : rate[lower]);
-      if(growth < 0)
-        result.remaining = result.thickness / -growth;
-      // To a centre it is the volume within that shrinks evenly, or faster.
-      if(first && mesh.has_centre())
-        result.remaining /= mesh.surface.exponent + 1;
-      return result;
-    }
-
-    /** Of the interval that vanishes first. */
-    Approach soonest(const FittedProblem &problem, const Vector<double> &u,
-                     const Vector<double> &rate)
-    {
-      Approach result = approach_of(problem, 0, u, rate);
-      for(unsigned int interval = 1; interval <= problem.mesh().n_fronts(); ++interval)
-        if(const Approach other = approach_of(problem, interval, u, rate);
-           other.remaining < result.remaining)
-          result = other;
-      return result;
-    }
-
-    bool has_vanished(const RayMesh &mesh, const Approach &approach)
-    {
-      const double share = approach.interval == 0 && mesh.has_centre()
-                               ? std::pow(thinnest, 1. / (mesh.surface.exponent + 1))
-                               : thinnest;
-      return approach.thickness < share * (mesh.outer - mesh.inner);
-    }
-
-    /** Whether a wall passes the melting temperature when the phase at it may already
-     * have vanished: the step was too long to tell. */
-    bool doubtful(const FittedProblem &problem,
-                  const std::vector<WallCrossing> &crossings, const Vector<double> &u,
-                  const Vector<double> &rate, const double step)
-    {
-      return std::ranges::any_of(
-          crossings,
-          [&](const WallCrossing &crossing)
-          {
-            const unsigned int interval = crossing.inner ? 0 : problem.mesh().n_fronts();
-            return step > believed * approach_of(problem, interval, u, rate).remaining;
-          });
-    }
+    constexpr double steps_away = 6;
 
     /** Whether the front comes so close to an end of a ray that it breaks up there. */
     bool touches_end(const FittedProblem &problem, const AcceptedStep &step)
@@ -207,64 +133,6 @@ namespace meltfront::reference_fem::fitted
     total.steps = steps;
   }
 
-  std::optional<RunSegment> Timeline::set_out(const RunSegment &segment,
-                                              const LayeredState &state) const
-  {
-    const bool starts_here = state.time == setting.scene.start_time;
-    std::vector<SuddenStart> starts;
-    if(starts_here)
-      starts = sudden_starts(setting, state);
-    else
-      for(const bool inner : {true, false})
-        if(auto start = start_at_wall(setting, state, inner))
-          starts.push_back(*start);
-    const std::array<WallLayer, 2> forms = layers_at_walls(setting, state);
-    std::erase_if(starts,
-                  [&](const SuddenStart &start)
-                  {
-                    const bool inner = start.at_inner_end;
-                    return !(starts_here && state.fronts.empty())
-                           && (forms[inner ? 0 : 1].jump == 0
-                               || !phases.has_passed(*segment.problem, inner, 0,
-                                                     state.time, segment.state));
-                  });
-    if(!starts.empty())
-      return seeded_stretch(setting, starts, state);
-    if(forms[0].forms() || forms[1].forms())
-      return drawn_to_walls(setting, segment, forms);
-    return std::nullopt;
-  }
-
-  double Timeline::next_jump(const double time) const
-  {
-    double result = std::numeric_limits<double>::infinity();
-    if(!follows_events())
-      return result;
-    const RayScene &rays = setting.rays;
-    const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
-    for(const bool inner : {true, false})
-    {
-      if(inner && geometry.has_centre())
-        continue;
-      const cases::Boundary &wall = setting.scene.boundary(side_at(setting.scene, inner));
-      if(wall.kind == cases::BoundaryKind::insulated || wall.exact)
-        continue;
-      const cases::Position place = geometry.position(0, inner ? rays.inner : rays.outer);
-      for(const double point : wall.value.breakpoints)
-      {
-        const double shift = beside_jump * setting.scene.end_time;
-        if(!(point - shift > time) || !(point + shift < setting.scene.end_time))
-          continue;
-        const double before = wall.value(place, point - shift),
-                     behind = wall.value(place, point + shift);
-        if(std::abs(behind - before)
-           > least_jump_of_wall * std::max(std::abs(before), std::abs(behind)))
-          result = std::min(result, point);
-      }
-    }
-    return result;
-  }
-
   void Timeline::begin(const RunSegment &segment)
   {
     if(!segment.event.text.empty())
@@ -296,8 +164,7 @@ namespace meltfront::reference_fem::fitted
     const FittedProblem &problem = *segment.problem;
     const Clock &clock = problem.physics().clock;
     const double from = clock.clock(segment.time);
-    const double jump = next_jump(segment.time),
-                 shift = beside_jump * setting.scene.end_time;
+    const double jump = next_jump(segment.time), shift = beside_jump();
     const double end = clock.clock(std::min(jump - shift, setting.scene.end_time));
     const std::vector<StepRange> ranges
         = fit_to_data(steps_until(segment.steps, end), from, clock,

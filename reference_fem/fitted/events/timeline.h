@@ -1,6 +1,8 @@
 #ifndef meltfront_reference_fem_fitted_events_timeline_h
 #define meltfront_reference_fem_fitted_events_timeline_h
 
+#include <reference_fem/fitted/events/cold_start.h>
+#include <reference_fem/fitted/events/late_start.h>
 #include <reference_fem/fitted/events/phase_check.h>
 #include <reference_fem/fitted/events/transitions.h>
 
@@ -69,6 +71,12 @@ namespace meltfront::reference_fem::fitted
 
     /** The time of the next jump of what a wall prescribes, infinite without one. */
     double next_jump(double time) const;
+
+    /** A segment ends so long before a jump, and the next begins so long after it (s). */
+    double beside_jump() const
+    {
+      return 1e-13 * setting.scene.end_time;
+    }
 
     Halt take_planned_steps(const RunSegment &segment,
                             const std::vector<StepRange> &ranges, Integrator &integrator,

@@ -1,4 +1,3 @@
-#include <reference_fem/fitted/events/profile.h>
 #include <reference_fem/fitted/events/timeline.h>
 
 #include <cases/error.h>
@@ -8,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meltfront::reference_fem::fitted
 {
@@ -19,10 +19,71 @@ namespace meltfront::reference_fem::fitted
      * to the seed, as far off it as this share of what it is at the seed, has jumped. */
     constexpr double shortly = 1e-3, already = 0.1;
 
+    /** Difference of a wall's values, of the larger, that is a jump. */
+    constexpr double least_jump_of_wall = 1e-3;
+
     /** A wall that passes the melting temperature within this share of the time from
      * another one's passing to its seed has its front seeded with that. */
     constexpr double together = 0.5;
   } // namespace
+
+  std::optional<RunSegment> Timeline::set_out(const RunSegment &segment,
+                                              const LayeredState &state) const
+  {
+    const bool starts_here = state.time == setting.scene.start_time;
+    std::vector<SuddenStart> starts;
+    if(starts_here)
+      starts = sudden_starts(setting, state);
+    else
+      for(const bool inner : {true, false})
+        if(auto start = start_at_wall(setting, state, inner))
+          starts.push_back(*start);
+    const std::array<WallLayer, 2> forms = layers_at_walls(setting, state);
+    std::erase_if(starts,
+                  [&](const SuddenStart &start)
+                  {
+                    const bool inner = start.at_inner_end;
+                    return !(starts_here && state.fronts.empty())
+                           && (forms[inner ? 0 : 1].jump == 0
+                               || !phases.has_passed(*segment.problem, inner, 0,
+                                                     state.time, segment.state));
+                  });
+    if(!starts.empty())
+      return seeded_stretch(setting, starts, state);
+    if(forms[0].forms() || forms[1].forms())
+      return drawn_to_walls(setting, segment, forms);
+    return std::nullopt;
+  }
+
+  double Timeline::next_jump(const double time) const
+  {
+    double result = std::numeric_limits<double>::infinity();
+    if(!follows_events())
+      return result;
+    const RayScene &rays = setting.rays;
+    const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
+    for(const bool inner : {true, false})
+    {
+      if(inner && geometry.has_centre())
+        continue;
+      const cases::Boundary &wall = setting.scene.boundary(side_at(setting.scene, inner));
+      if(wall.kind == cases::BoundaryKind::insulated || wall.exact)
+        continue;
+      const cases::Position place = geometry.position(0, inner ? rays.inner : rays.outer);
+      for(const double point : wall.value.breakpoints)
+      {
+        const double shift = beside_jump();
+        if(!(point - shift > time) || !(point + shift < setting.scene.end_time))
+          continue;
+        const double before = wall.value(place, point - shift),
+                     behind = wall.value(place, point + shift);
+        if(std::abs(behind - before)
+           > least_jump_of_wall * std::max(std::abs(before), std::abs(behind)))
+          result = std::min(result, point);
+      }
+    }
+    return result;
+  }
 
   Timeline::LocatedPassing Timeline::locate(const RunSegment &segment,
                                             Integrator &integrator, const Point &before,
