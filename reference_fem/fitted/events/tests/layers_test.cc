@@ -156,7 +156,7 @@ namespace meltfront::reference_fem::fitted::tests
       EXPECT_NEAR(starts[0], std::numbers::pi * c / 4 / 16, 1e-6);
       EXPECT_NEAR(starts[1], std::numbers::pi * c / 4 / 9, 1e-6);
       const Course course = run(scene, 16), finer = run(scene, 32);
-      expect_agreement(scene, course, 2e-4);
+      expect_agreement(scene, course, 1e-3); // on a slab of three, whose cells are larger
       for(std::size_t k = 0; k < 2; ++k)
         EXPECT_NEAR(course.front_points[0][k], finer.front_points[0][k], 2e-6);
     }
