@@ -49,9 +49,8 @@ namespace meltfront::reference_fem::fitted
                                               fronts.solid_inside, fronts.number);
       const auto temperature = [&](const cases::Position &p)
       { return scene.initial.temperature(p, scene.start_time); };
-      if(options.dimension == 1)
-        mesh = resolving_mesh(mesh, physics, scene.start_time, fronts.coordinates,
-                              temperature);
+      mesh = resolving_mesh(mesh, physics, scene.start_time, fronts.coordinates,
+                            temperature);
       problem = std::make_shared<FittedProblem>(mesh, physics);
       initial_state = problem->state(scene.start_time, fronts.coordinates, temperature);
     }

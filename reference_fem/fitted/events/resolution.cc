@@ -62,12 +62,17 @@ namespace meltfront::reference_fem::fitted
     std::vector<double> result;
     for(unsigned int layer = 0; layer < mesh.layers.size(); ++layer)
     {
-      double mode = 0;
-      for(unsigned int b = 0; b <= degree; ++b)
-        mode += factors[b]
-                * problem.theta(mesh.layers[layer].interval, 0, layer * degree + b, time,
-                                u);
-      result.push_back(std::abs(mode) / problem.physics().temperature_scale);
+      double largest = 0;
+      for(unsigned int ray = 0; ray < mesh.surface.n_rays(); ++ray)
+      {
+        double mode = 0;
+        for(unsigned int b = 0; b <= degree; ++b)
+          mode += factors[b]
+                  * problem.theta(mesh.layers[layer].interval, ray, layer * degree + b,
+                                  time, u);
+        largest = std::max(largest, std::abs(mode));
+      }
+      result.push_back(largest / problem.physics().temperature_scale);
     }
     return result;
   }

@@ -9,7 +9,7 @@
 namespace meltfront::reference_fem::fitted
 {
   /**
-   * How well each layer of cells along a ray resolves the temperature: the size of the
+   * How well each layer of cells resolves the temperature along the rays: the largest
    * highest Legendre mode of T - S over the temperature scale. Modes of what is resolved
    * decay geometrically, so that the last one tells what is left out (Mavriplis 1994).
    */
@@ -17,7 +17,7 @@ namespace meltfront::reference_fem::fitted
                                     const dealii::Vector<double> &u);
 
   /**
-   * A mesh of one ray whose cells are halved where they do not resolve the state at a
+   * A mesh whose layers of cells are halved where they do not resolve the state at a
    * time: until their highest modes are below 1e-3, or twelve times. Elements below
    * degree 4 have too few modes to tell, and are left alone.
    *
