@@ -87,14 +87,15 @@ namespace meltfront::reference_fem::fitted
     const std::vector<unsigned int> &cell = rays.surface.cells[surface_cell];
     const std::vector<unsigned int> nodes = nodes_of(surface_cell, layer);
     const unsigned int per_ray = rays.surface.degree + 1;
-    const SourceField field = source(rays.layers[layer].phase, time);
+    const unsigned int interval = rays.layers[layer].interval;
+    const SourceField field = source(interval, time);
     for(std::size_t i = 0; i < nodes.size(); ++i)
       for(std::size_t j = 0; j < nodes.size(); ++j)
       {
         double mass = local.mass_temperature(i, j), flow = local.flow_temperature(i, j);
         const unsigned int level = layer * rays.surface.degree + j % per_ray;
         // On the front theta = -S(h).
-        if(rays.has_front() && level == rays.front_level())
+        if(rays.front_at(level) != RayMesh::none)
         {
           const double factor = -field.slope(u[nodes[j]]);
           mass *= factor;
@@ -106,14 +107,16 @@ namespace meltfront::reference_fem::fitted
     if(!rays.has_front())
       return;
     const Metered meter(*this, cases::Effect::phase_change);
-    for(std::size_t i = 0; i < nodes.size(); ++i)
-      for(std::size_t a = 0; a < cell.size(); ++a)
-      {
-        const unsigned int column = rays.front_node(cell[a]);
-        matrices.mass.add(nodes[i], column, local.mass_front(i, a));
-        matrices.flow.add(nodes[i], column, local.flow_front(i, a));
-        matrices.rate.add(nodes[i], column, local.flow_rate(i, a));
-      }
+    const std::vector<unsigned int> fronts = rays.fronts_of(interval);
+    for(std::size_t k = 0; k < fronts.size(); ++k)
+      for(std::size_t i = 0; i < nodes.size(); ++i)
+        for(std::size_t a = 0; a < cell.size(); ++a)
+        {
+          const unsigned int column = rays.front_node(cell[a], fronts[k]);
+          matrices.mass.add(nodes[i], column, local.fronts[k].mass(i, a));
+          matrices.flow.add(nodes[i], column, local.fronts[k].flow(i, a));
+          matrices.rate.add(nodes[i], column, local.fronts[k].flow_rate(i, a));
+        }
   }
 
   void FittedProblem::add_walls(double clock, const Vector<double> &u,
@@ -152,7 +155,7 @@ namespace meltfront::reference_fem::fitted
                                             Vector<double> &flow,
                                             Matrices *matrices) const
   {
-    const double field = source(wall.phase, time).value(wall.r);
+    const double field = source(wall.interval, time).value(wall.r);
     for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
     {
       const unsigned int node = rays.node(ray, wall.level);
@@ -181,7 +184,7 @@ namespace meltfront::reference_fem::fitted
     const double time = laws.clock.time(clock);
     const double area = laws.clock.rate(clock) * std::pow(wall.r, rays.surface.exponent);
     const double field
-        = laws.melting_temperature + source(wall.phase, time).value(wall.r);
+        = laws.melting_temperature + source(wall.interval, time).value(wall.r);
     for(std::size_t s = 0; s < rays.surface.cells.size(); ++s)
     {
       const SurfaceRule::Cell &cell = surface_rule.cells[s];
@@ -246,16 +249,20 @@ namespace meltfront::reference_fem::fitted
     for(std::size_t i = 0; i < nodes.size(); ++i)
       flow[nodes[i]] += local[i];
     flow[volumetric_account] -= local.sum();
-    if(!matrices || !rays.has_front())
+    if(!matrices)
       return;
-    const Eigen::MatrixXd by_front = integrals.source_flow_front(released, slope);
     const std::vector<unsigned int> &cell = rays.surface.cells[surface_cell];
-    for(std::size_t a = 0; a < cell.size(); ++a)
+    const std::vector<unsigned int> fronts = rays.fronts_of(rays.layers[layer].interval);
+    for(std::size_t k = 0; k < fronts.size(); ++k)
     {
-      const unsigned int column = rays.front_node(cell[a]);
-      for(std::size_t i = 0; i < nodes.size(); ++i)
-        matrices->flow.add(nodes[i], column, by_front(i, a));
-      matrices->flow.add(volumetric_account, column, -by_front.col(a).sum());
+      const Eigen::MatrixXd by_front = integrals.source_flow_front(k, released, slope);
+      for(std::size_t a = 0; a < cell.size(); ++a)
+      {
+        const unsigned int column = rays.front_node(cell[a], fronts[k]);
+        for(std::size_t i = 0; i < nodes.size(); ++i)
+          matrices->flow.add(nodes[i], column, by_front(i, a));
+        matrices->flow.add(volumetric_account, column, -by_front.col(a).sum());
+      }
     }
   }
 

@@ -77,17 +77,28 @@ namespace meltfront::reference_fem::fitted
     , tangents(surface.tangents)
     , exponent(surface.exponent)
     , round(surface.round)
-    , c_slope(layer.carried[1] - layer.carried[0])
   {
     const Eigen::Map<const ArrayXd> zeta(tables.line.points.data(),
                                          tables.line.points.size());
     const Eigen::Index repeats = tables.value.rows() / zeta.size();
-    c = (layer.carried[0] + c_slope * zeta).replicate(repeats, 1);
-    front = tables.rays * state.front;
-    front_rate = tables.rays * state.front_rate;
-    const double a_slope = layer.fixed[1] - layer.fixed[0];
-    r = (layer.fixed[0] + a_slope * zeta).replicate(repeats, 1) + c * front;
-    r_slope = a_slope + c_slope * front;
+    double along_zeta = layer.fixed[1] - layer.fixed[0];
+    r = (layer.fixed[0] + along_zeta * zeta).replicate(repeats, 1);
+    speed = ArrayXd::Zero(r.size());
+    for(int j = 0; j < tangents; ++j)
+      slope[j] = ArrayXd::Zero(r.size());
+    r_slope = ArrayXd::Constant(r.size(), along_zeta);
+    for(std::size_t k = 0; k < layer.carried.size(); ++k)
+    {
+      const auto &[at_inner, at_outer] = layer.carried[k];
+      const Array h = (tables.rays * state.front[k]).array();
+      c_slope.push_back(at_outer - at_inner);
+      c.push_back((at_inner + c_slope[k] * zeta).replicate(repeats, 1));
+      r += c[k] * h;
+      r_slope += c_slope[k] * h;
+      speed += c[k] * (tables.rays * state.front_rate[k]).array();
+      for(int j = 0; j < tangents; ++j)
+        slope[j] += c[k] * (along.rays[j] * state.front[k]).array();
+    }
     area = along.weight;
     for(int m = 0; m < exponent; ++m)
       area *= r;
@@ -95,27 +106,31 @@ namespace meltfront::reference_fem::fitted
     per_r = exponent > 0 ? ArrayXd(1 / r) : ArrayXd(ArrayXd::Zero(r.size()));
 
     theta_slope = (tables.across * state.temperature).array();
-    source_slope = ArrayXd::Zero(r.size());
+    source_slope = source_curvature = ArrayXd::Zero(r.size());
     excess = (tables.value * state.temperature).array();
     if(physics.source.strength != 0)
       for(Eigen::Index q = 0; q < r.size(); ++q)
       {
         excess[q] += physics.source.value(r[q]);
         source_slope[q] = physics.source.slope(r[q]);
+        source_curvature[q] = physics.source.curvature(r[q]);
       }
     heat = physics.phase.latent + physics.phase.capacity * excess;
-    liquid_speed = physics.displacement * front_rate;
     if(physics.displacement != 0)
+    {
+      front = tables.rays * state.front[0];
+      liquid_speed = physics.displacement * (tables.rays * state.front_rate[0]).array();
       for(int m = 0; m < exponent; ++m)
         liquid_speed *= front / r;
-    speed = c * front_rate - liquid_speed;
+      speed -= liquid_speed;
+    }
 
     conduction = weight;
     if(round)
       conduction /= r * r;
     for(int j = 0; j < tangents; ++j)
     {
-      slope[j] = c * (along.rays[j] * state.front).array() / r_slope;
+      slope[j] /= r_slope;
       level_derivative[j]
           = (along.derivative[j] * state.temperature).array() - theta_slope * slope[j];
     }
@@ -143,30 +158,49 @@ namespace meltfront::reference_fem::fitted
     result.mass_temperature
         = tables.value.transpose()
           * ((weight * capacity).matrix().asDiagonal() * tables.value);
-    const Array mass_by_front = weight * heat * (exponent * c * per_r + c_slope / r_slope)
-                                + weight * capacity * source_slope * c;
-    result.mass_front
-        = tables.value.transpose() * (mass_by_front.matrix().asDiagonal() * tables.rays);
     differentiate_flow(result);
+    for(std::size_t k = 0; k < c.size(); ++k)
+    {
+      const Array by_front
+          = weight * heat * (exponent * c[k] * per_r + c_slope[k] / r_slope)
+            + weight * capacity * source_slope * c[k];
+      result.fronts.emplace_back();
+      result.fronts[k].mass
+          = tables.value.transpose() * (by_front.matrix().asDiagonal() * tables.rays);
+      differentiate_flow_by_front(k, result);
+    }
     return result;
   }
 
   void CellIntegrals::differentiate_flow(CellMatrices &result) const
   {
+    const double k = physics.time_rate * physics.phase.conductivity;
+    // The factors of phi', and what multiplies the tangential derivatives.
+    MatrixXd by_theta
+        = (-k * area / r_slope).matrix().asDiagonal() * tables.across
+          + (-area * physics.phase.capacity * speed).matrix().asDiagonal() * tables.value;
+    MatrixXd along_surface = MatrixXd::Zero(tables.value.cols(), tables.value.cols());
+    for(int j = 0; j < tangents; ++j)
+    {
+      // D phi_b of the trial functions.
+      const MatrixXd trial
+          = along.derivative[j] - slope[j].matrix().asDiagonal() * tables.across;
+      by_theta += (k * conduction * slope[j]).matrix().asDiagonal() * trial;
+      along_surface += along.derivative[j].transpose()
+                       * ((-k * conduction).matrix().asDiagonal() * trial);
+    }
+    result.flow_temperature = tables.across.transpose() * by_theta + along_surface;
+  }
+
+  void CellIntegrals::differentiate_flow_by_front(const std::size_t number,
+                                                  CellMatrices &result) const
+  {
     const double capacity = physics.phase.capacity;
     const double k = physics.time_rate * physics.phase.conductivity;
+    const Array &c = this->c[number];
+    const double c_slope = this->c_slope[number];
 
-    // The factors of phi', with respect to theta and to the value of h at the point.
-    MatrixXd by_theta = (-k * area / r_slope).matrix().asDiagonal() * tables.across
-                        + (-area * capacity * speed).matrix().asDiagonal() * tables.value;
-    Array source_curvature = Array::Zero(r.size());
-    if(physics.source.strength != 0)
-      for(Eigen::Index q = 0; q < r.size(); ++q)
-        source_curvature[q] = physics.source.curvature(r[q]);
     const Array area_by_front = area * exponent * c * per_r;
-    Array liquid_by_front = Array::Zero(r.size());
-    if(physics.displacement != 0 && exponent > 0)
-      liquid_by_front = liquid_speed * exponent * (1 / front - c * per_r);
     Array flux_by_front
         = area_by_front * (theta_slope / r_slope + source_slope)
           + area * (source_curvature * c - theta_slope * c_slope / (r_slope * r_slope));
@@ -176,28 +210,32 @@ namespace meltfront::reference_fem::fitted
       flux_by_front -= conduction_by_front * level_derivative[j] * slope[j]
                        - conduction * (level_derivative[j] - theta_slope * slope[j])
                              * slope[j] * c_slope / r_slope;
-    const Array across_by_front
+    Array across_by_front
         = -k * flux_by_front
-          - (area_by_front * heat + area * capacity * source_slope * c) * speed
-          + area * heat * liquid_by_front;
+          - (area_by_front * heat + area * capacity * source_slope * c) * speed;
+    Array speed_by_rate = c;
+    if(physics.displacement != 0)
+    {
+      if(exponent > 0)
+        across_by_front
+            += area * heat * liquid_speed * exponent * (1 / front - c * per_r);
+      Array ratio = Array::Constant(r.size(), physics.displacement);
+      for(int m = 0; m < exponent; ++m)
+        ratio *= front / r;
+      speed_by_rate -= ratio;
+    }
     MatrixXd by_front = across_by_front.matrix().asDiagonal() * tables.rays;
 
-    // D phi_b of the trial functions, and what multiplies the tangential derivatives.
-    MatrixXd flow_temperature = MatrixXd::Zero(tables.value.cols(), tables.value.cols());
-    MatrixXd flow_front = MatrixXd::Zero(tables.value.cols(), tables.rays.cols());
+    MatrixXd along_surface = MatrixXd::Zero(tables.value.cols(), tables.rays.cols());
     for(int j = 0; j < tangents; ++j)
     {
-      const MatrixXd trial
-          = along.derivative[j] - slope[j].matrix().asDiagonal() * tables.across;
       const Array slope_by_gradient = c / r_slope;
       const Array slope_by_front = -slope[j] * c_slope / r_slope;
-      by_theta += (k * conduction * slope[j]).matrix().asDiagonal() * trial;
       by_front += (k * conduction * (level_derivative[j] - theta_slope * slope[j])
                    * slope_by_gradient)
                       .matrix()
                       .asDiagonal()
                   * along.rays[j];
-      const MatrixXd along_by_theta = (-k * conduction).matrix().asDiagonal() * trial;
       const MatrixXd along_by_front
           = (-k
              * (conduction_by_front * level_derivative[j]
@@ -207,20 +245,11 @@ namespace meltfront::reference_fem::fitted
                 * tables.rays
             + (k * conduction * theta_slope * slope_by_gradient).matrix().asDiagonal()
                   * along.rays[j];
-      flow_temperature += along.derivative[j].transpose() * along_by_theta;
-      flow_front += along.derivative[j].transpose() * along_by_front;
+      along_surface += along.derivative[j].transpose() * along_by_front;
     }
-    result.flow_temperature = tables.across.transpose() * by_theta + flow_temperature;
-    result.flow_front = tables.across.transpose() * by_front + flow_front;
-    Array speed_by_rate = c;
-    if(physics.displacement != 0)
-    {
-      Array ratio = Array::Constant(r.size(), physics.displacement);
-      for(int m = 0; m < exponent; ++m)
-        ratio *= front / r;
-      speed_by_rate -= ratio;
-    }
-    result.flow_rate
+    CellMatrices::ByFront &sums = result.fronts[number];
+    sums.flow = tables.across.transpose() * by_front + along_surface;
+    sums.flow_rate
         = tables.across.transpose()
           * ((-area * heat * speed_by_rate).matrix().asDiagonal() * tables.rays);
   }
@@ -230,11 +259,12 @@ namespace meltfront::reference_fem::fitted
     return tables.value.transpose() * (physics.time_rate * weight * released).matrix();
   }
 
-  MatrixXd CellIntegrals::source_flow_front(const Array &released,
+  MatrixXd CellIntegrals::source_flow_front(const std::size_t k, const Array &released,
                                             const Array &slope) const
   {
     const Array by_front
-        = weight * (released * (exponent * c * per_r + c_slope / r_slope) + slope * c);
+        = weight
+          * (released * (exponent * c[k] * per_r + c_slope[k] / r_slope) + slope * c[k]);
     return tables.value.transpose()
            * ((physics.time_rate * by_front).matrix().asDiagonal() * tables.rays);
   }

@@ -52,8 +52,8 @@ namespace meltfront::reference_fem::fitted
   struct CellState
   {
     Eigen::VectorXd temperature; ///< theta = T - T_m - S by node
-    Eigen::VectorXd front;       ///< h by ray (m)
-    Eigen::VectorXd front_rate;  ///< dh/dclock by ray
+    /** h (m) and dh/dclock by ray, of each front that its interval ends at. */
+    std::vector<Eigen::VectorXd> front, front_rate;
   };
 
   /** What holds in a cell. */
@@ -74,22 +74,28 @@ namespace meltfront::reference_fem::fitted
   /** Derivatives of the integrals, by node and by node (theta) or ray (h, its rate). */
   struct CellMatrices
   {
-    Eigen::MatrixXd mass_temperature, mass_front;
-    Eigen::MatrixXd flow_temperature, flow_front, flow_rate;
+    struct ByFront
+    {
+      Eigen::MatrixXd mass, flow, flow_rate;
+    };
+
+    Eigen::MatrixXd mass_temperature, flow_temperature;
+    std::vector<ByFront> fronts; ///< as in CellState
   };
 
   /**
-   * The integrals of a cell whose points lie at r = a + c h(xi) on their rays.
+   * The integrals of a cell whose points lie at r = a + sum c h(xi) on their rays, the
+   * sum over the fronts that its interval ends at.
    *
-   * With r' = dr/dzeta, the area g = mu r^m, the slope p = grad h c/r' of the levels and
-   * D phi = grad phi - phi' p the derivative along the surface at fixed r,
+   * With r' = dr/dzeta, the area g = mu r^m, the slope p = sum grad h c/r' of the levels
+   * and D phi = grad phi - phi' p the derivative along the surface at fixed r,
    *
    *   M = int phi e g r',
-   *   F = - int phi' e g (c dh/dclock - u)
+   *   F = - int phi' e g (sum c dh/dclock - u)
    *       - dt/dclock int k [ phi' g T_r + D phi . D T g r'/r^2 ]
    *
    * (no division by r^2 for rays that are parallel), with T_r = theta'/r' + dS/dr and
-   * u = displacement x dh/dclock (h/r)^m the speed of the liquid beyond the front.
+   * u = displacement x dh/dclock (h/r)^m the speed of the liquid beyond the only front.
    */
   class CellIntegrals
   {
@@ -106,8 +112,9 @@ namespace meltfront::reference_fem::fitted
      * points (W/m^3). */
     Eigen::VectorXd source_flow(const Eigen::ArrayXd &released) const;
 
-    /** Its derivative by node and ray (h). @param slope dq/dr at the points */
-    Eigen::MatrixXd source_flow_front(const Eigen::ArrayXd &released,
+    /** Its derivative by node and ray, with respect to a front as in CellState. @param
+     * slope dq/dr at the points */
+    Eigen::MatrixXd source_flow_front(std::size_t k, const Eigen::ArrayXd &released,
                                       const Eigen::ArrayXd &slope) const;
 
     /** Shares of the cell in the volume, and in the heat above the melting temperature.
@@ -123,23 +130,24 @@ namespace meltfront::reference_fem::fitted
     using Array = Eigen::ArrayXd;
 
     void differentiate_flow(CellMatrices &result) const;
+    void differentiate_flow_by_front(std::size_t k, CellMatrices &result) const;
 
     const CellTables &tables;
     const CellTables::Along &along;
     const CellPhysics &physics;
     int tangents, exponent;
     bool round;
-    Array c;                               ///< dr/dh
-    double c_slope;                        ///< dc/dzeta
+    std::vector<Array> c;                  ///< dr/dh by front
+    std::vector<double> c_slope;           ///< dc/dzeta by front
     Array r_slope;                         ///< r'
     Array per_r;                           ///< 1/r, 0 where areas do not depend on r
     Array area;                            ///< g x quadrature weight
     Array theta_slope;                     ///< theta'
-    Array source_slope;                    ///< dS/dr
+    Array source_slope, source_curvature;  ///< dS/dr and d^2S/dr^2
     Array conduction;                      ///< g r'/r^2
     Array heat;                            ///< e (J/m^3)
-    Array speed, liquid_speed;             ///< c dh/dclock - u, and u
-    Array front, front_rate;               ///< h, dh/dclock
+    Array speed, liquid_speed;             ///< sum c dh/dclock - u, and u
+    Array front;                           ///< h of the only front, beside moving liquid
     std::array<Array, 2> slope;            ///< p
     std::array<Array, 2> level_derivative; ///< D theta
   };

@@ -33,7 +33,6 @@ namespace meltfront::reference_fem
                          {DomainShape::shell, {2, 3}, walls}},
               .front_origins
               = {FrontOrigin::initial_front, FrontOrigin::wall, FrontOrigin::source},
-              .most_fronts = 1,
               .overshoot = fitted::overshoot};
     }
 

@@ -38,16 +38,11 @@ namespace meltfront::reference_fem::fitted
       at_centre.emplace(rays.surface, surface_rule,
                         LineRule::towards_centre(points_at_centre));
     for(unsigned int level = 0; level < rays.n_levels(); ++level)
-    {
-      const auto [fixed, carried] = rays.place(level);
-      level_fixed.push_back(fixed);
-      level_carried.push_back(carried);
-    }
+      places.push_back(rays.place(level));
     for(const SurfaceRule::Cell &cell : surface_rule.cells)
       total_measure += cell.weight.sum();
     walls[0] = {0, rays.has_centre() ? nullptr : &laws.inner_wall, rays.inner, 0};
-    walls[1]
-        = {rays.has_front() ? 1 : 0, &laws.outer_wall, rays.outer, rays.n_levels() - 1};
+    walls[1] = {rays.n_fronts(), &laws.outer_wall, rays.outer, rays.n_levels() - 1};
     number_accounts();
     make_sparsity();
   }
@@ -85,9 +80,9 @@ namespace meltfront::reference_fem::fitted
       {
         std::vector<unsigned int> columns = nodes_of(s, l);
         const std::vector<unsigned int> rows = columns;
-        if(rays.has_front())
+        for(const unsigned int front : rays.fronts_of(rays.layers[l].interval))
           for(const unsigned int ray : rays.surface.cells[s])
-            columns.push_back(rays.front_node(ray));
+            columns.push_back(rays.front_node(ray, front));
         for(const unsigned int row : rows)
           for(const unsigned int column : columns)
             dynamic.add(row, column);
@@ -103,9 +98,10 @@ namespace meltfront::reference_fem::fitted
       if(wall.boundary && cases::exchanges_heat(wall.boundary->kind))
         for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
           dynamic.add(flux_account, rays.node(ray, wall.level));
-    if(volumetric_account != RayMesh::none && rays.has_front())
-      for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
-        dynamic.add(volumetric_account, rays.front_node(ray));
+    if(volumetric_account != RayMesh::none)
+      for(unsigned int front = 0; front < rays.n_fronts(); ++front)
+        for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+          dynamic.add(volumetric_account, rays.front_node(ray, front));
     if(outflow_account != RayMesh::none)
       for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
       {
@@ -130,9 +126,9 @@ namespace meltfront::reference_fem::fitted
     return at_centre && layer == 0 ? *at_centre : regular;
   }
 
-  SourceField FittedProblem::source(int phase, double time) const
+  SourceField FittedProblem::source(unsigned int interval, double time) const
   {
-    if(phase != 0 || !laws.power)
+    if(interval != 0 || !laws.power)
       return {};
     return SourceField::of(rays.surface.exponent, laws.power(time),
                            laws.phases[0].conductivity, rays.outer);
@@ -140,11 +136,11 @@ namespace meltfront::reference_fem::fitted
 
   CellPhysics FittedProblem::cell_physics(unsigned int layer, double time) const
   {
-    const int phase = rays.layers[layer].phase;
+    const unsigned int interval = rays.layers[layer].interval;
     CellPhysics result;
-    result.phase = laws.phases[phase];
-    result.source = source(phase, time);
-    result.displacement = phase == 1 ? laws.displacement : 0;
+    result.phase = phase(interval);
+    result.source = source(interval, time);
+    result.displacement = interval == 1 ? laws.displacement : 0;
     result.time_rate = laws.clock.rate(laws.clock.clock(time));
     return result;
   }
@@ -163,17 +159,18 @@ namespace meltfront::reference_fem::fitted
   double FittedProblem::coordinate(unsigned int ray, unsigned int level,
                                    const Vector<double> &u) const
   {
-    const double carried = level_carried[level];
-    return level_fixed[level] + (carried != 0 ? carried * u[rays.front_node(ray)] : 0.);
+    double r = places[level].fixed;
+    for(const auto &[front, carried] : places[level].carried)
+      r += carried * u[rays.front_node(ray, front)];
+    return r;
   }
 
-  double FittedProblem::theta(int phase, unsigned int ray, unsigned int level,
+  double FittedProblem::theta(unsigned int interval, unsigned int ray, unsigned int level,
                               double time, const Vector<double> &u) const
   {
     const unsigned int node = rays.node(ray, level);
-    return rays.has_front() && level == rays.front_level()
-               ? -source(phase, time).value(u[node])
-               : u[node];
+    return rays.front_at(level) == RayMesh::none ? u[node]
+                                                 : -source(interval, time).value(u[node]);
   }
 
   CellState FittedProblem::cell_state(unsigned int surface_cell, unsigned int layer,
@@ -182,22 +179,23 @@ namespace meltfront::reference_fem::fitted
   {
     const std::vector<unsigned int> &cell = rays.surface.cells[surface_cell];
     const unsigned int degree = rays.surface.degree;
-    const int phase = rays.layers[layer].phase;
+    const unsigned int interval = rays.layers[layer].interval;
     CellState state;
-    state.temperature.resize(cell.size() * (degree + 1));
-    state.front.setZero(cell.size());
-    state.front_rate.setZero(cell.size());
-    for(std::size_t a = 0; a < cell.size(); ++a)
+    for(const unsigned int front : rays.fronts_of(interval))
     {
-      if(rays.has_front())
+      state.front.emplace_back(cell.size());
+      state.front_rate.emplace_back(cell.size());
+      for(std::size_t a = 0; a < cell.size(); ++a)
       {
-        state.front[a] = u[rays.front_node(cell[a])];
-        state.front_rate[a] = rate[rays.front_node(cell[a])];
+        state.front.back()[a] = u[rays.front_node(cell[a], front)];
+        state.front_rate.back()[a] = rate[rays.front_node(cell[a], front)];
       }
+    }
+    state.temperature.resize(cell.size() * (degree + 1));
+    for(std::size_t a = 0; a < cell.size(); ++a)
       for(unsigned int b = 0; b <= degree; ++b)
         state.temperature[a * (degree + 1) + b]
-            = theta(phase, cell[a], layer * degree + b, time, u);
-    }
+            = theta(interval, cell[a], layer * degree + b, time, u);
     return state;
   }
 
@@ -205,7 +203,7 @@ namespace meltfront::reference_fem::fitted
                                     const Vector<double> &u) const
   {
     const Wall &wall = walls[inner ? 0 : 1];
-    return u[rays.node(ray, wall.level)] + source(wall.phase, time).value(wall.r);
+    return u[rays.node(ray, wall.level)] + source(wall.interval, time).value(wall.r);
   }
 
   cases::EffectCost FittedProblem::effect_cost(cases::Effect effect) const
@@ -241,8 +239,9 @@ namespace meltfront::reference_fem::fitted
       rows.push_back(outflow_account);
       break;
     case cases::Effect::phase_change:
-      for(unsigned int ray = 0; rays.has_front() && ray < rays.surface.n_rays(); ++ray)
-        rows.push_back(rays.front_node(ray));
+      for(unsigned int front = 0; front < rays.n_fronts(); ++front)
+        for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+          rows.push_back(rays.front_node(ray, front));
       break;
     case cases::Effect::phase_conductivity:
     case cases::Effect::phase_heat_capacity:
@@ -273,8 +272,9 @@ namespace meltfront::reference_fem::fitted
       density = std::max(density, phase.latent + phase.capacity * laws.temperature_scale);
     for(unsigned int i = 0; i < n_unknowns; ++i)
       result[i] = i < rays.n_nodes() ? laws.temperature_scale : density * volume;
-    for(unsigned int ray = 0; rays.has_front() && ray < rays.surface.n_rays(); ++ray)
-      result[rays.front_node(ray)] = rays.outer - rays.inner;
+    for(unsigned int front = 0; front < rays.n_fronts(); ++front)
+      for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+        result[rays.front_node(ray, front)] = rays.outer - rays.inner;
     return result;
   }
 
@@ -283,24 +283,45 @@ namespace meltfront::reference_fem::fitted
     for(const double value : u)
       if(!std::isfinite(value))
         return "a value is not finite";
-    if(!rays.has_front())
-      return {};
     const double margin = closest * (rays.outer - rays.inner);
-    for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+    const unsigned int n = rays.n_fronts();
+    // Each interval that a front begins, or the outer wall.
+    for(unsigned int ray = 0; n > 0 && ray < rays.surface.n_rays(); ++ray)
     {
-      const double h = u[rays.front_node(ray)];
-      if(!(h > rays.inner + margin && h < rays.outer - margin))
-        return fmt::format("the front at r = {:.6g} has reached the wall at {:g}", h,
-                           h > rays.inner + margin ? rays.outer : rays.inner);
+      double before = rays.inner;
+      for(unsigned int front = 0; front <= n; ++front)
+      {
+        const double h = front < n ? u[rays.front_node(ray, front)] : rays.outer;
+        if(h > before + margin)
+        {
+          before = h;
+          continue;
+        }
+        if(front > 0 && front < n)
+          return fmt::format("the fronts at r = {:.6g} and {:.6g} have met", before, h);
+        return fmt::format("the front at r = {:.6g} has reached the wall at {:g}",
+                           front == 0 ? h : before, front == 0 ? rays.inner : rays.outer);
+      }
     }
+    return reason_inverted(u);
+  }
+
+  /** Between the rays a front is a polynomial, which may pass a wall or another front. */
+  std::string FittedProblem::reason_inverted(const Vector<double> &u) const
+  {
     for(const auto &cell : rays.surface.cells)
       for(Eigen::Index q = 0; q < surface_rule.value.rows(); ++q)
       {
-        double h = 0;
-        for(std::size_t a = 0; a < cell.size(); ++a)
-          h += surface_rule.value(q, a) * u[rays.front_node(cell[a])];
-        if(!(h > rays.inner && h < rays.outer))
-          return "an element is inverted";
+        double before = rays.inner;
+        for(unsigned int front = 0; front < rays.n_fronts(); ++front)
+        {
+          double h = 0;
+          for(std::size_t a = 0; a < cell.size(); ++a)
+            h += surface_rule.value(q, a) * u[rays.front_node(cell[a], front)];
+          if(!(h > before && h < rays.outer))
+            return "an element is inverted";
+          before = h;
+        }
       }
     return {};
   }
@@ -329,20 +350,21 @@ namespace meltfront::reference_fem::fitted
   }
 
   Vector<double> FittedProblem::state(
-      double time, const std::vector<double> &front,
+      double time, const std::vector<double> &fronts,
       const std::function<double(const cases::Position &)> &temperature) const
   {
     Vector<double> u(n_unknowns);
-    for(unsigned int ray = 0; rays.has_front() && ray < rays.surface.n_rays(); ++ray)
-      u[rays.front_node(ray)] = front[ray];
-    for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
+    const unsigned int n_rays = rays.surface.n_rays();
+    for(unsigned int front = 0; front < rays.n_fronts(); ++front)
+      for(unsigned int ray = 0; ray < n_rays; ++ray)
+        u[rays.front_node(ray, front)] = fronts[front * n_rays + ray];
+    for(unsigned int ray = 0; ray < n_rays; ++ray)
       for(unsigned int level = 0; level < rays.n_levels(); ++level)
       {
-        if(rays.has_front() && level == rays.front_level())
+        if(rays.front_at(level) != RayMesh::none)
           continue;
-        const int phase = rays.has_front() && level > rays.front_level() ? 1 : 0;
         const double r = coordinate(ray, level, u);
-        const SourceField field = source(phase, time);
+        const SourceField field = source(rays.interval_of(level), time);
         // The temperature is singular at a source, the rest of it is not.
         if(field.strength != 0 && r == 0)
           continue;

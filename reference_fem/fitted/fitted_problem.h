@@ -31,7 +31,7 @@ namespace meltfront::reference_fem::fitted
    *
    * for all test functions phi, those of the front's nodes included: the sum over all of
    * them is the heat balance. Unknowns are theta = T - T_m - S by node (S the field of a
-   * source at the centre), the front's coordinate h in the place of theta at its nodes,
+   * source at the centre), a front's coordinate h in the place of theta at its nodes,
    * and heat accounts: what has come in at each node of a wall of fixed temperature,
    * through walls of given flux, from sources and with liquid that leaves.
    */
@@ -56,16 +56,22 @@ namespace meltfront::reference_fem::fitted
 
     /**
      * The unknowns of a temperature at a time, by values at the nodes; accounts at zero.
-     * @param front coordinate by ray (m); empty for a single phase
+     * @param fronts coordinates by front and ray (m); empty for a single phase
      */
     dealii::Vector<double>
-    state(double time, const std::vector<double> &front,
+    state(double time, const std::vector<double> &fronts,
           const std::function<double(const cases::Position &)> &temperature) const;
 
     HeatContent heat(double time, const dealii::Vector<double> &u) const;
 
-    /** The field split off the temperature of a phase at a time. */
-    SourceField source(int phase, double time) const;
+    /** The phase that lies in an interval between fronts and walls. */
+    const Phase &phase(unsigned int interval) const
+    {
+      return laws.phases[interval % 2];
+    }
+
+    /** The field split off the temperature in an interval at a time. */
+    SourceField source(unsigned int interval, double time) const;
 
     /** T - T_m at a wall's node; of a ball the inner end of the rays is no wall. */
     double wall_excess(bool inner, unsigned int ray, double time,
@@ -76,8 +82,8 @@ namespace meltfront::reference_fem::fitted
      * melting temperature are called in each assembly that holds both phases. */
     cases::EffectCost effect_cost(cases::Effect effect) const;
 
-    /** T - T_m - S at a node, that of the front's side in a phase. */
-    double theta(int phase, unsigned int ray, unsigned int level, double time,
+    /** T - T_m - S at a node, at a front that of its side in an interval. */
+    double theta(unsigned int interval, unsigned int ray, unsigned int level, double time,
                  const dealii::Vector<double> &u) const;
 
     /** Coordinate of a node on its ray (m). */
@@ -115,7 +121,7 @@ namespace meltfront::reference_fem::fitted
     /** One of the two walls. */
     struct Wall
     {
-      int phase = 0;                             ///< that lies at it
+      unsigned int interval = 0;                 ///< that ends at it
       const cases::Boundary *boundary = nullptr; ///< null where the rays meet
       double r = 0;
       unsigned int level = 0;
@@ -125,6 +131,7 @@ namespace meltfront::reference_fem::fitted
     double theta_at_centre(
         double time, double nearest,
         const std::function<double(const cases::Position &)> &temperature) const;
+    std::string reason_inverted(const dealii::Vector<double> &u) const;
     void number_accounts();
     void make_sparsity();
     void assemble(double clock, const dealii::Vector<double> &u,
@@ -160,8 +167,8 @@ namespace meltfront::reference_fem::fitted
     unsigned int flux_account = RayMesh::none, source_account = RayMesh::none,
                  volumetric_account = RayMesh::none, outflow_account = RayMesh::none;
     unsigned int n_unknowns = 0;
-    std::vector<double> level_fixed, level_carried; ///< r = fixed + carried h by level
-    double total_measure = 0;                       ///< of the surface at r = 1
+    std::vector<RayMesh::Place> places; ///< by level
+    double total_measure = 0;           ///< of the surface at r = 1
     /** By effect: seconds and calls of the code that only this effect enters. */
     struct Meter
     {

@@ -18,45 +18,75 @@ namespace meltfront::reference_fem::fitted
   }
 
   RayMesh::RayMesh(FrontSurface rays, double inner, double outer,
-                   const std::vector<double> &inner_shares,
-                   const std::vector<double> &outer_shares)
+                   std::vector<std::vector<double>> given)
     : surface(std::move(rays))
     , inner(inner)
     , outer(outer)
-    , front_layer(static_cast<unsigned int>(inner_shares.size()) - 1)
+    , shares(std::move(given))
   {
-    for(std::size_t l = 0; l + 1 < inner_shares.size(); ++l)
+    const std::size_t last = shares.size() - 1;
+    for(std::size_t interval = 0; interval <= last; ++interval)
     {
-      const double from = inner_shares[l], to = inner_shares[l + 1];
-      layers.push_back({0, {inner * (1 - from), inner * (1 - to)}, {from, to}});
-    }
-    for(std::size_t l = 0; l + 1 < outer_shares.size(); ++l)
-    {
-      const double from = outer_shares[l], to = outer_shares[l + 1];
-      layers.push_back({1, {outer * from, outer * to}, {1 - from, 1 - to}});
+      const std::vector<double> &cells = shares[interval];
+      for(std::size_t l = 0; l + 1 < cells.size(); ++l)
+      {
+        const double from = cells[l], to = cells[l + 1];
+        Layer layer{static_cast<unsigned int>(interval)};
+        if(interval > 0)
+          layer.carried.push_back({1 - from, 1 - to});
+        if(interval < last)
+          layer.carried.push_back({from, to});
+        layer.fixed = last == 0       ? std::array{inner + (outer - inner) * from,
+                                             inner + (outer - inner) * to}
+                      : interval == 0 ? std::array{inner * (1 - from), inner * (1 - to)}
+                      : interval == last ? std::array{outer * from, outer * to}
+                                         : std::array{0., 0.};
+        layers.push_back(layer);
+      }
+      if(interval < last)
+        front_levels.push_back(static_cast<unsigned int>(layers.size()) * surface.degree);
     }
   }
 
-  RayMesh::RayMesh(FrontSurface rays, double inner, double outer,
-                   const std::vector<double> &shares)
-    : surface(std::move(rays))
-    , inner(inner)
-    , outer(outer)
+  unsigned int RayMesh::front_at(unsigned int level) const
   {
-    for(std::size_t l = 0; l + 1 < shares.size(); ++l)
-      layers.push_back(
-          {0,
-           {inner + (outer - inner) * shares[l], inner + (outer - inner) * shares[l + 1]},
-           {0, 0}});
+    const auto found = std::ranges::find(front_levels, level);
+    return found == front_levels.end()
+               ? none
+               : static_cast<unsigned int>(found - front_levels.begin());
   }
 
-  std::array<double, 2> RayMesh::place(unsigned int level) const
+  unsigned int RayMesh::interval_of(unsigned int level) const
+  {
+    return static_cast<unsigned int>(std::ranges::lower_bound(front_levels, level)
+                                     - front_levels.begin());
+  }
+
+  std::vector<unsigned int> RayMesh::fronts_of(unsigned int interval) const
+  {
+    std::vector<unsigned int> result;
+    if(interval > 0)
+      result.push_back(interval - 1);
+    if(interval < n_fronts())
+      result.push_back(interval);
+    return result;
+  }
+
+  RayMesh::Place RayMesh::place(unsigned int level) const
   {
     const unsigned int degree = surface.degree;
-    const unsigned int layer = std::min<unsigned int>(
+    const unsigned int number = std::min<unsigned int>(
         level / degree, static_cast<unsigned int>(layers.size()) - 1);
-    const double zeta = node_shares(surface.degree)[level - layer * degree];
-    return {layers[layer].a(zeta), layers[layer].c(zeta)};
+    const double zeta = node_shares(degree)[level - number * degree];
+    const auto between = [zeta](const std::array<double, 2> &faces)
+    { return faces[0] + (faces[1] - faces[0]) * zeta; };
+    const Layer &layer = layers[number];
+    Place result{between(layer.fixed), {}};
+    const std::vector<unsigned int> fronts = fronts_of(layer.interval);
+    for(std::size_t k = 0; k < fronts.size(); ++k)
+      if(const double c = between(layer.carried[k]); c != 0)
+        result.carried.emplace_back(fronts[k], c);
+    return result;
   }
 
   cases::Position RayMesh::position(unsigned int ray, double r) const

@@ -1,3 +1,4 @@
+#include <reference_fem/fitted/events/resolution.h>
 #include <reference_fem/fitted/run.h>
 
 #include <cases/error.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 namespace meltfront::reference_fem::fitted
@@ -27,8 +29,8 @@ namespace meltfront::reference_fem::fitted
     // With threads, deal.II rounds sums over vectors differently.
     dealii::MultithreadInfo::set_thread_limit(1);
     const RayScene rays = rays_of(scene, options);
-    const InitialFront front = initial_front(scene, rays);
-    if(front.coordinate.empty())
+    const InitialFronts fronts = initial_fronts(scene, rays);
+    if(fronts.number == 0)
     {
       if(options.dimension > 1)
         throw cases::Refusal("fem-fitted needs a front to start from in more than one "
@@ -39,17 +41,18 @@ namespace meltfront::reference_fem::fitted
       const RunSegment segment = one_phase_stretch({scene, effects, options, rays});
       problem = segment.problem;
       initial_state = segment.state;
-      refuse_start_at_melting_wall();
     }
     else
     {
-      problem = std::make_shared<FittedProblem>(
-          two_phase_mesh(rays, options.grading),
-          physics_of(scene, effects, options, front.solid_inside));
-      initial_state
-          = problem->state(scene.start_time, front.coordinate,
-                           [&](const cases::Position &p)
-                           { return scene.initial.temperature(p, scene.start_time); });
+      RayMesh mesh = mesh_between_fronts(rays, fronts.number, options.grading);
+      const Physics physics = physics_between({scene, effects, options, rays},
+                                              fronts.solid_inside, fronts.number);
+      const auto temperature = [&](const cases::Position &p)
+      { return scene.initial.temperature(p, scene.start_time); };
+      mesh = resolving_mesh(mesh, physics, scene.start_time, fronts.coordinates,
+                            temperature);
+      problem = std::make_shared<FittedProblem>(mesh, physics);
+      initial_state = problem->state(scene.start_time, fronts.coordinates, temperature);
     }
     const std::string reason_invalid = problem->reason_invalid(initial_state);
     if(!reason_invalid.empty())
@@ -58,33 +61,6 @@ namespace meltfront::reference_fem::fitted
     const HeatContent heat = problem->heat(scene.start_time, initial_state);
     initial_heat = heat.sensible + heat.latent;
     sites = std::make_unique<Sites>(*problem);
-  }
-
-  /** The layer of a front that sets out at once has no law that this method starts from.
-   */
-  void FittedRun::refuse_start_at_melting_wall() const
-  {
-    constexpr double round_off = 1e-12;
-    const Physics &physics = problem->physics();
-    const RayMesh &mesh = problem->mesh();
-    for(const bool inner : {true, false})
-    {
-      const cases::Boundary &wall = inner ? physics.inner_wall : physics.outer_wall;
-      if(!cases::prescribes_heat(wall.kind))
-        continue;
-      const double excess
-          = problem->wall_excess(inner, 0, scene.start_time, initial_state);
-      const double flux
-          = cases::heat_through(wall, mesh.position(0, inner ? mesh.inner : mesh.outer),
-                                scene.start_time, physics.melting_temperature + excess)
-                .flux;
-      if(std::abs(excess) <= round_off * physics.temperature_scale
-         && (physics.phases[0].solid ? flux > 0 : flux < 0))
-        throw cases::Refusal(fmt::format("{} cannot start a front at a wall that is at "
-                                         "the melting temperature already "
-                                         "and {} heat",
-                                         method_name, flux > 0 ? "takes up" : "loses"));
-    }
   }
 
   IntegrationOptions FittedRun::integration_options() const
@@ -124,11 +100,10 @@ namespace meltfront::reference_fem::fitted
       for(unsigned int level = 0; level < mesh.n_levels(); ++level)
       {
         const double r = problem->coordinate(ray, level, u);
-        if(level == mesh.front_level() || (r == 0 && physics.power))
+        if(mesh.front_at(level) != RayMesh::none || (r == 0 && physics.power))
           continue;
-        const int phase = mesh.has_front() && level > mesh.front_level() ? 1 : 0;
         const double value = physics.melting_temperature + u[mesh.node(ray, level)]
-                             + problem->source(phase, time).value(r);
+                             + problem->source(mesh.interval_of(level), time).value(r);
         const cases::Boundary *wall = level == 0                     ? &physics.inner_wall
                                       : level + 1 == mesh.n_levels() ? &physics.outer_wall
                                                                      : nullptr;
@@ -163,8 +138,9 @@ namespace meltfront::reference_fem::fitted
   {
     const RayMesh &mesh = problem->mesh();
     std::vector<double> result;
-    for(unsigned int ray = 0; mesh.has_front() && ray < mesh.surface.n_rays(); ++ray)
-      result.push_back(problem->coordinate(ray, mesh.front_level(), u));
+    for(unsigned int front = 0; front < mesh.n_fronts(); ++front)
+      for(unsigned int ray = 0; ray < mesh.surface.n_rays(); ++ray)
+        result.push_back(u[mesh.front_node(ray, front)]);
     return result;
   }
 
@@ -176,15 +152,17 @@ namespace meltfront::reference_fem::fitted
     const std::vector<double> now = front_coordinates(u);
     if(now.empty() || !(time > front_before))
       return;
-    double way = 0; // from where the fronts were, or from the wall that they have left
-    for(unsigned int ray = 0; ray < now.size(); ++ray)
+    // From where the fronts were, or from the nearest place that one may have left.
+    std::vector<double> places = fronts;
+    places.push_back(problem->mesh().inner);
+    places.push_back(problem->mesh().outer);
+    double way = 0;
+    for(std::size_t k = 0; k < now.size(); ++k)
     {
-      const auto from = [&](double r) { return std::abs(now[ray] - r); };
-      const unsigned int last = problem->mesh().n_levels() - 1;
+      const auto from = [&](double r) { return std::abs(now[k] - r); };
       way = std::max(way, fronts.size() == now.size()
-                              ? from(fronts[ray])
-                              : std::min(from(problem->coordinate(ray, 0, u)),
-                                         from(problem->coordinate(ray, last, u))));
+                              ? from(fronts[k])
+                              : std::ranges::min(places | std::views::transform(from)));
     }
     const double speed = way / (time - front_before);
     const auto &phases = problem->physics().phases;
@@ -227,15 +205,17 @@ namespace meltfront::reference_fem::fitted
                      {},
                      {{clock.clock(scene.end_time), clock_step()}},
                      {}};
-    Timeline timeline({scene, effects, options, rays_of(scene, options)},
-                      integration_options(),
-                      {[&](const RunSegment &segment) { enter(segment); },
-                       [&](long step, double time, const dealii::Vector<double> &u, bool)
-                       {
-                         check_temperatures(step, time, u);
-                         shown = &u;
-                         reached(step, time);
-                       }});
+    Timeline timeline(
+        {scene, effects, options, rays_of(scene, options)}, integration_options(),
+        {[&](const RunSegment &segment) { enter(segment); },
+         [&](long step, double time, const dealii::Vector<double> &u, bool last)
+         {
+           check_temperatures(step, time, u);
+           if(last && options.dimension == 1)
+             highest_mode = std::ranges::max(highest_modes(*problem, time, u));
+           shown = &u;
+           reached(step, time);
+         }});
     timeline.run(std::move(first));
     integration = timeline.cost();
     add_effect_costs();

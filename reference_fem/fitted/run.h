@@ -28,7 +28,6 @@ namespace meltfront::reference_fem::fitted
   private:
     void take_steps() override;
     cases::Snapshot snapshot(long step, double time) override; // in run_report.cc
-    void refuse_start_at_melting_wall() const;
     IntegrationOptions integration_options() const;
     void enter(const RunSegment &segment);
     double clock_step() const;
@@ -53,8 +52,9 @@ namespace meltfront::reference_fem::fitted
     long events = 0;
     long most_unknowns = 0;
     IntegrationCost integration;
-    double front_before = 0;                       ///< time of the state checked last (s)
-    std::vector<double> fronts;                    ///< its coordinates by ray (m)
+    double highest_mode = 0;    ///< of a cell at the end; see highest_modes()
+    double front_before = 0;    ///< time of the state checked last (s)
+    std::vector<double> fronts; ///< then, by front and ray (m)
     const dealii::Vector<double> *shown = nullptr; ///< the state to take a snapshot of
   };
 } // namespace meltfront::reference_fem::fitted

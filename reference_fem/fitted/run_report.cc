@@ -82,6 +82,9 @@ namespace meltfront::reference_fem::fitted
         {"events that changed the mesh", static_cast<double>(events)},
         {"steps divided in two", static_cast<double>(integration.halved)},
         {"factorisations", static_cast<double>(integration.factorisations)}};
+    if(options.dimension == 1)
+      result["highest mode of a cell at the end, of the temperature scale"]
+          = highest_mode;
     if(options.tolerance > 0)
       result["steps repeated by the step control"]
           = static_cast<double>(integration.repeated);

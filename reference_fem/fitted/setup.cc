@@ -105,10 +105,15 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  RayMesh two_phase_mesh(const RayScene &rays, double grading)
+  RayMesh mesh_between_fronts(const RayScene &rays, unsigned int fronts, double grading)
   {
     const int inside = rays.cells / 2;
     const int most = rays.cells - inside;
+    if(grading > 1 && fronts > 1)
+      throw Refusal(
+          fmt::format("fem-fitted.grading = {:g} draws cells to one front; here "
+                      "are {}",
+                      grading, fronts));
     // Of cells r^0 ... r^(m-1) the smallest is (r - 1)/(r^m - 1) of all.
     const double smallest = std::log(grading - 1) - most * std::log(grading);
     if(grading > 1 && smallest < std::log(smallest_cell))
@@ -117,9 +122,11 @@ namespace meltfront::reference_fem::fitted
           "1e{:.0f} of the phase, and they may not be smaller than {:g}: take a smaller "
           "grading or fewer cells",
           grading, most, smallest / std::log(10.), smallest_cell));
-    return RayMesh(rays.surface, rays.inner, rays.outer,
-                   graded_shares(inside, grading, false),
-                   graded_shares(rays.cells - inside, grading, true));
+    std::vector<std::vector<double>> shares;
+    for(unsigned int interval = 0; interval < fronts; ++interval)
+      shares.push_back(graded_shares(inside, grading, false));
+    shares.push_back(graded_shares(most, grading, true));
+    return {rays.surface, rays.inner, rays.outer, shares};
   }
 
   namespace
@@ -194,7 +201,7 @@ namespace meltfront::reference_fem::fitted
     return physics;
   }
 
-  InitialFront initial_front(const cases::Scene &scene, const RayScene &rays)
+  InitialFronts initial_fronts(const cases::Scene &scene, const RayScene &rays)
   {
     const double time = scene.start_time;
     const cases::InitialState &initial = scene.initial;
@@ -219,7 +226,7 @@ namespace meltfront::reference_fem::fitted
       return by_temperature(p);
     };
     const int samples = rays.surface.n_rays() == 1 ? samples_on_line : samples_on_ray;
-    InitialFront result;
+    InitialFronts result;
     const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
     for(unsigned int ray = 0; ray < rays.surface.n_rays(); ++ray)
     {
@@ -230,8 +237,7 @@ namespace meltfront::reference_fem::fitted
                                         1 - next_to_wall);
         return rays.inner + (rays.outer - rays.inner) * share;
       };
-      double found = -1;
-      int crossings = 0;
+      std::vector<double> found;
       double at_lower = on_ray(sample(0));
       if(ray == 0)
         result.solid_inside = at_lower < 0;
@@ -240,24 +246,25 @@ namespace meltfront::reference_fem::fitted
         const double at_upper = on_ray(sample(i));
         if((at_lower < 0) != (at_upper < 0))
         {
-          ++crossings;
-          result.solid_inside = at_lower < 0;
+          if(found.empty())
+            result.solid_inside = at_lower < 0;
           std::uintmax_t iterations = 200;
           const auto bracket = boost::math::tools::toms748_solve(
               on_ray, sample(i - 1), sample(i), at_lower, at_upper,
               boost::math::tools::eps_tolerance<double>(52), iterations);
-          found = 0.5 * (bracket.first + bracket.second);
+          found.push_back(0.5 * (bracket.first + bracket.second));
         }
         at_lower = at_upper;
       }
-      if(crossings > 1)
-        throw Refusal("fem-fitted follows one front that each ray from wall to wall, or "
-                      "from the centre, crosses once; this one is crossed again");
-      if(crossings == 1)
-        result.coordinate.push_back(found);
+      if(found.size() > 1 && rays.surface.n_rays() > 1)
+        throw Refusal("fem-fitted follows several fronts in one dimension only; in more "
+                      "it follows one that each ray from wall to wall, or from the "
+                      "centre, crosses once, and this one is crossed again");
+      result.number = std::max(result.number, static_cast<unsigned int>(found.size()));
+      result.coordinates.insert(result.coordinates.end(), found.begin(), found.end());
     }
-    if(!result.coordinate.empty() && result.coordinate.size() < rays.surface.n_rays())
-      throw Refusal("fem-fitted follows one front that each ray from wall to wall, or "
+    if(result.coordinates.size() < result.number * rays.surface.n_rays())
+      throw Refusal("fem-fitted follows a front that each ray from wall to wall, or "
                     "from the centre, crosses once; some rays do not cross it");
     return result;
   }

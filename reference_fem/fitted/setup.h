@@ -22,8 +22,9 @@ namespace meltfront::reference_fem::fitted
   /** @throws Refusal for walls or sources that rays cannot have. */
   RayScene rays_of(const cases::Scene &scene, const RunOptions &options);
 
-  /** Equal cells for both phases, drawn to the front by the option `grading`. */
-  RayMesh two_phase_mesh(const RayScene &rays, double grading);
+  /** Equal cells between all fronts and walls, half of those of a ray in each interval,
+   * drawn to the only front by the option `grading`. */
+  RayMesh mesh_between_fronts(const RayScene &rays, unsigned int fronts, double grading);
 
   /** Phases, walls, source and clock of a scene.
    * @throws Refusal for what the method cannot treat. */
@@ -33,19 +34,21 @@ namespace meltfront::reference_fem::fitted
   /** The side at an end of the rays. */
   cases::Side side_at(const cases::Scene &scene, bool inner);
 
-  /** Where the front starts. */
-  struct InitialFront
+  /** Where fronts start. */
+  struct InitialFronts
   {
-    bool solid_inside = true;       ///< or everywhere
-    std::vector<double> coordinate; ///< by ray (m); empty: the scene starts in one phase
+    bool solid_inside = true; ///< or everywhere
+    unsigned int number = 0;
+    std::vector<double> coordinates; ///< by front and ray (m)
   };
 
   /**
-   * The root on each ray of the scene's initial front, of its exact solution's, or of
+   * The roots on each ray of the scene's initial front, of its exact solution's, or of
    * T - T_m.
-   * @throws Refusal where a ray crosses the front more than once, or only some rays do.
+   * @throws Refusal where one of many rays crosses the front more than once, or only some
+   * do.
    */
-  InitialFront initial_front(const cases::Scene &scene, const RayScene &rays);
+  InitialFronts initial_fronts(const cases::Scene &scene, const RayScene &rays);
 } // namespace meltfront::reference_fem::fitted
 
 #endif

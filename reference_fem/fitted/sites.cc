@@ -37,9 +37,8 @@ namespace meltfront::reference_fem::fitted
       n_sites += problem.tables(l).n_points() * mesh.surface.cells.size();
     for(auto &coordinate : positions)
       coordinate.assign(n_sites, 0);
-    if(mesh.has_front())
-      for(auto &coordinate : front)
-        coordinate.assign(mesh.surface.n_rays(), 0);
+    for(auto &coordinate : front)
+      coordinate.assign(mesh.n_fronts() * mesh.surface.n_rays(), 0);
     weights.assign(n_sites, 0);
     temperature.resize(n_sites);
     solid_fraction.resize(n_sites);
@@ -76,20 +75,21 @@ namespace meltfront::reference_fem::fitted
         const double r = problem.coordinate(ray, level, u);
         const cases::Position position = mesh.position(ray, r);
         set_position(node, position);
-        if(mesh.has_front() && level == mesh.front_level())
+        if(const unsigned int k = mesh.front_at(level); k != RayMesh::none)
         {
           temperature[node] = melting;
           solid_fraction[node] = 0.5;
           for(int d = 0; d < 3; ++d)
-            front[d][ray] = position[d];
+            front[d][k * mesh.surface.n_rays() + ray] = position[d];
           continue;
         }
-        const int phase = mesh.has_front() && level > mesh.front_level() ? 1 : 0;
+        const unsigned int interval = mesh.interval_of(level);
         // For pictures: the centre of a source shows the temperature half way to its
         // neighbour.
         const double shown = r > 0 ? r : 0.5 * problem.coordinate(ray, 1, u);
-        temperature[node] = melting + u[node] + problem.source(phase, time).value(shown);
-        solid_fraction[node] = problem.physics().phases[phase].solid ? 1 : 0;
+        temperature[node]
+            = melting + u[node] + problem.source(interval, time).value(shown);
+        solid_fraction[node] = problem.phase(interval).solid ? 1 : 0;
       }
   }
 

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace meltfront::reference_fem::fitted
 {
@@ -33,45 +32,11 @@ namespace meltfront::reference_fem::fitted
      * 5e-176, and what is left of it is no number. */
     constexpr double far_in_layers = 20;
 
-    /** Of the temperature scale: the other wall is held elsewhere than what lies at it.
-     */
-    constexpr double least_jump = 1e-6;
-
     /** Steps are equal in this root of the clock. */
     constexpr double lengthening = 3;
 
-    /** A distance from the wall at which the initial temperature counts as the wall's,
-     * as a share of the ray. */
-    constexpr double beside_wall = 1e-9;
-
     /** A wall this close to the melting temperature is at it. */
     constexpr double rounding = 1e-13;
-
-    /** Fewest steps of a segment that begins during the run. */
-    constexpr int fewest_steps = 20;
-
-    double temperature_at_end(const EventScene &setting, const OnePhase &state,
-                              const bool inner)
-    {
-      const RayScene &rays = setting.rays;
-      const double distance = beside_wall * (rays.outer - rays.inner);
-      return state.temperature(inner ? rays.inner + distance : rays.outer - distance);
-    }
-
-    /** By how much a wall is held above what lies at it (K). */
-    double jump_at_wall(const EventScene &setting, const OnePhase &state,
-                        const bool inner)
-    {
-      const RayScene &rays = setting.rays;
-      const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
-      if(inner && geometry.has_centre())
-        return 0;
-      const cases::Boundary &wall = setting.scene.boundary(side_at(setting.scene, inner));
-      if(wall.kind != BoundaryKind::fixed_temperature)
-        return 0;
-      return wall.value(geometry.position(0, inner ? rays.inner : rays.outer), state.time)
-             - temperature_at_end(setting, state, inner);
-    }
 
     /** The front constant for which a sink of the given kind removes @p heat. */
     template <typename Sink, typename Strength>
@@ -96,9 +61,9 @@ namespace meltfront::reference_fem::fitted
     /** Heat that a sink draws around the time of seeds; its law in time must be the one
      * that the similarity solution asks for. */
     std::shared_ptr<const cases::ExactSolution> sink_start(const EventScene &setting,
-                                                           const OnePhase &initial)
+                                                           const LayeredState &initial)
     {
-      if(initial.solid)
+      if(initial.solid_inside)
         throw cases::Refusal("fem-fitted starts in one phase from sinks that freeze "
                              "liquid; this one lies in solid");
       const cases::Scene &scene = setting.scene;
@@ -125,57 +90,35 @@ namespace meltfront::reference_fem::fitted
                                                  { return sink.strength(early); });
     }
 
+    std::string text_of(const std::vector<SuddenStart> &starts,
+                        const std::vector<NewLayer> &layers)
+    {
+      std::string result;
+      for(std::size_t k = 0; k < starts.size(); ++k)
+        result += fmt::format("{}a front starts at {}, {:.3g} m away at first, from the "
+                              "similarity solution",
+                              k > 0 ? "; " : "", starts[k].cause, layers[k].width);
+      return result;
+    }
+
     /** Since the start (s). */
     double seed_time(const EventScene &setting, const SuddenStart &start,
-                     const double time)
+                     const LayeredState &state, const bool shares_room)
     {
       const cases::Scene &scene = setting.scene;
-      const double length = setting.rays.outer - setting.rays.inner;
+      const double length
+          = room_at_wall(setting, state, start.at_inner_end) * (shares_room ? 0.5 : 1);
       const cases::PhaseProperties &old
           = start.local->solid_at_origin() ? scene.material.liquid : scene.material.solid;
       const double by_front = std::pow(seed_share * length / start.local->front(1), 2);
       const double by_layer = std::pow(length / layers_in_ray, 2) / old.diffusivity();
-      return std::min({by_front, by_layer, latest_seed * (scene.end_time - time),
-                       0.5 * time_to_breakpoint(scene, time)});
+      return std::min({by_front, by_layer, latest_seed * (scene.end_time - state.time),
+                       0.5 * time_to_breakpoint(scene, state.time)});
     }
   } // namespace
 
-  int steps_for(const EventScene &setting, const double from)
-  {
-    const cases::Scene &scene = setting.scene;
-    if(from == scene.start_time)
-      return setting.options.steps;
-    const double share = (scene.end_time - from) / (scene.end_time - scene.start_time);
-    return std::max(fewest_steps,
-                    static_cast<int>(std::ceil(share * setting.options.steps)));
-  }
-
-  double time_to_breakpoint(const cases::Scene &scene, const double time)
-  {
-    double result = std::numeric_limits<double>::infinity();
-    for(const cases::Side side : scene.sides())
-      for(const double point : scene.boundary(side).value.breakpoints)
-        if(point > time)
-          result = std::min(result, point - time);
-    return result;
-  }
-
-  OnePhase initial_phase(const EventScene &setting, const double heat)
-  {
-    const RayMesh geometry(setting.rays.surface, setting.rays.inner, setting.rays.outer,
-                           {0, 1});
-    const cases::Scene &scene = setting.scene;
-    OnePhase result;
-    result.time = scene.start_time;
-    result.temperature = [&scene, geometry](const double r)
-    { return scene.initial.temperature(geometry.position(0, r), scene.start_time); };
-    result.solid = initial_front(scene, setting.rays).solid_inside;
-    result.heat = heat;
-    return result;
-  }
-
   std::optional<SuddenStart> start_at_wall(const EventScene &setting,
-                                           const OnePhase &state, const bool inner)
+                                           const LayeredState &state, const bool inner)
   {
     const RayScene &rays = setting.rays;
     const cases::Side side = side_at(setting.scene, inner);
@@ -187,7 +130,7 @@ namespace meltfront::reference_fem::fitted
     const double at_wall
         = wall.value(geometry.position(0, inner ? rays.inner : rays.outer), state.time);
     const double beside = temperature_at_end(setting, state, inner);
-    const double sign = state.solid ? 1 : -1;
+    const double sign = state.solid_at(inner) ? 1 : -1;
     // A metastable phase stays as it is.
     const double round_off
         = rounding * (std::abs(material.melting_temperature) + std::abs(beside));
@@ -199,63 +142,85 @@ namespace meltfront::reference_fem::fitted
                        fmt::format("the wall {}", to_string(side))};
   }
 
-  std::optional<SuddenStart> sudden_start(const EventScene &setting,
-                                          const OnePhase &initial)
+  std::vector<SuddenStart> sudden_starts(const EventScene &setting,
+                                         const LayeredState &initial)
   {
+    std::vector<SuddenStart> result;
     const bool centre = setting.rays.surface.exponent > 0 && setting.rays.inner == 0;
-    if(setting.effects.contains(cases::Effect::heat_sources))
-      return SuddenStart{true, sink_start(setting, initial), "the sink at the centre"};
+    if(setting.effects.contains(cases::Effect::heat_sources) && initial.fronts.empty())
+      result.push_back({true, sink_start(setting, initial), "the sink at the centre"});
     for(const bool inner : {true, false})
       if(!inner || !centre)
         if(auto start = start_at_wall(setting, initial, inner))
-          return start;
-    return std::nullopt;
+          result.push_back(*start);
+    return result;
   }
 
-  RunSegment seeded_stretch(const EventScene &setting, const SuddenStart &start,
-                            const OnePhase &state)
+  RunSegment seeded_stretch(const EventScene &setting,
+                            const std::vector<SuddenStart> &starts,
+                            const LayeredState &state)
   {
     const cases::Scene &scene = setting.scene;
     const RayScene &rays = setting.rays;
-    const bool inner = start.at_inner_end;
-    const double since = seed_time(setting, start, state.time);
-    const double width = start.local->front(since);
-    const bool new_is_solid = start.local->solid_at_origin();
+    if(setting.effects.contains(cases::Effect::volumetric_source))
+      throw cases::Refusal("fem-fitted does not start a front at once at a wall where "
+                           "heat is released throughout");
+    double since = std::numeric_limits<double>::infinity();
+    for(const SuddenStart &start : starts)
+      since = std::min(since, seed_time(setting, start, state,
+                                        starts.size() > 1 && state.fronts.empty()));
 
-    // The old phase's thermal layer or the new phase, whichever is thinner.
-    const cases::PhaseProperties &old
-        = new_is_solid ? scene.material.liquid : scene.material.solid;
-    const double thermal_layer = 2 * std::sqrt(old.diffusivity() * since);
-    const double layer = std::min(width, thermal_layer);
-    Physics physics
-        = physics_of(scene, setting.effects, setting.options, inner == new_is_solid);
-    const double jump = jump_at_wall(setting, state, !inner),
-                 far_jump
-                 = std::abs(jump) > least_jump * physics.temperature_scale ? jump : 0;
+    std::vector<NewLayer> layers;
+    std::vector<double> thermal_layers;
+    for(const SuddenStart &start : starts)
+    {
+      // The old phase's thermal layer or the new phase, whichever is thinner.
+      const double width = start.local->front(since);
+      const cases::PhaseProperties &old
+          = start.local->solid_at_origin() ? scene.material.liquid : scene.material.solid;
+      thermal_layers.push_back(2 * std::sqrt(old.diffusivity() * since));
+      layers.push_back(
+          {start.at_inner_end, width, std::min(width, thermal_layers.back())});
+    }
+    std::array<WallLayer, 2> forms = layers_at_walls(setting, state);
+    for(const SuddenStart &start : starts)
+      forms[start.at_inner_end ? 0 : 1] = {};
+    std::array<double, 2> thickness{};
+    for(const bool inner : {true, false})
+      if(forms[inner ? 0 : 1].forms())
+        thickness[inner ? 0 : 1]
+            = 2
+              * std::sqrt(
+                  (state.solid_at(inner) ? scene.material.solid : scene.material.liquid)
+                      .diffusivity()
+                  * since);
+    Clock clock = physics_between(setting, true, 0).clock;
     if(setting.options.clock != "t")
-      physics.clock = {true, state.time};
+      clock = {true, state.time};
 
     RunSegment result;
-    result.problem = std::make_shared<FittedProblem>(
-        seed_mesh(rays, inner, layer, far_jump != 0 ? thermal_layer : 0), physics);
+    result.problem = problem_with(setting, state, layers, thickness, clock);
     result.time = state.time + since;
-    const double far = temperature_at_end(setting, state, inner);
     result.state = result.problem->state(
-        result.time, {inner ? rays.inner + width : rays.outer - width},
+        result.time, fronts_with(setting, state, layers),
         [&](const cases::Position &p)
         {
-          const double r
-              = setting.scene.domain.round() ? std::hypot(p[0], p[1], p[2]) : p[0];
-          const double distance = inner ? r - rays.inner : rays.outer - r;
-          if(distance < width)
-            return start.local->temperature(distance, since);
+          const double r = coordinate_of(setting, p);
+          double sum = state.temperature(r)
+                       + forms[0].temperature(r - rays.inner, thickness[0])
+                       + forms[1].temperature(rays.outer - r, thickness[1]);
           // The state need not be uniform farther away.
-          const double from_far_end = inner ? rays.outer - r : r - rays.inner;
-          const double there
-              = state.temperature(r) + far_jump * std::erfc(from_far_end / thermal_layer);
-          return distance > width + far_in_layers * thermal_layer
-                     ? there
-                     : start.local->temperature(distance, since) + there - far;
+          for(std::size_t k = 0; k < starts.size(); ++k)
+          {
+            const SuddenStart &start = starts[k];
+            const double distance = start.at_inner_end ? r - rays.inner : rays.outer - r;
+            if(distance < layers[k].width)
+              return start.local->temperature(distance, since);
+            if(distance <= layers[k].width + far_in_layers * thermal_layers[k])
+              sum += start.local->temperature(distance, since)
+                     - temperature_at_end(setting, state, start.at_inner_end);
+          }
+          return sum;
         });
     result.before = state.before;
     for(const cases::PointSource &source : scene.sources)
@@ -263,14 +228,10 @@ namespace meltfront::reference_fem::fitted
     const HeatContent seed = result.problem->heat(result.time, result.state);
     result.before.walls += seed.sensible + seed.latent - state.heat
                            - (result.before.sources - state.before.sources);
-    const Clock &clock = physics.clock;
     result.steps = lengthening_steps(
         clock.clock(result.time), clock.clock(scene.end_time),
         steps_for(setting, state.time), clock.root ? lengthening : 2 * lengthening);
-    result.event = {state.time,
-                    fmt::format("a front starts at {}, {:.3g} m away at first, from the "
-                                "similarity solution",
-                                start.cause, width)};
+    result.event = {state.time, text_of(starts, layers)};
     return result;
   }
 } // namespace meltfront::reference_fem::fitted

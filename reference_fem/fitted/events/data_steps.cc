@@ -245,7 +245,7 @@ namespace meltfront::reference_fem::fitted
                          - problem.coordinate(0, last - degree, u))
             / degree;
       const Layer &layer = inner ? mesh.layers.front() : mesh.layers.back();
-      const Phase &phase = problem.physics().phases[layer.phase];
+      const Phase &phase = problem.phase(layer.interval);
       return spacing * spacing / 3 * phase.capacity / phase.conductivity;
     }
 

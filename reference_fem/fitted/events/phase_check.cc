@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace meltfront::reference_fem::fitted
@@ -29,16 +30,6 @@ namespace meltfront::reference_fem::fitted
 
     /** A source of less than this share of its largest strength is none. */
     constexpr double no_source = 1e-9;
-
-    int phase_at(const RayMesh &mesh, unsigned int level)
-    {
-      return mesh.has_front() && level > mesh.front_level() ? 1 : 0;
-    }
-
-    unsigned int wall_level(const RayMesh &mesh, bool inner)
-    {
-      return inner ? 0 : mesh.n_levels() - 1;
-    }
 
     const cases::Boundary &wall_of(const FittedProblem &problem, bool inner)
     {
@@ -70,15 +61,15 @@ namespace meltfront::reference_fem::fitted
     for(unsigned int ray = 0; ray < mesh.surface.n_rays(); ++ray)
       for(unsigned int level = 0; level < mesh.n_levels(); ++level)
       {
-        if(level == mesh.front_level())
+        if(mesh.front_at(level) != RayMesh::none)
           continue;
-        const int phase = phase_at(mesh, level);
-        const bool solid = problem.physics().phases[phase].solid;
+        const unsigned int interval = mesh.interval_of(level);
+        const bool solid = problem.phase(interval).solid;
         const double r = problem.coordinate(ray, level, u);
         if(r == 0 && problem.physics().power)
           continue;
         const double excess
-            = u[mesh.node(ray, level)] + problem.source(phase, time).value(r);
+            = u[mesh.node(ray, level)] + problem.source(interval, time).value(r);
         if(beyond(solid, excess) > slack)
           metastable[solid ? 0 : 1] = true;
       }
@@ -89,7 +80,7 @@ namespace meltfront::reference_fem::fitted
   {
     const RayMesh &mesh = problem.mesh();
     const Physics &physics = problem.physics();
-    const bool solid = physics.phases[phase_at(mesh, wall_level(mesh, inner))].solid;
+    const bool solid = problem.phase(inner ? 0 : mesh.n_fronts()).solid;
     if(metastable[solid ? 0 : 1])
       return false;
     const cases::Boundary &wall = wall_of(problem, inner);
@@ -132,13 +123,13 @@ namespace meltfront::reference_fem::fitted
     return false;
   }
 
-  std::optional<WallCrossing> PhaseCheck::wall_crossing(const FittedProblem &problem,
-                                                        double from, double to,
-                                                        const Vector<double> &u) const
+  std::vector<WallCrossing> PhaseCheck::wall_crossings(const FittedProblem &problem,
+                                                       double from, double to,
+                                                       const Vector<double> &u) const
   {
     const RayMesh &mesh = problem.mesh();
     const Clock &clock = problem.physics().clock;
-    std::optional<WallCrossing> first;
+    std::vector<WallCrossing> result;
     for(const bool inner : {true, false})
     {
       const cases::Boundary &wall = wall_of(problem, inner);
@@ -156,41 +147,26 @@ namespace meltfront::reference_fem::fitted
       for(unsigned int ray = 0; ray < mesh.surface.n_rays() && !at; ++ray)
         if(has_passed(problem, inner, ray, clock.time(to), u))
           at = to;
-      if(at && first)
-        throw cases::Refusal(fmt::format(
-            "fem-fitted follows one front; about t = {:.6g} both walls pass the melting "
-            "temperature, where a front starts at each",
-            clock.time(to)));
       if(at)
-        first = WallCrossing{inner, *at};
+        result.push_back({inner, *at});
     }
-    return first;
+    return result;
   }
 
   void PhaseCheck::check(const FittedProblem &problem, long step, double time,
                          const Vector<double> &u) const
   {
     check_source(problem, time);
-    for(const bool inner : {true, false})
-    {
-      const RayMesh &mesh = problem.mesh();
-      if((inner && mesh.has_centre())
-         || wall_of(problem, inner).kind == BoundaryKind::insulated)
-        continue;
-      for(unsigned int ray = 0; ray < mesh.surface.n_rays(); ++ray)
-        if(has_passed(problem, inner, ray, time, u))
-          refuse(problem, inner, time);
-    }
     check_nodes(problem, step, time, u);
   }
 
-  void PhaseCheck::refuse(const FittedProblem &problem, bool inner, double time) const
+  void PhaseCheck::refuse(bool inner, double time) const
   {
     throw cases::Refusal(
-        fmt::format("fem-fitted follows one front; at t = {:.6g} the wall {} has passed "
-                    "the melting temperature, where {} starts",
-                    time, to_string(side_at(setting.scene, inner)),
-                    problem.mesh().has_front() ? "a second one" : "one"));
+        fmt::format("fem-fitted follows one front in more than one dimension; at t = "
+                    "{:.6g} the wall {} has passed the melting temperature, where a "
+                    "second one starts",
+                    time, to_string(side_at(setting.scene, inner))));
   }
 
   void PhaseCheck::check_source(const FittedProblem &problem, double time) const
@@ -201,9 +177,8 @@ namespace meltfront::reference_fem::fitted
     const double power = physics.power(time);
     if(beyond(physics.phases[0].solid, power) > no_source * largest_power)
       throw cases::Refusal(fmt::format(
-          "fem-fitted follows one front; at t = {:.6g} the source at the centre {} "
-          "around "
-          "it, where a second one starts",
+          "fem-fitted follows fronts that walls start; at t = {:.6g} the source at the "
+          "centre {} around it, where another one starts",
           time, physics.phases[0].solid ? "melts the solid" : "freezes the liquid"));
   }
 
@@ -215,14 +190,14 @@ namespace meltfront::reference_fem::fitted
     for(unsigned int ray = 0; ray < mesh.surface.n_rays(); ++ray)
       for(unsigned int level = 0; level < mesh.n_levels(); ++level)
       {
-        const int phase = phase_at(mesh, level);
-        const bool solid = physics.phases[phase].solid;
+        const unsigned int interval = mesh.interval_of(level);
+        const bool solid = problem.phase(interval).solid;
         const double r = problem.coordinate(ray, level, u);
-        if(level == mesh.front_level() || metastable[solid ? 0 : 1]
+        if(mesh.front_at(level) != RayMesh::none || metastable[solid ? 0 : 1]
            || (r == 0 && physics.power))
           continue;
         const double excess
-            = u[mesh.node(ray, level)] + problem.source(phase, time).value(r);
+            = u[mesh.node(ray, level)] + problem.source(interval, time).value(r);
         if(!(beyond(solid, excess) > overshoot() * physics.temperature_scale))
           continue;
         if(step == 0)
@@ -232,10 +207,11 @@ namespace meltfront::reference_fem::fitted
               solid ? "solid" : "liquid", solid ? "above" : "below",
               physics.melting_temperature + excess, r));
         if(physics.volumetric_source.value)
-          throw cases::Refusal(fmt::format(
-              "fem-fitted follows one front; at t = {:.6g} the heat released throughout "
-              "{} at r = {:.6g} away from it",
-              time, solid ? "melts solid" : "freezes liquid", r));
+          throw cases::Refusal(fmt::format("fem-fitted follows fronts that walls start; "
+                                           "at t = {:.6g} the heat released "
+                                           "throughout {} at r = {:.6g} away from them",
+                                           time, solid ? "melts solid" : "freezes liquid",
+                                           r));
         throw cases::NumericalError(
             method, step, time, fmt::format("the temperature at r = {:.6g}", r),
             fmt::format("is {:.6g}, {} the melting point in {} away from the front; "

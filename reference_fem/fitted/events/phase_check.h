@@ -1,10 +1,10 @@
 #ifndef meltfront_reference_fem_fitted_events_phase_check_h
 #define meltfront_reference_fem_fitted_events_phase_check_h
 
-#include <reference_fem/fitted/events/cold_start.h>
+#include <reference_fem/fitted/events/layered_state.h>
 
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace meltfront::reference_fem::fitted
 {
@@ -38,18 +38,17 @@ namespace meltfront::reference_fem::fitted
     }
 
     /**
-     * Whether a wall passes the melting temperature after one clock and up to another,
+     * The walls that pass the melting temperature after one clock and up to another,
      * at which the state is @p u: one of fixed temperature at any of 16 times, one of
      * given flux at the end.
-     * @throws Refusal where both walls do: fem-fitted follows one front.
      */
-    std::optional<WallCrossing> wall_crossing(const FittedProblem &problem, double from,
-                                              double to,
-                                              const dealii::Vector<double> &u) const;
+    std::vector<WallCrossing> wall_crossings(const FittedProblem &problem, double from,
+                                             double to,
+                                             const dealii::Vector<double> &u) const;
 
     /**
      * Check a state.
-     * @throws Refusal where a wall or the source at the centre starts a second front, and
+     * @throws Refusal where the source at the centre starts a second front, and
      * of a start (step 0) beyond the melting point,
      * @throws NumericalError where the temperature of a phase is beyond the melting point
      * elsewhere, by more than the overshoot that is borne.
@@ -57,8 +56,14 @@ namespace meltfront::reference_fem::fitted
     void check(const FittedProblem &problem, long step, double time,
                const dealii::Vector<double> &u) const;
 
-    /** @throws Refusal that names the wall and the time, always. */
-    [[noreturn]] void refuse(const FittedProblem &problem, bool inner, double time) const;
+    /** Whether a wall is beyond the melting temperature of the phase at it, by more than
+     * rounding and what elements overshoot. */
+    bool has_passed(const FittedProblem &problem, bool inner, unsigned int ray,
+                    double time, const dealii::Vector<double> &u) const;
+
+    /** @throws Refusal that names the wall and the time: of a second front in more than
+     * one dimension. */
+    [[noreturn]] void refuse(bool inner, double time) const;
 
   private:
     /** How far a temperature is beyond the melting point of what lies there. */
@@ -70,8 +75,6 @@ namespace meltfront::reference_fem::fitted
     /** That of elements which is borne, of the temperature scale. */
     double overshoot() const;
 
-    bool has_passed(const FittedProblem &problem, bool inner, unsigned int ray,
-                    double time, const dealii::Vector<double> &u) const;
     bool is_dirichlet_beyond(const FittedProblem &problem, bool inner, double time) const;
     void check_source(const FittedProblem &problem, double time) const;
     void check_nodes(const FittedProblem &problem, long step, double time,

@@ -5,16 +5,12 @@
 
 namespace meltfront::reference_fem::fitted
 {
-  /** T - T_m (K) along the ray of a problem with one phase and no source, and its
-   * derivative (K/m). The arguments must outlive the object. */
+  /** T - T_m (K) along the ray of a problem at a time, and its derivative (K/m). The
+   * arguments must outlive the object. */
   class Profile
   {
   public:
-    Profile(const FittedProblem &problem, const dealii::Vector<double> &u)
-      : problem(problem)
-      , u(u)
-    {
-    }
+    Profile(const FittedProblem &problem, double time, const dealii::Vector<double> &u);
 
     double value(double r) const
     {
@@ -30,7 +26,9 @@ namespace meltfront::reference_fem::fitted
     double evaluate(double r, bool derivative) const;
 
     const FittedProblem &problem;
+    double time;
     const dealii::Vector<double> &u;
+    std::vector<double> faces; ///< of the layers (m)
   };
 } // namespace meltfront::reference_fem::fitted
 

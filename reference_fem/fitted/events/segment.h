@@ -23,7 +23,7 @@ namespace meltfront::reference_fem::fitted
     std::string text; ///< one clause; empty for the start of the run
   };
 
-  /** A part of a run with one mesh: one phase, or two with a front between them. */
+  /** A part of a run with one mesh: phases between fronts and walls. */
   struct RunSegment
   {
     std::shared_ptr<FittedProblem> problem;
@@ -54,13 +54,22 @@ namespace meltfront::reference_fem::fitted
                                       bool front_first);
 
   /**
-   * Of a new phase beside a wall and an old one: equal cells in the new one, in the old
-   * one cells that widen from the front, where a quarter of @p layer (m) is 1/cells wide
-   * at first, and in the same way from the far end if @p far_layer is above 0.
-   *
-   * @param inner the new phase is at the inner end of the rays
+   * Of the one phase that a ray holds when fronts start: cells that widen from each end
+   * at which a layer (m, 0: none) forms. A quarter of it is 1/cells wide at first.
    */
-  RayMesh seed_mesh(const RayScene &rays, bool inner, double layer, double far_layer);
+  std::vector<double> shares_of_layers(const RayScene &rays, double at_inner,
+                                       double at_outer);
+
+  /**
+   * The cells of an interval, those at one of its ends anew: from a share of @p first on
+   * they widen by @p ratio until they are as wide as those that were there, which go on
+   * from their next face.
+   */
+  std::vector<double> drawn_shares(const std::vector<double> &shares, double first,
+                                   double ratio, bool to_lower);
+
+  /** By how much cells widen from a layer. */
+  double widening(const RayScene &rays);
 } // namespace meltfront::reference_fem::fitted
 
 #endif

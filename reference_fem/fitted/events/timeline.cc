@@ -1,15 +1,14 @@
+#include <reference_fem/fitted/events/approach.h>
 #include <reference_fem/fitted/events/data_steps.h>
-#include <reference_fem/fitted/events/profile.h>
 #include <reference_fem/fitted/events/timeline.h>
 
 #include <cases/error.h>
 
-#include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <limits>
 #include <utility>
 
 namespace meltfront::reference_fem::fitted
@@ -18,12 +17,8 @@ namespace meltfront::reference_fem::fitted
   {
     using dealii::Vector;
 
-    /** The share of a ray, at its centre of the volume, at which a phase is dropped: less
-     * than that is lost in the rounding of the heat of all. */
-    constexpr double thinnest = 1e-9;
-
-    /** The same where many rays are followed, of which one arrives before the others: how
-     * a phase breaks up is not simulated. */
+    /** The share of a ray at which a phase is about to break up where many rays are
+     * followed, of which one arrives before the others: that is not simulated. */
     constexpr double thinnest_of_many = 1e-3;
 
     /** A front is approached that will reach an end within so many steps. */
@@ -40,44 +35,14 @@ namespace meltfront::reference_fem::fitted
      * so while steps and cells do not resolve how it gets there. */
     constexpr int early_steps = 4;
 
+    /** Of the temperature scale: rounding of a wall at the melting temperature. */
+    constexpr double at_melting = 1e-12;
+
     /** Refinements after which a wall is at the melting temperature from the start. */
     constexpr int most_refinements = 12;
 
-    /** A wall that is so shortly after it has passed the melting temperature, of the time
-     * to the seed, as far off it as this share of what it is at the seed, has jumped. */
-    constexpr double shortly = 1e-3, already = 0.1;
-
-    /** Shortest step of an approach, of the run. */
-    constexpr double shortest = 1e-13;
-
-    double thinnest_share(const RayMesh &mesh, const bool to_inner)
-    {
-      return to_inner && mesh.has_centre()
-                 ? std::pow(thinnest, 1. / (mesh.surface.exponent + 1))
-                 : thinnest;
-    }
-
-    /** How far a front is from the end that it moves to, and for how long. */
-    struct Approach
-    {
-      bool to_inner = false;
-      double distance = 0, remaining = 0; ///< m, on the clock
-    };
-
-    Approach approach_of(const FittedProblem &problem, const Vector<double> &u,
-                         const double rate)
-    {
-      const RayMesh &mesh = problem.mesh();
-      const double h = u[mesh.front_node(0)];
-      Approach result;
-      result.to_inner = rate < 0;
-      result.distance = result.to_inner ? h - mesh.inner : mesh.outer - h;
-      result.remaining = result.distance / std::max(std::abs(rate), 1e-300);
-      // To a centre it is the volume within that shrinks evenly, or faster.
-      if(result.to_inner && mesh.has_centre())
-        result.remaining /= mesh.surface.exponent + 1;
-      return result;
-    }
+    /** An approach is left when so many steps of the usual length are left to its end. */
+    constexpr double steps_away = 6;
 
     /** Whether the front comes so close to an end of a ray that it breaks up there. */
     bool touches_end(const FittedProblem &problem, const AcceptedStep &step)
@@ -106,6 +71,20 @@ namespace meltfront::reference_fem::fitted
         integrator.advance_to(range->end, range->step * (1 + 1e-9), watched);
     }
 
+    /** Planned steps, none beyond an end. */
+    std::vector<StepRange> steps_until(const std::vector<StepRange> &planned,
+                                       const double end)
+    {
+      std::vector<StepRange> result;
+      for(const StepRange &range : planned)
+      {
+        result.push_back({std::min(range.end, end), range.step});
+        if(range.end >= end)
+          break;
+      }
+      return result;
+    }
+
     void add(const IntegrationCost &cost, IntegrationCost &total)
     {
       total.halved += cost.halved;
@@ -129,22 +108,25 @@ namespace meltfront::reference_fem::fitted
 
   void Timeline::run(RunSegment first)
   {
-    const HeatContent heat = first.problem->heat(first.time, first.state);
     std::optional<RunSegment> segment = std::move(first);
+    const FittedProblem &problem = *segment->problem;
     begin(*segment);
-    phases.start(*segment->problem, segment->time, segment->state);
-    const bool one_phase = !segment->problem->mesh().has_front();
-    if(!one_phase)
-      phases.check(*segment->problem, 0, segment->time, segment->state);
+    phases.start(problem, segment->time, segment->state);
+    const bool has_front = problem.mesh().has_front();
+    if(has_front)
+      phases.check(problem, 0, segment->time, segment->state);
     listener.step(0, segment->time, segment->state, false);
-    if(one_phase)
+    if(follows_events())
     {
-      const OnePhase initial = initial_phase(setting, heat.sensible + heat.latent);
-      if(const auto start = sudden_start(setting, initial))
-      {
-        segment = seeded_stretch(setting, *start, initial);
-        begin(*segment);
-      }
+      if(auto next = set_out(*segment, initial_layers(setting, *segment)))
+        begin(*(segment = std::move(next)));
+    }
+    else
+    {
+      const double clock = problem.physics().clock.clock(segment->time);
+      for(const WallCrossing &crossing :
+          phases.wall_crossings(problem, clock, clock, segment->state))
+        phases.refuse(crossing.inner, segment->time);
     }
     while((segment = integrate(*segment)))
       begin(*segment);
@@ -166,7 +148,7 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  void Timeline::accept(const RunSegment &segment, const AcceptedStep &step)
+  void Timeline::accept(const RunSegment &segment, const AcceptedStep &step, Point &point)
   {
     const Clock &clock = segment.problem->physics().clock;
     const double end = setting.scene.end_time;
@@ -174,6 +156,7 @@ namespace meltfront::reference_fem::fitted
     const double time = last ? end : clock.time(step.clock);
     phases.check(*segment.problem, ++steps, time, step.u);
     listener.step(steps, time, step.u, last);
+    point = {step.clock, step.u, step.rate};
   }
 
   std::optional<RunSegment> Timeline::integrate(const RunSegment &segment)
@@ -181,80 +164,94 @@ namespace meltfront::reference_fem::fitted
     const FittedProblem &problem = *segment.problem;
     const Clock &clock = problem.physics().clock;
     const double from = clock.clock(segment.time);
+    const double jump = next_jump(segment.time), shift = beside_jump();
+    const double end = clock.clock(std::min(jump - shift, setting.scene.end_time));
     const std::vector<StepRange> ranges
-        = fit_to_data(segment.steps, from, clock, data_of(problem, segment.state),
-                      options.tolerance > 0);
-    const bool has_front = problem.mesh().has_front();
-    if(!has_front)
+        = fit_to_data(steps_until(segment.steps, end), from, clock,
+                      data_of(problem, segment.state), options.tolerance > 0);
+    if(may_pass_early(segment))
       if(auto next = refined(segment, ranges))
         return next;
     Integrator integrator(problem, options_for(segment));
     integrator.start(from, segment.state);
-    std::optional<RunSegment> next = has_front
-                                         ? integrate_front(segment, ranges, integrator)
-                                         : integrate_phase(segment, ranges, integrator);
+    Point last{from, segment.state, Vector<double>(segment.state.size())};
+    std::optional<RunSegment> next;
+    while(!next && last.clock < end)
+    {
+      const Halt halt = take_planned_steps(segment, ranges, integrator, last);
+      if(!halt.crossings.empty())
+        next = pass_walls(segment, integrator, last, halt.crossings);
+      else if(halt.shrinks)
+        next = approach_end(segment, ranges, integrator, last);
+    }
     add(integrator.cost(), total);
+    if(!next && jump < setting.scene.end_time)
+      next = after_jump(segment, jump + shift, last.u);
     return next;
   }
 
-  std::optional<RunSegment>
-  Timeline::integrate_phase(const RunSegment &segment,
-                            const std::vector<StepRange> &ranges, Integrator &integrator)
-  {
-    Point before{integrator.clock(), segment.state, 0};
-    std::optional<WallCrossing> crossing;
-    const auto after_step = [&](const AcceptedStep &step)
-    {
-      crossing = phases.wall_crossing(*segment.problem, before.clock, step.clock, step.u);
-      if(crossing)
-        return false;
-      accept(segment, step);
-      before = {step.clock, step.u, 0};
-      return true;
-    };
-    advance(integrator, ranges, after_step);
-    return crossing ? cross_wall(segment, integrator, before, *crossing) : std::nullopt;
-  }
-
-  std::optional<RunSegment>
-  Timeline::integrate_front(const RunSegment &segment,
-                            const std::vector<StepRange> &ranges, Integrator &integrator)
+  Timeline::Halt Timeline::take_planned_steps(const RunSegment &segment,
+                                              const std::vector<StepRange> &ranges,
+                                              Integrator &integrator, Point &last)
   {
     const FittedProblem &problem = *segment.problem;
-    const unsigned int front = problem.mesh().front_node(0);
-    const bool followed = setting.options.dimension == 1;
-    Point last{integrator.clock(), segment.state, 0};
-    bool arrives = false;
+    Halt halt;
     const auto after_step = [&](const AcceptedStep &step)
     {
-      const auto crossing = phases.wall_crossing(problem, last.clock, step.clock, step.u);
-      // A phase may vanish at a wall at the time at which that passes the melting
-      // temperature: the step was too long.
-      if(crossing && followed && last.front_rate != 0
-         && approach_of(problem, last.u, last.front_rate).to_inner == crossing->inner)
+      halt.crossings = phases.wall_crossings(problem, last.clock, step.clock, step.u);
+      if(!halt.crossings.empty() && !follows_events())
+        phases.refuse(halt.crossings[0].inner,
+                      problem.physics().clock.time(halt.crossings[0].clock));
+      if(doubtful(problem, halt.crossings, last.u, last.rate, step.clock - last.clock))
       {
-        arrives = true;
+        halt = {{}, true};
         return false;
       }
-      if(crossing)
-        phases.refuse(problem, crossing->inner,
-                      problem.physics().clock.time(crossing->clock));
-      accept(segment, step);
-      last = {step.clock, step.u, step.rate[front]};
-      if(!followed && touches_end(problem, step))
+      if(!halt.crossings.empty())
+        return false;
+      accept(segment, step, last);
+      if(!follows_events() && touches_end(problem, step))
         throw cases::Refusal(fmt::format(
             "{} follows a front that reaches an end of the domain only along a line "
             "(symmetry other than none); here it does at t = {:.6g}",
             options.method, problem.physics().clock.time(step.clock)));
-      arrives = followed
-                && approach_of(problem, last.u, last.front_rate).remaining
-                       < steps_ahead * step.size;
-      return !arrives;
+      halt.shrinks
+          = follows_events()
+            && soonest(problem, last.u, last.rate).remaining < steps_ahead * step.size;
+      return !halt.shrinks;
     };
-    advance(integrator, ranges, after_step);
-    if(!arrives || !(last.clock < problem.physics().clock.clock(setting.scene.end_time)))
-      return std::nullopt;
-    return approach_end(segment, ranges, integrator, last);
+    if(integrator.clock() != last.clock)
+      integrator.start(last.clock, last.u);
+    bool goes_on = true;
+    for(auto range = ranges.begin(); goes_on && range != ranges.end(); ++range)
+      if(range->end > last.clock)
+        integrator.advance_to(range->end, range->step * (1 + 1e-9),
+                              [&](const AcceptedStep &step)
+                              { return goes_on = after_step(step); });
+    return halt;
+  }
+
+  bool Timeline::may_pass_early(const RunSegment &segment) const
+  {
+    const FittedProblem &problem = *segment.problem;
+    const RayMesh &mesh = problem.mesh();
+    if(!follows_events() || !mesh.has_front())
+      return follows_events();
+    const Physics &physics = problem.physics();
+    for(const bool inner : {true, false})
+    {
+      const cases::Boundary &wall = inner ? physics.inner_wall : physics.outer_wall;
+      if((inner && mesh.has_centre()) || !cases::prescribes_heat(wall.kind))
+        continue;
+      const bool solid = problem.phase(inner ? 0 : mesh.n_fronts()).solid;
+      const double flux
+          = cases::heat_through(wall, mesh.position(0, inner ? mesh.inner : mesh.outer),
+                                segment.time, physics.melting_temperature)
+                .flux;
+      if(solid ? flux > 0 : flux < 0)
+        return true;
+    }
+    return false;
   }
 
   std::optional<RunSegment> Timeline::refined(const RunSegment &segment,
@@ -270,20 +267,28 @@ namespace meltfront::reference_fem::fitted
       Integrator trial(problem, options_for(present));
       trial.start(clock.clock(present.time), present.state);
       double before = trial.clock();
-      std::optional<WallCrossing> crossing;
+      std::vector<WallCrossing> crossings;
       int tried = 0;
       const auto after_step = [&](const AcceptedStep &step)
       {
-        crossing = phases.wall_crossing(problem, before, step.clock, step.u);
+        crossings = phases.wall_crossings(problem, before, step.clock, step.u);
         before = step.clock;
-        return !crossing && ++tried < early_steps;
+        return crossings.empty() && ++tried < early_steps;
       };
       advance(trial, ranges, after_step);
       add(trial.cost(), total);
-      if(!crossing)
+      // A wall that is at the melting temperature starts its front at once.
+      std::erase_if(crossings,
+                    [&](const WallCrossing &crossing)
+                    {
+                      return std::abs(problem.wall_excess(crossing.inner, 0, present.time,
+                                                          present.state))
+                             <= at_melting * problem.physics().temperature_scale;
+                    });
+      if(crossings.empty())
         return finer;
-      finer = refined_stretch(setting, present, crossing->inner,
-                              clock.time(crossing->clock) - present.time);
+      finer = refined_stretch(setting, present, crossings[0].inner,
+                              clock.time(crossings[0].clock) - present.time);
       ranges = fit_to_data(finer->steps, 0, finer->problem->physics().clock,
                            data_of(*finer->problem, finer->state), options.tolerance > 0);
     }
@@ -293,118 +298,26 @@ namespace meltfront::reference_fem::fitted
         segment.time));
   }
 
-  std::optional<RunSegment> Timeline::cross_wall(const RunSegment &segment,
-                                                 Integrator &integrator,
-                                                 const Point &before,
-                                                 const WallCrossing &crossing)
-  {
-    const FittedProblem &problem = *segment.problem;
-    const Clock &clock = problem.physics().clock;
-    const bool inner = crossing.inner;
-    const auto excess_at = [&](const double end)
-    {
-      integrator.start(before.clock, before.u);
-      integrator.advance_to(end, crossing.clock - before.clock);
-      return problem.wall_excess(inner, 0, clock.time(end), integrator.state());
-    };
-    const double at_start
-        = problem.wall_excess(inner, 0, clock.time(before.clock), before.u),
-        at_end = excess_at(crossing.clock);
-    double lower = before.clock, upper = before.clock;
-    // A step may end on the melting temperature, up to rounding.
-    if(at_start * at_end < 0)
-    {
-      std::uintmax_t iterations = 100;
-      std::tie(lower, upper) = boost::math::tools::toms748_solve(
-          [&](const double end)
-          { return end == before.clock ? at_start : excess_at(end); },
-          before.clock, crossing.clock, at_start, at_end,
-          boost::math::tools::eps_tolerance<double>(50), iterations);
-    }
-    const double time = clock.time(0.5 * (lower + upper));
-    if(has_jumped(segment, time, inner))
-    {
-      excess_at(lower);
-      return after_jump(segment, clock.time(upper), integrator.state(), inner);
-    }
-    excess_at(0.5 * (lower + upper));
-    return late_stretch(setting, segment, time, integrator.state(), inner,
-                        options_for(segment));
-  }
-
-  bool Timeline::has_jumped(const RunSegment &segment, const double time,
-                            const bool inner) const
-  {
-    const FittedProblem &problem = *segment.problem;
-    const Physics &physics = problem.physics();
-    const cases::Boundary &wall = inner ? physics.inner_wall : physics.outer_wall;
-    if(wall.kind != cases::BoundaryKind::fixed_temperature)
-      return false;
-    const RayMesh &mesh = problem.mesh();
-    const double since = time_of_seed(setting, segment, time);
-    const auto excess_after = [&](const double share)
-    {
-      return std::abs(wall.value(mesh.position(0, inner ? mesh.inner : mesh.outer),
-                                 time + share * since)
-                      - physics.melting_temperature);
-    };
-    return excess_after(shortly) > already * excess_after(1);
-  }
-
-  std::optional<RunSegment> Timeline::after_jump(const RunSegment &segment,
-                                                 const double time,
-                                                 const Vector<double> &u,
-                                                 const bool inner)
-  {
-    const FittedProblem &problem = *segment.problem;
-    const Profile profile(problem, u);
-    const HeatContent heat = problem.heat(time, u);
-    OnePhase state;
-    state.time = time;
-    state.temperature = [&](const double r)
-    { return problem.physics().melting_temperature + profile.value(r); };
-    state.solid = problem.physics().phases[0].solid;
-    state.heat = heat.sensible + heat.latent;
-    state.before = segment.before;
-    state.before.walls += heat.walls;
-    state.before.sources += heat.sources;
-    const auto start = start_at_wall(setting, state, inner);
-    if(!start || problem.physics().power)
-      throw cases::Refusal(fmt::format("fem-fitted cannot start a front at the wall {}, "
-                                       "which jumps across the melting "
-                                       "temperature at t = {:.6g}",
-                                       to_string(side_at(setting.scene, inner)), time));
-    return seeded_stretch(setting, *start, state);
-  }
-
   std::optional<RunSegment> Timeline::approach_end(const RunSegment &segment,
                                                    const std::vector<StepRange> &ranges,
-                                                   Integrator &integrator, Point last)
+                                                   Integrator &integrator, Point &last)
   {
     const FittedProblem &problem = *segment.problem;
-    const RayMesh &mesh = problem.mesh();
     const Clock &clock = problem.physics().clock;
-    const double end = clock.clock(setting.scene.end_time);
-    Approach state = approach_of(problem, last.u, last.front_rate);
+    const double end = ranges.back().end;
+    Approach state = soonest(problem, last.u, last.rate);
+    std::vector<WallCrossing> crossings;
     bool too_long = false;
     double step = std::min(1e-3 * (end - last.clock), approach * state.remaining);
     const auto after_step = [&](const AcceptedStep &accepted)
     {
-      // The wall may pass the melting temperature when the phase at it vanishes, not
-      // before.
-      too_long = false;
-      if(const auto crossing
-         = phases.wall_crossing(problem, last.clock, accepted.clock, accepted.u))
+      crossings = phases.wall_crossings(problem, last.clock, accepted.clock, accepted.u);
+      too_long = doubtful(problem, crossings, last.u, last.rate, accepted.size);
+      if(!too_long && crossings.empty())
       {
-        too_long = crossing->inner == state.to_inner
-                   && accepted.size > shortest * (end - clock.clock(segment.time));
-        if(too_long)
-          return false;
-        phases.refuse(problem, crossing->inner, clock.time(crossing->clock));
+        accept(segment, accepted, last);
+        state = soonest(problem, last.u, last.rate);
       }
-      accept(segment, accepted);
-      last = {accepted.clock, accepted.u, accepted.rate[mesh.front_node(0)]};
-      state = approach_of(problem, last.u, last.front_rate);
       return false;
     };
     integrator.start(last.clock, last.u);
@@ -420,17 +333,18 @@ namespace meltfront::reference_fem::fitted
         step /= 4;
         continue;
       }
-      if(state.distance
-         < thinnest_share(mesh, state.to_inner) * (mesh.outer - mesh.inner))
+      if(!crossings.empty())
+        return pass_walls(segment, integrator, last, crossings);
+      if(has_vanished(problem.mesh(), state))
         return remaining_stretch(setting, segment, clock.time(last.clock), last.u,
-                                 state.to_inner);
+                                 state.interval);
+      if(state.remaining > steps_away * range->step)
+        return std::nullopt;
       step = std::min({approach * state.remaining, 2 * step, range->step});
     }
     if(last.clock < end)
       throw cases::NumericalError(options.method, steps, clock.time(last.clock),
-                                  "the front",
-                                  "comes close to an end of the domain and "
-                                  "stays there");
+                                  "a phase", "comes close to its end and stays there");
     return std::nullopt;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -1,4 +1,3 @@
-#include <reference_fem/fitted/events/profile.h>
 #include <reference_fem/fitted/events/transitions.h>
 
 #include <cases/error.h>
@@ -7,22 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace meltfront::reference_fem::fitted
 {
   namespace
   {
-    using cases::BoundaryKind;
     using dealii::Vector;
-
-    /** How long after the crossing a front is seeded, of the time that is left. */
-    constexpr double late_share = 1e-5;
-
-    /** The same, of the time that the wall took to get there: for so long its
-     * temperature is a ramp. */
-    constexpr double ramp_share = 1e-2;
 
     constexpr double growth_of_steps = 2;
 
@@ -31,31 +21,47 @@ namespace meltfront::reference_fem::fitted
     constexpr double cells_in_layer = 2;
     constexpr int steps_to_passing = 28;
 
-    /** Secant steps for the front's place: its heat is all but linear in it. */
-    constexpr int balance_steps = 6;
-
     HeatContent sum_of(const HeatContent &a, const HeatContent &b)
     {
       return {a.sensible + b.sensible, a.latent + b.latent, a.walls + b.walls,
               a.sources + b.sources};
     }
 
-    /** i^2erfc, the second integral of the complementary error function. */
-    double second_integral(const double x)
+    /** Halve the cells of an interval on both sides of the face at @p place until those
+     * next to it are that small. */
+    std::vector<double> halved_towards(std::vector<double> shares, const double place,
+                                       const double smallest)
     {
-      return 0.25
-             * ((1 + 2 * x * x) * std::erfc(x)
-                - 2 * x * std::exp(-x * x) / std::sqrt(std::numbers::pi));
+      auto face = std::ranges::min_element(
+          shares, {}, [&](const double share) { return std::abs(share - place); });
+      for(; face != shares.begin() && *face - *(face - 1) > smallest; ++face)
+        face = shares.insert(face, 0.5 * (*face + *(face - 1)));
+      while(face + 1 != shares.end() && *(face + 1) - *face > smallest)
+        face = shares.insert(face + 1, 0.5 * (*face + *(face + 1))) - 1;
+      return shares;
     }
 
-    Physics one_phase_physics(const EventScene &setting, const bool solid)
+    /** The state of a segment on a mesh with more faces, and steps to come. */
+    RunSegment on_finer_mesh(const EventScene &setting, const RunSegment &segment,
+                             const std::vector<std::vector<double>> &shares,
+                             const Clock &clock)
     {
-      Physics physics = physics_of(setting.scene, setting.effects, setting.options, true);
-      if(!solid)
-        std::swap(physics.phases[0], physics.phases[1]);
-      // Liquid moves only where a front makes it.
-      physics.displacement = 0;
-      return physics;
+      const FittedProblem &old = *segment.problem;
+      const RayMesh &mesh = old.mesh();
+      Physics physics = old.physics();
+      physics.clock = clock;
+      const LayeredState layers = layers_of(segment, segment.time, segment.state);
+      RunSegment result;
+      result.problem = std::make_shared<FittedProblem>(
+          RayMesh(mesh.surface, mesh.inner, mesh.outer, shares), physics);
+      result.time = segment.time;
+      result.state
+          = result.problem->state(segment.time, layers.fronts,
+                                  [&](const cases::Position &p) {
+                                    return layers.temperature(coordinate_of(setting, p));
+                                  });
+      result.before = layers.before;
+      return result;
     }
   } // namespace
 
@@ -65,7 +71,8 @@ namespace meltfront::reference_fem::fitted
     const RayScene &rays = setting.rays;
     const RayMesh mesh(rays.surface, rays.inner, rays.outer,
                        graded_shares(rays.cells, 1, true));
-    Physics physics = one_phase_physics(setting, initial_front(scene, rays).solid_inside);
+    Physics physics
+        = physics_between(setting, initial_fronts(scene, rays).solid_inside, 0);
     physics.clock = {};
     // A sink makes a front at once: this is the state before it is switched on.
     physics.power = {};
@@ -85,42 +92,19 @@ namespace meltfront::reference_fem::fitted
   RunSegment refined_stretch(const EventScene &setting, const RunSegment &segment,
                              const bool inner, const double soon)
   {
-    const FittedProblem &old = *segment.problem;
-    const RayMesh &mesh = old.mesh();
-    const Phase &phase = old.physics().phases[0];
-    const double length = mesh.outer - mesh.inner;
-    const double layer = std::sqrt(phase.conductivity / phase.capacity * soon)
-                         / (cells_in_layer * length);
-    std::vector<double> shares;
-    for(const Layer &cells : mesh.layers)
-      shares.push_back((cells.fixed[0] - mesh.inner) / length);
-    shares.push_back(1);
-    // From the wall on, as distances.
-    if(!inner)
-      std::ranges::reverse(shares);
-    while(std::abs(shares[1] - shares[0]) > layer)
-      shares.insert(shares.begin() + 1, 0.5 * (shares[0] + shares[1]));
-    if(!inner)
-      std::ranges::reverse(shares);
-
-    Physics physics = old.physics();
-    physics.clock = {true, segment.time};
-    RunSegment result;
-    result.problem = std::make_shared<FittedProblem>(
-        RayMesh(mesh.surface, mesh.inner, mesh.outer, shares), physics);
-    result.time = segment.time;
-    const Profile profile(old, segment.state);
-    result.state
-        = result.problem->state(segment.time, {},
-                                [&](const cases::Position &p)
-                                {
-                                  const double r = setting.scene.domain.round()
-                                                       ? std::hypot(p[0], p[1], p[2])
-                                                       : p[0];
-                                  return physics.melting_temperature + profile.value(r);
-                                });
-    const HeatContent before = old.heat(segment.time, segment.state);
-    result.before = sum_of(segment.before, {0, 0, before.walls, before.sources});
+    const RayMesh &mesh = segment.problem->mesh();
+    const unsigned int interval = inner ? 0 : mesh.n_fronts();
+    const Phase &phase = segment.problem->phase(interval);
+    const double length
+        = room_at_wall(setting, layers_of(segment, segment.time, segment.state), inner);
+    std::vector<std::vector<double>> shares = mesh.shares;
+    shares[interval]
+        = halved_towards(shares[interval], inner ? 0 : 1,
+                         std::sqrt(phase.conductivity / phase.capacity * soon)
+                             / (cells_in_layer * length));
+    RunSegment result
+        = on_finer_mesh(setting, segment, shares, Clock{true, segment.time});
+    const Physics &physics = result.problem->physics();
     const double early = std::min(physics.clock.clock(segment.time + 2 * soon),
                                   physics.clock.clock(setting.scene.end_time));
     const double end = physics.clock.clock(setting.scene.end_time);
@@ -136,171 +120,177 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  double time_of_seed(const EventScene &setting, const RunSegment &past,
-                      const double crossing)
+  namespace
   {
-    return std::min({late_share * (setting.scene.end_time - crossing),
-                     ramp_share * (crossing - past.time),
-                     0.5 * time_to_breakpoint(setting.scene, crossing)});
-  }
-
-  RunSegment late_stretch(const EventScene &setting, const RunSegment &past,
-                          const double crossing, const Vector<double> &u,
-                          const bool inner, const IntegrationOptions &integration)
-  {
-    const cases::Scene &scene = setting.scene;
-    const RayScene &rays = setting.rays;
-    const Physics &old = past.problem->physics();
-    const double since = time_of_seed(setting, past, crossing);
-    const double time = crossing + since;
-
-    if(old.power)
-      throw cases::Refusal(fmt::format(
-          "fem-fitted follows one front beside a source; at t = {:.6g} a wall passes the "
-          "melting temperature",
-          crossing));
-    Integrator beyond(*past.problem, integration);
-    beyond.start(old.clock.clock(crossing), u);
-    beyond.advance_to(old.clock.clock(time), scene.end_time);
-    const Profile profile(*past.problem, beyond.state());
-    const double wall = inner ? rays.inner : rays.outer;
-    const double excess = past.problem->wall_excess(inner, 0, time, beyond.state());
-    const Phase &phase = old.phases[0];
-    const bool new_is_solid = !phase.solid;
-    if((excess < 0) != new_is_solid || excess == 0)
-      throw cases::NumericalError(integration.method, 0, time, "the wall",
-                                  "turned back from the melting temperature at once");
-
-    Physics physics
-        = physics_of(scene, setting.effects, setting.options, inner == new_is_solid);
-    physics.clock = {true, crossing};
-    const Phase &new_phase = physics.phases[inner ? 0 : 1];
-    const double latent
-        = scene.material.latent_heat
-          * (new_is_solid ? scene.material.solid.density : scene.material.liquid.density);
-    const double diffusivity = phase.conductivity / phase.capacity;
-    const double layer = 2 * std::sqrt(diffusivity * since);
-    RunSegment result;
-    result.problem
-        = std::make_shared<FittedProblem>(seed_mesh(rays, inner, layer, 0), physics);
-    result.time = time;
-
-    // Everything by distance from the wall; positive slopes lead away from it.
-    const cases::Boundary &wall_law = inner ? old.inner_wall : old.outer_wall;
-    const double outflow = phase.conductivity * profile.slope(wall) * (inner ? 1 : -1);
-    const double rate = std::abs(excess) / since;
-    const double direction = new_is_solid ? 1 : -1;
-    const bool held = wall_law.kind == BoundaryKind::fixed_temperature;
-    double width = 4. / 3 * phase.conductivity * std::abs(excess) * std::sqrt(since)
-                   / (latent * std::sqrt(std::numbers::pi * diffusivity));
-    if(held)
-      width = since
-              * (std::sqrt(std::pow(outflow, 2)
-                           + 4 * latent * new_phase.conductivity * rate)
-                 - direction * outflow)
-              / (2 * latent);
-    const RayMesh &mesh = result.problem->mesh();
-    const double gradient
-        = held ? -excess / width
-               : -cases::heat_through(wall_law, mesh.position(0, wall), time,
-                                      scene.material.melting_temperature)
-                         .flux
-                     / new_phase.conductivity;
-    const auto state_with = [&](const double front)
+    /** The cells of an interval without those of others that are no more. */
+    std::vector<double> shares_between(const std::vector<double> &faces)
     {
-      return result.problem->state(
-          time, {inner ? wall + front : wall - front},
-          [&](const cases::Position &p)
-          {
-            const double r = scene.domain.round() ? std::hypot(p[0], p[1], p[2]) : p[0];
-            const double distance = std::abs(r - wall);
-            const double above
-                = distance < front
-                      ? gradient * (distance - front)
-                      : profile.value(r) - 4 * excess * second_integral(distance / layer);
-            return scene.material.melting_temperature + above;
-          });
-    };
-    const HeatContent before = past.problem->heat(time, beyond.state());
-    const auto surplus = [&](const Vector<double> &state)
-    {
-      const HeatContent now = result.problem->heat(time, state);
-      return now.sensible + now.latent - before.sensible - before.latent;
-    };
-    result.state = state_with(width);
-    const double area = std::pow(wall, rays.surface.exponent)
-                        * (rays.surface.exponent == 0   ? 1
-                           : rays.surface.exponent == 1 ? 2 * std::numbers::pi
-                                                        : 4 * std::numbers::pi);
-    for(int step = 0; !held && step < balance_steps; ++step)
-    {
-      width += direction * surplus(result.state) / (latent * area);
-      if(!(width > 0))
-        throw cases::Refusal(
-            fmt::format("{} cannot start a front at the wall {} at t = {:.6g}: no place "
-                        "of it balances "
-                        "the heat of its cells there; more cells would help",
-                        integration.method, to_string(side_at(scene, inner)), time));
-      result.state = state_with(width);
+      std::vector<double> shares;
+      for(const double face : faces)
+        shares.push_back((face - faces.front()) / (faces.back() - faces.front()));
+      return shares;
     }
-    result.before = sum_of(past.before, {0, 0, before.walls, before.sources});
-    result.before.walls += surplus(result.state);
-    result.steps = lengthening_steps(physics.clock.clock(time),
-                                     physics.clock.clock(scene.end_time),
-                                     steps_for(setting, crossing), growth_of_steps);
-    result.event = {crossing, fmt::format("the wall {} passes the melting temperature "
-                                          "and a front starts there",
-                                          to_string(side_at(scene, inner)))};
-    return result;
+
+    /** What is left of a mesh without an interval: its levels with the intervals they lay
+     * in, and fronts and cells as they are then. */
+    struct Remains
+    {
+      double place = 0; ///< of what is gone (m)
+      std::vector<unsigned int> levels, intervals;
+      std::vector<double> fronts;
+      std::vector<std::vector<double>> shares{{}};
+    };
+
+    Remains remains_without(const FittedProblem &old, const Vector<double> &u,
+                            const unsigned int vanished)
+    {
+      const RayMesh &mesh = old.mesh();
+      const unsigned int n = mesh.n_fronts();
+      const bool at_inner = vanished == 0, at_outer = vanished == n;
+      Remains result;
+      // The levels on both sides of the gap are one, and the cells next to it reach as
+      // far as it does.
+      for(unsigned int level = 0; level < mesh.n_levels(); ++level)
+      {
+        const bool before = vanished > 0 && level <= mesh.front_level(vanished - 1);
+        const bool beyond = vanished < n && level >= mesh.front_level(vanished);
+        if(!before && (!beyond || (!at_inner && level == mesh.front_level(vanished))))
+          continue;
+        result.levels.push_back(level);
+        result.intervals.push_back(before
+                                       ? mesh.interval_of(level)
+                                       : std::max(mesh.interval_of(level), vanished + 1));
+      }
+      const double lower = at_inner ? mesh.inner : u[mesh.front_node(0, vanished - 1)];
+      const double upper = at_outer ? mesh.outer : u[mesh.front_node(0, vanished)];
+      result.place = at_inner ? lower : at_outer ? upper : 0.5 * (lower + upper);
+
+      std::vector<double> faces;
+      for(std::size_t i = 0; i < result.levels.size(); i += mesh.surface.degree)
+      {
+        const unsigned int level = result.levels[i], front = mesh.front_at(level);
+        const bool gap
+            = front != RayMesh::none && (front + 1 == vanished || front == vanished);
+        faces.push_back(gap ? result.place : old.coordinate(0, level, u));
+        if(front == RayMesh::none || gap)
+          continue;
+        result.fronts.push_back(faces.back());
+        result.shares.back() = shares_between(faces);
+        result.shares.emplace_back();
+        faces = {faces.back()};
+      }
+      result.shares.back() = shares_between(faces);
+      return result;
+    }
+
+    std::string what_vanishes(const EventScene &setting, const RayMesh &mesh,
+                              const unsigned int vanished, const double place)
+    {
+      if(vanished > 0 && vanished < mesh.n_fronts())
+        return fmt::format("two fronts meet at {:.6g}", place);
+      return fmt::format(
+          "the front reaches {}",
+          vanished == 0 && mesh.has_centre()
+              ? "the centre"
+              : fmt::format("the wall {}",
+                            to_string(side_at(setting.scene, vanished == 0))));
+    }
+
+    /** A segment on cells that are halved towards places where the temperature bends,
+     * with steps that lengthen from short ones. */
+    RunSegment drawn_segment(const EventScene &setting, const RunSegment &segment,
+                             const std::vector<double> &places, const Clock &clock,
+                             const std::string &event)
+    {
+      const RayMesh &mesh = segment.problem->mesh();
+      const std::vector<StepRange> steps = lengthening_steps(
+          clock.clock(segment.time), clock.clock(setting.scene.end_time),
+          steps_for(setting, segment.time), clock.root ? 1 : 2);
+      const double first = clock.time(steps.front().end) - segment.time;
+      std::vector<std::vector<double>> shares = mesh.shares;
+      const LayeredState layers = layers_of(segment, segment.time, segment.state);
+      double lower = mesh.inner;
+      for(unsigned int k = 0; k <= mesh.n_fronts(); ++k)
+      {
+        const double upper = k < mesh.n_fronts() ? layers.fronts[k] : mesh.outer;
+        const Phase &phase = segment.problem->phase(k);
+        const double smallest = std::sqrt(phase.conductivity / phase.capacity * first)
+                                / (cells_in_layer * (upper - lower));
+        for(const double place : places)
+          if(place >= lower && place <= upper)
+            shares[k]
+                = halved_towards(shares[k], (place - lower) / (upper - lower), smallest);
+        lower = upper;
+      }
+      RunSegment result = on_finer_mesh(setting, segment, shares, clock);
+      result.steps = steps;
+      result.event = {segment.time, event};
+      return result;
+    }
+  } // namespace
+
+  RunSegment drawn_to_walls(const EventScene &setting, const RunSegment &segment,
+                            const std::array<WallLayer, 2> &forms)
+  {
+    Clock clock = segment.problem->physics().clock;
+    if(setting.options.clock != "t")
+      clock = {true, segment.time};
+    std::vector<double> places;
+    std::string walls;
+    for(const bool inner : {true, false})
+      if(forms[inner ? 0 : 1].forms())
+      {
+        places.push_back(inner ? setting.rays.inner : setting.rays.outer);
+        walls += fmt::format("{}{}", walls.empty() ? "" : " and ",
+                             to_string(side_at(setting.scene, inner)));
+      }
+    return drawn_segment(setting, segment, places, clock,
+                         fmt::format("cells and steps are drawn to the wall {}, where a "
+                                     "layer of heat forms",
+                                     walls));
   }
 
   RunSegment remaining_stretch(const EventScene &setting, const RunSegment &past,
                                const double time, const Vector<double> &u,
-                               const bool inner_vanishes)
+                               const unsigned int vanished)
   {
-    const RayScene &rays = setting.rays;
     const FittedProblem &old = *past.problem;
-    if(inner_vanishes && old.physics().power)
+    const RayMesh &mesh = old.mesh();
+    if(vanished == 0 && old.physics().power)
       throw cases::Refusal(fmt::format(
           "fem-fitted does not simulate a source whose own phase vanishes, which "
           "leaves no field to split off: at t = {:.6g}",
           time));
-    const int kept = inner_vanishes ? 1 : 0;
-    const unsigned int front = old.mesh().front_level();
-    const unsigned int first = inner_vanishes ? front : 0;
-    const unsigned int last = inner_vanishes ? old.mesh().n_levels() - 1 : front;
-
-    // The same cells, which now reach the wall.
-    const double from = old.coordinate(0, first, u), to = old.coordinate(0, last, u);
-    std::vector<double> shares;
-    for(unsigned int level = first; level <= last; level += rays.surface.degree)
-      shares.push_back((old.coordinate(0, level, u) - from) / (to - from));
-    Physics physics = one_phase_physics(setting, old.physics().phases[kept].solid);
+    const Remains remains = remains_without(old, u, vanished);
+    Physics physics = physics_between(setting, old.phase(vanished == 0 ? 1 : 0).solid,
+                                      remains.fronts.size());
     if(setting.options.clock != "t")
       physics.clock = {true, time};
-
-    RunSegment result;
-    result.problem = std::make_shared<FittedProblem>(
-        RayMesh(rays.surface, rays.inner, rays.outer, shares), physics);
-    result.time = time;
-    result.state.reinit(result.problem->size());
-    for(unsigned int level = first; level <= last; ++level)
-      result.state[result.problem->mesh().node(0, level - first)]
-          = old.theta(kept, 0, level, time, u);
+    RunSegment left;
+    left.problem = std::make_shared<FittedProblem>(
+        RayMesh(mesh.surface, mesh.inner, mesh.outer, remains.shares), physics);
+    left.time = time;
+    left.state.reinit(left.problem->size());
+    const RayMesh &mesh_left = left.problem->mesh();
+    for(unsigned int front = 0; front < remains.fronts.size(); ++front)
+      left.state[mesh_left.front_node(0, front)] = remains.fronts[front];
+    for(unsigned int i = 0; i < remains.levels.size(); ++i)
+      if(mesh_left.front_at(i) == RayMesh::none)
+      {
+        const double r = left.problem->coordinate(0, i, left.state);
+        left.state[i] = old.theta(remains.intervals[i], 0, remains.levels[i], time, u);
+        if(r > 0)
+          left.state[i]
+              += old.source(remains.intervals[i], time)
+                     .value(old.coordinate(0, remains.levels[i], u))
+                 - left.problem->source(mesh_left.interval_of(i), time).value(r);
+      }
     const HeatContent before = old.heat(time, u),
-                      now = result.problem->heat(time, result.state);
-    result.before = sum_of(past.before, before);
-    result.before.sensible -= now.sensible;
-    result.before.latent -= now.latent;
-    const double end = physics.clock.clock(setting.scene.end_time);
-    result.steps = {{end, (end - physics.clock.clock(time)) / steps_for(setting, time)}};
-    result.event
-        = {time, fmt::format("the front reaches {}",
-                             inner_vanishes && old.mesh().has_centre()
-                                 ? "the centre"
-                                 : fmt::format(
-                                     "the wall {}",
-                                     to_string(side_at(setting.scene, inner_vanishes))))};
-    return result;
+                      now = left.problem->heat(time, left.state);
+    left.before = sum_of(past.before, before);
+    left.before.sensible -= now.sensible;
+    left.before.latent -= now.latent;
+    return drawn_segment(setting, left, {remains.place}, physics.clock,
+                         what_vanishes(setting, mesh, vanished, remains.place));
   }
 } // namespace meltfront::reference_fem::fitted

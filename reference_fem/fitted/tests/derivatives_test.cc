@@ -91,8 +91,8 @@ namespace meltfront::reference_fem::fitted
     double worst_difference(const FrontSurface &surface, double inner,
                             const Physics &laws, double wave)
     {
-      const FittedProblem problem(RayMesh(surface, inner, 1.1, {0, 0.4, 1}, {0, 0.5, 1}),
-                                  laws);
+      const FittedProblem problem(
+          RayMesh(surface, inner, 1.1, {{0, 0.4, 1}, {0, 0.5, 1}}), laws);
       const Vector<double> u = random_state(problem, 0.6, wave);
       EXPECT_EQ(problem.reason_invalid(u), "");
       return worst_difference(problem, u);
@@ -162,7 +162,7 @@ namespace meltfront::reference_fem::fitted
       Physics laws = physics();
       laws.inner_wall = {cases::BoundaryKind::flux, cases::Field::uniform(2), false};
       const FittedProblem problem(
-          RayMesh(FrontSurface::sphere(2, 2), 0.2, 1.1, {0, 0.4, 1}, {0, 1}), laws);
+          RayMesh(FrontSurface::sphere(2, 2), 0.2, 1.1, {{0, 0.4, 1}, {0, 1}}), laws);
       const Vector<double> u = random_state(problem, 0.6, 0.1);
       Values at(problem.size());
       problem.evaluate(0.7, u, random_state(problem, 0.2, 0.1), at.mass, at.flow);

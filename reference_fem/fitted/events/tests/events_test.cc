@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -172,6 +173,16 @@ namespace meltfront::reference_fem::fitted
       return timeline.events();
     }
 
+    /** The times at which walls pass the melting temperature. */
+    std::vector<double> passings_of(const cases::Scene &scene, const int n)
+    {
+      std::vector<double> result;
+      for(const Event &event : events_of(scene, n))
+        if(event.text.find("passes the melting") != std::string::npos)
+          result.push_back(event.time);
+      return result;
+    }
+
     TEST(LateStart, IsFoundToRoundOff)
     {
       const std::vector<Event> events = events_of(cooled_bar(0.2), 16);
@@ -197,9 +208,9 @@ namespace meltfront::reference_fem::fitted
     TEST(LateStart, AtAWallThatTransfersHeatIsThatOfTheHalfSpace)
     {
       const double onset = 0.165649071093950;
-      const std::vector<Event> events = events_of(cooled_by_transfer(0.2), 160);
-      ASSERT_EQ(events.size(), 1u);
-      EXPECT_NEAR(events[0].time, onset, 1e-8);
+      const std::vector<double> passings = passings_of(cooled_by_transfer(0.2), 160);
+      ASSERT_EQ(passings.size(), 1u);
+      EXPECT_NEAR(passings[0], onset, 1e-8);
       // A time of one after it, by second-order meshes that were extrapolated.
       EXPECT_NEAR(run(cooled_by_transfer(onset + 1), 80).first_front.back(), 0.33844,
                   1e-5);
@@ -217,9 +228,9 @@ namespace meltfront::reference_fem::fitted
       wall.value = cases::Field::uniform(0.5);
       wall.emission_coefficient = 1;
       set_boundary(scene, Side::x_min, wall);
-      const std::vector<Event> events = events_of(scene, 160);
-      ASSERT_EQ(events.size(), 1u);
-      EXPECT_NEAR(events[0].time, 0.0272189375434, 1e-8);
+      const std::vector<double> passings = passings_of(scene, 160);
+      ASSERT_EQ(passings.size(), 1u);
+      EXPECT_NEAR(passings[0], 0.0272189375434, 1e-8);
     }
 
     TEST(LateStart, AgreesWithTheEnthalpyMethod)
@@ -268,17 +279,6 @@ namespace meltfront::reference_fem::fitted
       EXPECT_LE(record.worst_budget_defect(), 1e-12);
     }
 
-    TEST(Events, AreRefusedWhereOneFrontIsNotEnough)
-    {
-      cases::Scene two_walls = slab(unit_material(), 1, 0.3, 0, 1);
-      set_boundary(two_walls, Side::x_min, fixed_wall(-1));
-      set_boundary(two_walls, Side::x_max, fixed_wall(-1));
-      EXPECT_THROW(run(two_walls, 8), cases::Refusal);
-      cases::Scene at_melting = slab(unit_material(), 1, 0, 0, 1);
-      set_boundary(at_melting, Side::x_min, flux_wall(-1));
-      EXPECT_THROW(run(at_melting, 8), cases::Refusal);
-    }
-
     TEST(RunSegment, StepsLengthenAndCellsWiden)
     {
       const auto steps = lengthening_steps(0.001, 2, 10, 3);
@@ -298,6 +298,36 @@ namespace meltfront::reference_fem::fitted
       EXPECT_NEAR(forward.back(), 1, 1e-15);
       EXPECT_NEAR(forward[2] - forward[1], 1.5 * forward[1], 1e-15);
       EXPECT_NEAR(1 - backward[backward.size() - 2], forward[1], 1e-15);
+    }
+
+    TEST(RunSegment, CellsDrawnToAnEndLeaveTheOthersAsTheyWere)
+    {
+      const std::vector<double> equal = graded_shares(10, 1, true);
+      for(const bool to_lower : {true, false})
+      {
+        std::vector<double> drawn = drawn_shares(equal, 1e-3, 1.5, to_lower);
+        EXPECT_EQ(drawn.front(), 0.);
+        EXPECT_EQ(drawn.back(), 1.);
+        // Far from that end they are those of before.
+        for(const int k : {4, 5, 6})
+          EXPECT_LT(std::abs(*std::ranges::min_element(drawn, {},
+                                                       [&](double x)
+                                                       { return std::abs(x - equal[k]); })
+                             - equal[k]),
+                    1e-15);
+        if(!to_lower)
+          std::ranges::reverse(drawn);
+        const auto width
+            = [&](std::size_t k) { return std::abs(drawn[k + 1] - drawn[k]); };
+        EXPECT_NEAR(width(0), 1e-3, 1e-15);
+        for(std::size_t k = 0; k + 2 < drawn.size(); ++k)
+        {
+          EXPECT_LE(width(k + 1) / width(k), 3.01) << k;
+          EXPECT_GE(width(k + 1) / width(k), 0.49) << k;
+        }
+      }
+      // Nothing to do where cells are as fine already.
+      EXPECT_EQ(drawn_shares(equal, 0.2, 1.5, true), equal);
     }
   } // namespace
 } // namespace meltfront::reference_fem::fitted
