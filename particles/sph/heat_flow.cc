@@ -137,9 +137,9 @@ namespace meltfront::particles
   }
 
   void HeatFlow::let_liquid_flow(const LiquidBalance &balance, const Discretisation &dis,
-                                 std::span<const double> enthalpy)
+                                 std::span<const double> enthalpy, double explicit_step)
   {
-    liquid_flow.emplace(balance, dis, enthalpy, thread_count);
+    liquid_flow.emplace(balance, dis, enthalpy, explicit_step, thread_count);
   }
 
   double HeatFlow::displace(double begin, double end, std::span<double> enthalpy)

@@ -42,10 +42,11 @@ namespace meltfront::particles
     double hold_walls(double fraction, std::span<double> enthalpy);
 
     /** Let displaced liquid pass the particles, in the plane or in space.
-     * @param enthalpy at the start */
+     * @param enthalpy at the start
+     * @param explicit_step the longest Euler step that is made (s) */
     void let_liquid_flow(const LiquidBalance &balance,
                          const Discretisation &discretisation,
-                         std::span<const double> enthalpy);
+                         std::span<const double> enthalpy, double explicit_step);
 
     bool displaces_liquid() const
     {

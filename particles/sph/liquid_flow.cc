@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace meltfront::particles
 {
@@ -15,7 +16,7 @@ namespace meltfront::particles
   {
     /** What may be left over of a step's volumes, of all volume. */
     constexpr double volume_tolerance = 1e-14;
-    /** What an enclosed particle may fail to displace, of its own volume. */
+    /** What an enclosed particle may fail to displace, of all volume. */
     constexpr double enclosed_tolerance = 1e-12;
 
     /** The laws of the potential: nothing passes a wall but through the outlet, where it
@@ -47,26 +48,31 @@ namespace meltfront::particles
     {
       double operator()(std::size_t a, std::size_t b) const
       {
-        return liquid[a] * liquid[b] * (potential[b] - potential[a])
-               * (0.5 * (carried[a] + carried[b]));
+        const double way = liquid[a] * liquid[b] * (potential[b] - potential[a]);
+        const double upwind = std::max(0.5 * std::abs(way) - spread, 0.);
+        return way * (0.5 * (carried[a] + carried[b]))
+               + upwind * (carried[b] - carried[a]);
       }
 
       const double *liquid;
       const double *potential;
       const double *carried;
+      double spread; ///< diffusivity of the liquid times the step
     };
   } // namespace
 
   LiquidFlow::LiquidFlow(const LiquidBalance &balance, const Discretisation &dis,
-                         std::span<const double> enthalpy, int threads)
+                         std::span<const double> enthalpy, double explicit_step,
+                         int threads)
     : balance(balance)
     , material(balance.at_rest.material)
     , thread_count(threads)
-    , spacing(dis.spacing)
     , cross_section(dis.cross_section)
+    , explicit_step(explicit_step)
     , conduction(for_potential(dis, balance.outlet), true)
     , outlet(balance, dis, conduction)
     , solver(conduction.rows, outlet.strengths(conduction.rows.padded_rows()), threads)
+    , enclosed(conduction.rows, outlet.particles())
     , volume(dis.weights)
     , due(dis.particles.size(), 0.)
   {
@@ -88,17 +94,21 @@ namespace meltfront::particles
         {
           ++evaluations;
           const double density = material.solid.density, latent = material.latent_heat;
+          const double spread = duration * material.liquid.diffusivity();
           for(std::size_t a = 0; a < volume.size(); ++a)
             carried[a] = density * std::max(enthalpy[a] - latent, 0.);
           conduction.rows.apply_pairs(
-              CarryingPair{liquid.data(), potential.data(), carried.data()}, passed,
-              thread_count);
+              CarryingPair{liquid.data(), potential.data(), carried.data(), spread},
+              passed, thread_count);
           double through_outlet = 0;
           for(const LiquidOutlet::Opening &opening : outlet.openings())
           {
             const std::uint32_t a = opening.particle;
-            const double heat = -liquid[a] * opening.strength * potential[a]
-                                * opening.sensible_heat(carried[a]);
+            const double passing = opening.sensible_heat(carried[a]);
+            const double upwind = std::max(potential[a] - spread, 0.);
+            const double heat
+                = -liquid[a] * opening.strength
+                  * (potential[a] * passing + upwind * (carried[a] - passing));
             passed[a] += heat;
             through_outlet += heat;
           }
@@ -121,60 +131,60 @@ namespace meltfront::particles
     }
   }
 
-  /** @throws cases::Refusal where something is due that cannot reach the outlet */
-  void LiquidFlow::leave_out_enclosed(double time)
+  void LiquidFlow::settle_enclosed(double time)
   {
-    std::vector<std::uint32_t> reached;
-    std::vector<bool> open(volume.size(), false);
-    const auto reach = [&](std::uint32_t a)
-    {
-      if(liquid[a] == 0 || open[a])
-        return;
-      open[a] = true;
-      reached.push_back(a);
-    };
-    for(const LiquidOutlet::Opening &opening : outlet.openings())
-      reach(opening.particle);
-    for(std::size_t i = 0; i < reached.size(); ++i)
-      conduction.rows.visit_row(reached[i], [&](std::uint32_t b, double) { reach(b); });
-    for(std::size_t a = 0; a < volume.size(); ++a)
-    {
-      if(liquid[a] == 0 || open[a])
-        continue;
-      if(std::abs(due[a]) > enclosed_tolerance * volume[a])
-        throw cases::Refusal(fmt::format(
-            "sph moves liquid that has a way to {}: at t = {:.6g} s solid and walls "
-            "enclose liquid that has {:.3g} of a particle's volume to {}",
-            cases::to_string(balance.outlet), time, std::abs(due[a]) / volume[a],
-            due[a] > 0 ? "displace" : "draw in"));
-      liquid[a] = 0;
-    }
+    const EnclosedLiquid::Outcome outcome
+        = enclosed.settle(std::span(liquid).first(volume.size()), due);
+    if(outcome.stuck > enclosed_tolerance * total_volume)
+      throw cases::Refusal(fmt::format("sph moves liquid that has a way to {}: at t = "
+                                       "{:.6g} s solid and walls enclose "
+                                       "liquid that has to make room",
+                                       cases::to_string(balance.outlet), time));
+    straight_out = outcome.straight_out;
   }
 
-  /** Means of two particles' heat keep the maximum principle as long as a pair conducts
-   * at least half of what it carries. */
-  void LiquidFlow::require_slow(double time) const
+  /** New temperatures of liquid are convex combinations of old ones as long as a step
+   * does not exchange more than there is. */
+  void LiquidFlow::require_short_steps(double time) const
   {
-    const double most = 2 * duration * material.liquid.conductivity
-                        / material.liquid.volumetric_heat_capacity();
+    const double spread = duration * material.liquid.diffusivity();
     const auto [low, high] = std::ranges::minmax(potential);
-    if(high - low <= most)
+    if(high - low <= 2 * spread)
       return;
-    double largest = 0;
+    std::vector<double> exchanged(volume.size(), 0.);
+    for(const LiquidOutlet::Opening &opening : outlet.openings())
+      exchanged[opening.particle]
+          = opening.strength * (spread + std::max(-potential[opening.particle], 0.));
+    double most = 0;
     for(std::size_t a = 0; a < volume.size(); ++a)
-      conduction.rows.visit_row(a,
-                                [&](std::uint32_t b, double) {
-                                  largest = std::max(largest,
-                                                     liquid[a] * liquid[b]
-                                                         * (potential[a] - potential[b]));
-                                });
-    if(largest > most)
-      throw cases::Refusal(
-          fmt::format("sph moves liquid where heat spreads at least as fast as the "
-                      "liquid: at t = {:.6g} s it flows {:.3g} times too fast for "
-                      "particles {:.3g} m apart; more of them, or a smaller jump of the "
-                      "density, would do",
-                      time, largest / most, spacing));
+    {
+      if(liquid[a] == 0)
+        continue;
+      double sum = exchanged[a];
+      conduction.rows.visit_row(
+          a,
+          [&](std::uint32_t b, double g)
+          {
+            const double way = liquid[b] * (potential[b] - potential[a]);
+            sum += g * (std::max(0.5 * std::abs(way), spread) + 0.5 * way);
+          });
+      most = std::max(most, sum / volume[a]);
+    }
+    most *= explicit_step / duration;
+    if(most > 1)
+      throw cases::Refusal(fmt::format("sph moves liquid in explicit steps that exchange "
+                                       "no more than there is: at t = "
+                                       "{:.6g} s it flows {:.3g} times too fast for "
+                                       "that; {:.3g} times the step_factor "
+                                       "would do, or more particles",
+                                       time, most, 0.9 / most));
+  }
+
+  void LiquidFlow::solve(double time)
+  {
+    if(!solver.solve(liquid, due, potential, volume_tolerance * total_volume))
+      throw cases::NumericalError("sph", steps, time, "the displaced liquid",
+                                  "finds no way out to round-off");
   }
 
   double LiquidFlow::displace(double begin, double end, std::span<const double> enthalpy)
@@ -186,15 +196,13 @@ namespace meltfront::particles
           free_volumes(enthalpy);
           if(duration == 0 && std::ranges::all_of(due, [](double x) { return x == 0; }))
             return 0.;
-          leave_out_enclosed(end);
+          settle_enclosed(end);
           const double longer = duration > 0 ? (end - begin) / duration : 0;
           for(std::size_t a = 0; a < volume.size(); ++a)
             potential[a] *= longer * liquid[a];
           duration = end - begin;
-          if(!solver.solve(liquid, due, potential, volume_tolerance * total_volume))
-            throw cases::NumericalError("sph", steps, end, "the displaced liquid",
-                                        "finds no way out to round-off");
-          require_slow(end);
+          solve(end);
+          require_short_steps(end);
           outlet.follow(end, enthalpy);
           return leave();
         });
@@ -202,7 +210,7 @@ namespace meltfront::particles
 
   double LiquidFlow::leave()
   {
-    double volume_out = 0;
+    double volume_out = std::exchange(straight_out, 0.);
     for(const LiquidOutlet::Opening &opening : outlet.openings())
       volume_out
           += liquid[opening.particle] * opening.strength * potential[opening.particle];

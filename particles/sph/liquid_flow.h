@@ -4,6 +4,7 @@
 #include <cases/compensated_sum.h>
 #include <cases/effect_meter.h>
 #include <particles/sph/displacement_solver.h>
+#include <particles/sph/enclosed_liquid.h>
 #include <particles/sph/liquid_outlet.h>
 
 #include <span>
@@ -19,17 +20,20 @@ namespace meltfront::particles
    * Two particles that hold liquid let pass g_ab (phi_a - phi_b) from a to b, with
    * symmetric coefficients as of heat. After every step phi makes these volumes, and what
    * leaves through the outlet, add up to what freezing has set free: liquid flows as
-   * -grad phi does, with phi = 0 in the outlet. It takes along its sensible heat, the
-   * mean of both particles, during the next step, and its latent heat at once. What a
-   * pair passes on one gains and the other loses, to the last bit.
+   * -grad phi does, with phi = 0 in the outlet. It takes along its sensible heat during
+   * the next step, and its latent heat at once. That heat is the mean of both particles',
+   * with as much of an upwind share as keeps the maximum principle where liquid flows
+   * faster than heat spreads from one to the other. What a pair passes on one gains and
+   * the other loses, to the last bit.
    */
   class LiquidFlow
   {
   public:
     /** @param discretisation of the scene at rest
-     * @param enthalpy at the start, which has displaced nothing */
+     * @param enthalpy at the start, which has displaced nothing
+     * @param explicit_step the longest Euler step that is made (s) */
     LiquidFlow(const LiquidBalance &balance, const Discretisation &discretisation,
-               std::span<const double> enthalpy, int threads);
+               std::span<const double> enthalpy, double explicit_step, int threads);
 
     LiquidFlow(const LiquidFlow &) = delete;
     LiquidFlow &operator=(const LiquidFlow &) = delete;
@@ -44,9 +48,9 @@ namespace meltfront::particles
      * After a step: let liquid make room.
      * @return latent heat that came in through the outlet (J in the measure of the
      * scene).
-     * @throws cases::Refusal where liquid freezes, or solid melts, that solid and closed
-     * walls enclose, and where liquid flows faster than heat spreads from particle to
-     * particle; cases::NumericalError where the potential is not found.
+     * @throws cases::Refusal where solid and closed walls enclose what freezes or melts,
+     * and where liquid flows too fast for the explicit steps; cases::NumericalError where
+     * the potential is not found.
      */
     double displace(double begin, double end, std::span<const double> enthalpy);
 
@@ -60,17 +64,19 @@ namespace meltfront::particles
 
   private:
     void free_volumes(std::span<const double> enthalpy);
-    void leave_out_enclosed(double time);
-    void require_slow(double time) const;
+    void settle_enclosed(double time);
+    void solve(double time);
+    void require_short_steps(double time) const;
     double leave();
 
     const LiquidBalance &balance;
     const cases::Material &material;
     int thread_count;
-    double spacing, cross_section;
+    double cross_section, explicit_step;
     ConductionRows conduction; ///< of the potential
     LiquidOutlet outlet;
     DisplacementSolver solver;
+    EnclosedLiquid enclosed;
     std::vector<double> volume;   ///< of each particle (m^d)
     std::vector<double> fraction; ///< of solid, after the last step
     /** Volume that has been set free and has not been displaced yet (m^d). */
@@ -82,6 +88,7 @@ namespace meltfront::particles
     double total_volume;
     double duration = 0; ///< of the last step; 0: nothing has flowed yet
     long steps = 0, evaluations = 0;
+    double straight_out = 0;    ///< of the last step, from enclosed particles (m^d)
     cases::CompensatedSum left; ///< volume of liquid, through the outlet (m^d)
     cases::EffectMeter meter;
   };

@@ -73,6 +73,14 @@ namespace meltfront::particles
       }
   }
 
+  std::vector<std::uint32_t> LiquidOutlet::particles() const
+  {
+    std::vector<std::uint32_t> result;
+    for(const Opening &opening : list)
+      result.push_back(opening.particle);
+    return result;
+  }
+
   std::vector<double> LiquidOutlet::strengths(std::size_t particles) const
   {
     std::vector<double> result(particles, 0.);

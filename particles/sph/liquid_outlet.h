@@ -43,6 +43,8 @@ namespace meltfront::particles
       return list;
     }
 
+    std::vector<std::uint32_t> particles() const;
+
     /** The openings' strengths by particle, zero of others. */
     std::vector<double> strengths(std::size_t particles) const;
 

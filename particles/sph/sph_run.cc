@@ -43,7 +43,8 @@ namespace meltfront::particles
         require_moderate_contrast(dis, parameters.front, stepper->enthalpies(),
                                   policy.name);
         if(liquid_balance)
-          heat_flow.let_liquid_flow(*liquid_balance, dis, stepper->enthalpies());
+          heat_flow.let_liquid_flow(*liquid_balance, dis, stepper->enthalpies(),
+                                    longest_euler_step(plan));
         weigh();
         initial_heat = heat_content();
         initial_mass = mass();
