@@ -16,6 +16,10 @@ namespace meltfront::particles
   {
     /** What may be left over of a step's volumes, of all volume. */
     constexpr double volume_tolerance = 1e-14;
+    /** Of what a pair conducts: as much as it may carry by the mean of both particles'
+     * heat and keep the maximum principle. At a front, where melting particles draw less
+     * than their temperature would, it is about half. */
+    constexpr double conducted = 0.5;
     /** What an enclosed particle may fail to displace, of all volume. */
     constexpr double enclosed_tolerance = 1e-12;
 
@@ -49,7 +53,7 @@ namespace meltfront::particles
       double operator()(std::size_t a, std::size_t b) const
       {
         const double way = liquid[a] * liquid[b] * (potential[b] - potential[a]);
-        const double upwind = std::max(0.5 * std::abs(way) - spread, 0.);
+        const double upwind = std::max(0.5 * std::abs(way) - conducted * spread, 0.);
         return way * (0.5 * (carried[a] + carried[b]))
                + upwind * (carried[b] - carried[a]);
       }
@@ -105,7 +109,7 @@ namespace meltfront::particles
           {
             const std::uint32_t a = opening.particle;
             const double passing = opening.sensible_heat(carried[a]);
-            const double upwind = std::max(potential[a] - spread, 0.);
+            const double upwind = std::max(potential[a] - conducted * spread, 0.);
             const double heat
                 = -liquid[a] * opening.strength
                   * (potential[a] * passing + upwind * (carried[a] - passing));
@@ -149,7 +153,7 @@ namespace meltfront::particles
   {
     const double spread = duration * material.liquid.diffusivity();
     const auto [low, high] = std::ranges::minmax(potential);
-    if(high - low <= 2 * spread)
+    if(high - low <= 2 * conducted * spread)
       return;
     std::vector<double> exchanged(volume.size(), 0.);
     for(const LiquidOutlet::Opening &opening : outlet.openings())
@@ -166,7 +170,9 @@ namespace meltfront::particles
           [&](std::uint32_t b, double g)
           {
             const double way = liquid[b] * (potential[b] - potential[a]);
-            sum += g * (std::max(0.5 * std::abs(way), spread) + 0.5 * way);
+            sum += g
+                   * (spread + 0.5 * way
+                      + std::max(0.5 * std::abs(way) - conducted * spread, 0.));
           });
       most = std::max(most, sum / volume[a]);
     }

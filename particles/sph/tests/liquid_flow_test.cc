@@ -78,7 +78,7 @@ namespace meltfront::particles::testing
             = converge(*method, problem, {20, 28, 40, 80}, in_the_plane);
         EXPECT_GE(found.order, 1.6) << solid;
         EXPECT_LE(found.errors.back(), 1.3e-4) << solid;
-        const Outcome outcome = run(*method, problem, 40, in_the_plane);
+        const Outcome outcome = run(*method, problem, 80, in_the_plane);
         // Through walls, conducted and carried along.
         const double change = problem.exact->heat_content(0, 1, 0.2)
                               - problem.exact->heat_content(0, 1, 0.02);
@@ -139,10 +139,10 @@ namespace meltfront::particles::testing
 
     TEST(LiquidFlow, ConvergesToTheRadialSolutionWithMotion)
     {
-      for(const double liquid_density : {0.8, 1.25, 2.})
+      for(const double liquid_density : {0.8, 1.25})
       {
         const Problem problem = annulus(liquid_density);
-        const Convergence found = converge(*method, problem, {20, 28, 40, 80});
+        const Convergence found = converge(*method, problem, {20, 28, 40, 56});
         EXPECT_GE(found.order, 1.7) << liquid_density;
         EXPECT_LE(found.errors.back(), 1.5e-4) << liquid_density;
         expect_balanced(balances_of(problem.scene, 28));
@@ -274,8 +274,8 @@ namespace meltfront::particles::testing
       expect_refusal(other, {}, "enclose");
 
       // Through the whole outlet while a long wall freezes at once.
-      other = box(displacing(1, 20), 2, {0, 0, 0}, {2, 0.2, 0}, 0.1, 0.1);
-      set_boundary(other, cases::Side::y_min, fixed_wall(-20));
+      other = box(displacing(1, 5), 2, {0, 0, 0}, {2, 0.2, 0}, 0.1, 0.1);
+      set_boundary(other, cases::Side::y_min, fixed_wall(-2));
       expect_refusal(other, {}, "step_factor");
     }
 
