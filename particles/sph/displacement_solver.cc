@@ -1,5 +1,6 @@
 #include <particles/sph/displacement_solver.h>
 
+#include <Eigen/IterativeLinearSolvers>
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
 
@@ -10,7 +11,7 @@ namespace meltfront::particles
 {
   namespace
   {
-    /** Iterations beyond which new factors cost less. */
+    /** Iterations more than with new factors, beyond which these cost less. */
     constexpr int few = 12;
     constexpr int most = 400;
 
@@ -38,20 +39,67 @@ namespace meltfront::particles
     };
   } // namespace
 
-  struct DisplacementSolver::Factors
+  class DisplacementSolver::Factors
   {
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
-    Eigen::SparseMatrix<double> matrix; ///< its lower part, of all pairs
+  public:
+    using Matrix = Eigen::SparseMatrix<double>;
+    using Vector = Eigen::Map<Eigen::VectorXd>;
+
+    virtual ~Factors() = default;
+    virtual bool factorise() = 0;
+    virtual void solve(const Vector &right, Vector result) const = 0;
+    virtual std::size_t entries() const = 0;
+
+    Matrix matrix; ///< its lower part, of all pairs whether they are liquid or not
     bool computed = false;
   };
 
+  namespace
+  {
+    /** By one of Eigen's Cholesky decompositions. */
+    template <typename Base, typename Decomposition>
+    struct FactorsBy : Base
+    {
+      bool factorise() override
+      {
+        if(!analysed)
+          decomposition.analyzePattern(this->matrix);
+        analysed = true;
+        decomposition.factorize(this->matrix);
+        return decomposition.info() == Eigen::Success;
+      }
+
+      void solve(const typename Base::Vector &right,
+                 typename Base::Vector result) const override
+      {
+        result = decomposition.solve(right);
+      }
+
+      std::size_t entries() const override
+      {
+        if constexpr(requires { decomposition.matrixL().nonZeros(); })
+          return decomposition.matrixL().nonZeros();
+        else
+          return decomposition.matrixL().nestedExpression().nonZeros();
+      }
+
+      Decomposition decomposition;
+      bool analysed = false;
+    };
+  } // namespace
+
   DisplacementSolver::DisplacementSolver(const ParticleOperator &rows,
-                                         std::vector<double> of_outlet, int threads)
+                                         std::vector<double> of_outlet, int dimension,
+                                         int threads)
     : rows(rows)
     , links(std::move(of_outlet))
     , threads(threads)
-    , factors(std::make_unique<Factors>())
   {
+    if(dimension < 3)
+      factors = std::make_unique<
+          FactorsBy<Factors, Eigen::SimplicialLDLT<Factors::Matrix>>>();
+    else
+      factors = std::make_unique<FactorsBy<Factors, Eigen::IncompleteCholesky<double>>>();
     links.resize(rows.padded_rows(), 0.);
     for(auto *array : {&residual, &direction, &product, &smoothed})
       array->resize(rows.padded_rows());
@@ -69,7 +117,6 @@ namespace meltfront::particles
     const auto n = static_cast<Eigen::Index>(rows.rows());
     factors->matrix.resize(n, n);
     factors->matrix.setFromTriplets(entries.begin(), entries.end());
-    factors->solver.analyzePattern(factors->matrix);
   }
 
   DisplacementSolver::~DisplacementSolver() = default;
@@ -84,7 +131,7 @@ namespace meltfront::particles
   }
 
   /** Of particles without liquid the unit matrix. */
-  void DisplacementSolver::factorise(std::span<const double> liquid)
+  void DisplacementSolver::renew_factors(std::span<const double> liquid)
   {
     Eigen::SparseMatrix<double> &matrix = factors->matrix;
     for(std::size_t a = 0; a < rows.rows(); ++a)
@@ -99,16 +146,14 @@ namespace meltfront::particles
                      });
       matrix.coeffRef(a, a) = liquid[a] > 0 && diagonal > 0 ? diagonal : 1.;
     }
-    factors->solver.factorize(matrix);
-    factors->computed = factors->solver.info() == Eigen::Success;
+    factors->computed = factors->factorise();
   }
 
   void DisplacementSolver::precondition(std::span<const double> liquid)
   {
     const auto n = static_cast<Eigen::Index>(rows.rows());
-    const Eigen::Map<const Eigen::VectorXd> right(residual.data(), n);
-    Eigen::Map<Eigen::VectorXd> result(smoothed.data(), n);
-    result = factors->solver.solve(right);
+    factors->solve(Factors::Vector(residual.data(), n),
+                   Factors::Vector(smoothed.data(), n));
     for(std::size_t a = 0; a < rows.rows(); ++a)
       smoothed[a] *= liquid[a];
   }
@@ -122,16 +167,18 @@ namespace meltfront::particles
     apply(liquid, potential, product);
     for(std::size_t a = 0; a < n; ++a)
       residual[a] = liquid[a] * due[a] - product[a];
-    if(!factors->computed)
-      factorise(liquid);
+    bool renewed = !factors->computed;
+    if(renewed)
+      renew_factors(liquid);
     double before = 0;
-    int iterations = 0;
+    int iterations = 0, since_renewal = 0;
     for(; sum_of_magnitudes(live(residual)) > tolerance; ++iterations)
     {
-      if(iterations == few)
+      if(!renewed && iterations == with_new_factors + few)
       {
-        factorise(liquid);
-        before = 0;
+        renew_factors(liquid);
+        renewed = true;
+        before = since_renewal = 0;
       }
       if(iterations == most)
         return false;
@@ -148,20 +195,22 @@ namespace meltfront::particles
         potential[a] += length * direction[a];
         residual[a] -= length * product[a];
       }
+      ++since_renewal;
     }
     // As it is, not as the recursion has it.
     apply(liquid, potential, product);
     for(std::size_t a = 0; a < n; ++a)
       due[a] -= product[a];
     iterations_made += iterations;
+    if(renewed)
+      with_new_factors = since_renewal;
     return true;
   }
 
   std::size_t DisplacementSolver::bytes() const
   {
     constexpr std::size_t per_entry = sizeof(double) + sizeof(int);
-    const std::size_t of_factors
-        = factors->computed ? factors->solver.matrixL().nestedExpression().nonZeros() : 0;
+    const std::size_t of_factors = factors->computed ? factors->entries() : 0;
     return (links.size() + 4 * residual.size()) * sizeof(double)
            + (factors->matrix.nonZeros() + of_factors) * per_entry;
   }

@@ -17,17 +17,18 @@ namespace meltfront::particles
    * over the particles that hold liquid, g the coefficients of pairs, l those of links to
    * the outlet, where phi is zero; particles without liquid let nothing pass.
    *
-   * Conjugate gradients, preconditioned by Cholesky factors (Eigen's LDL^T) of the same
-   * matrix as it was when they were last computed: of a few particles that have frozen or
-   * melted since, each costs an iteration or two. The factors are renewed when that is no
-   * longer few.
+   * Conjugate gradients, preconditioned by Cholesky factors of the same matrix as it was
+   * when they were last computed: of the particles that have frozen or melted since, each
+   * costs an iteration or two, and when these are no longer few the factors are renewed.
+   * In the plane they are complete; in space, where that fills them up, incomplete (Lin
+   * and More 1999, as in Eigen).
    */
   class DisplacementSolver
   {
   public:
     /** @param links by particle, zero away from the outlet */
     DisplacementSolver(const ParticleOperator &rows, std::vector<double> links,
-                       int threads);
+                       int dimension, int threads);
     ~DisplacementSolver();
     DisplacementSolver(const DisplacementSolver &) = delete;
     DisplacementSolver &operator=(const DisplacementSolver &) = delete;
@@ -51,11 +52,11 @@ namespace meltfront::particles
     std::size_t bytes() const;
 
   private:
-    struct Factors;
+    class Factors;
 
     void apply(std::span<const double> liquid, std::span<const double> potential,
                std::span<double> result) const;
-    void factorise(std::span<const double> liquid);
+    void renew_factors(std::span<const double> liquid);
     void precondition(std::span<const double> liquid);
 
     const ParticleOperator &rows;
@@ -63,6 +64,7 @@ namespace meltfront::particles
     int threads;
     std::unique_ptr<Factors> factors;
     long iterations_made = 0;
+    int with_new_factors = 0; ///< iterations
     std::vector<double> residual, direction, product, smoothed;
   };
 } // namespace meltfront::particles

@@ -75,7 +75,8 @@ namespace meltfront::particles
     , explicit_step(explicit_step)
     , conduction(for_potential(dis, balance.outlet), true)
     , outlet(balance, dis, conduction)
-    , solver(conduction.rows, outlet.strengths(conduction.rows.padded_rows()), threads)
+    , solver(conduction.rows, outlet.strengths(conduction.rows.padded_rows()),
+             dis.dimension, threads)
     , enclosed(conduction.rows, outlet.particles())
     , volume(dis.weights)
     , due(dis.particles.size(), 0.)

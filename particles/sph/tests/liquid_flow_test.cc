@@ -298,13 +298,11 @@ namespace meltfront::particles::testing
     };
 
     // Factors of what was liquid before serve, and are renewed.
-    TEST(DisplacementSolver, FindsThePotentialWhateverFreezes)
+    void expect_potential(const ParticleOperator &rows, int dimension)
     {
-      const Square square(16);
-      const ParticleOperator &rows = square.rows->rows;
       std::vector<double> links(rows.padded_rows(), 0.);
       links[0] = 1;
-      DisplacementSolver solver(rows, links, 1);
+      DisplacementSolver solver(rows, links, dimension, 1);
       std::vector<double> liquid(rows.padded_rows(), 1.), due(rows.rows()),
           potential(rows.padded_rows(), 0.);
       std::mt19937 random(7);
@@ -330,6 +328,13 @@ namespace meltfront::particles::testing
         for(int i = 0; i < 20; ++i)
           liquid[rows.rows() - 1 - frozen - i] = 0;
       }
+    }
+
+    TEST(DisplacementSolver, FindsThePotentialWhateverFreezes)
+    {
+      const Square square(16);
+      for(const int with_factors_for : {2, 3})
+        expect_potential(square.rows->rows, with_factors_for);
     }
 
     TEST(EnclosedLiquid, NarrowPocketsHandOnAndWideOnesAreTold)

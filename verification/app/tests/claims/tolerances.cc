@@ -53,6 +53,8 @@ namespace meltfront::verification::claims
       trial.n = 36;
     if(method == "fem-enthalpy" && form == "where liquid is displaced")
       trial.n = 80; // little liquid is left at the end, and its mapping is of first order
+    if(form == "where liquid flows" && shape == DomainShape::slab)
+      trial.options.emplace_back("dimension", "2");
     if(method == "fem-enthalpy" && shape == DomainShape::ball)
       trial.n = !trial.scene.sources.empty() ? 64
                 : dimension == 2             ? 32
