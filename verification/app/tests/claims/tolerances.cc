@@ -58,7 +58,7 @@ namespace meltfront::verification::claims
       if(shape == DomainShape::slab)
         trial.options.emplace_back("dimension", "2");
       else if(dimension == 2 || trial.scene.domain.round())
-        trial.n = dimension == 2 ? 40 : 20; // each has a front, smeared over a spacing
+        trial.n = dimension == 2 ? 40 : 24; // each has a front, smeared over a spacing
     }
     if(method == "fem-enthalpy" && shape == DomainShape::ball)
       trial.n = !trial.scene.sources.empty() ? 64
