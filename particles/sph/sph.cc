@@ -116,8 +116,13 @@ namespace meltfront::particles
       {
         constexpr SphMemory memory{.per_particle = 400, .per_neighbour = 40};
         SphParameters parameters = resolve_parameters(policy, scene, resolution);
-        if(!effects.contains(cases::Effect::liquid_motion) || parameters.dimension > 1)
+        if(!effects.contains(cases::Effect::liquid_motion))
           return sph_demand(parameters, scene, memory);
+        if(parameters.dimension > 1)
+        {
+          constexpr SphMemory with_flow{.per_particle = 1000, .per_neighbour = 80};
+          return sph_demand(parameters, scene, with_flow);
+        }
         const MassCoordinates moving(scene, parameters);
         parameters.n = moving.particles;
         return sph_demand(parameters, moving.at_rest, memory);
