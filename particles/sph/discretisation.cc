@@ -283,7 +283,6 @@ namespace meltfront::particles
     return on_the_wall_alone ? nearest_to_wall * spacing : 0;
   }
 
-  /** The other points of the lattice, up to a support beyond a wall. */
   void Discretisation::add_points_beyond(const RoundWall &wall,
                                          ParticleStorage &points) const
   {

@@ -83,6 +83,10 @@ namespace meltfront::particles
      * origin. */
     const RoundWall &nearest_round_wall(double distance) const;
 
+    /** Add the lattice points that are no particles, up to a support beyond a round wall.
+     */
+    void add_points_beyond(const RoundWall &wall, ParticleStorage &points) const;
+
     const cases::Scene &scene;
     int dimension;
     LatticeLayout layout;
@@ -113,7 +117,6 @@ namespace meltfront::particles
     void require_whole_cells(const SphParameters &parameters) const;
     void fill_slab_or_box(const SphParameters &parameters);
     void fill_ball_or_shell();
-    void add_points_beyond(const RoundWall &wall, ParticleStorage &points) const;
     double least_depth(const RoundWall &wall) const;
     void share_what_cells_miss();
     void share_the_rest(const RoundWall &wall);

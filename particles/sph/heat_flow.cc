@@ -136,8 +136,16 @@ namespace meltfront::particles
       wall_exchange->relink(previous, last, liquid_end->depth());
   }
 
+  void HeatFlow::let_liquid_flow(const LiquidBalance &balance, const Discretisation &dis,
+                                 std::span<const double> enthalpy, double explicit_step)
+  {
+    liquid_flow.emplace(balance, dis, enthalpy, explicit_step, thread_count);
+  }
+
   double HeatFlow::displace(double begin, double end, std::span<double> enthalpy)
   {
+    if(liquid_flow)
+      return liquid_flow->displace(begin, end, enthalpy);
     const std::uint32_t previous = liquid_end->last();
     const double heat = liquid_end->move(enthalpy, begin, end);
     follow_end(previous);
@@ -224,6 +232,8 @@ namespace meltfront::particles
     if(volumetric_source)
       volumetric_source->add(flow, scale());
     double through_walls = 0;
+    if(liquid_flow)
+      through_walls += liquid_flow->add(enthalpy, flow);
     if(wall_flux)
       through_walls += wall_flux->add(fraction, flow, scale());
     if(wall_exchange)
@@ -272,6 +282,8 @@ namespace meltfront::particles
     if(liquid_end)
       result.push_back(
           {"displaced liquid", "leaves at x_max; particles move with the matter", ""});
+    if(liquid_flow)
+      result.push_back({"displaced liquid", "flows past particles that stay", ""});
     return result;
   }
 
@@ -285,7 +297,8 @@ namespace meltfront::particles
     if(wall_exchange)
       per_evaluation += wall_exchange->size();
     return evaluations * static_cast<long>(per_evaluation)
-           + (front_exchange ? front_exchange->work() : 0);
+           + (front_exchange ? front_exchange->work() : 0)
+           + (liquid_flow ? liquid_flow->work() : 0);
   }
 
   std::vector<cases::EffectCost> HeatFlow::effect_costs() const
@@ -320,6 +333,8 @@ namespace meltfront::particles
       add(wall_flux->cost());
     if(liquid_end)
       add(liquid_end->cost());
+    if(liquid_flow)
+      add(liquid_flow->cost());
     for(const Effect effect : {Effect::robin_wall, Effect::radiating_wall})
       if(effects.contains(effect))
         add(wall_exchange->cost(effect));

@@ -4,6 +4,7 @@
 #include <particles/sph/conduction_rows.h>
 #include <particles/sph/front_exchange.h>
 #include <particles/sph/heat_sources.h>
+#include <particles/sph/liquid_flow.h>
 #include <particles/sph/moving_sources.h>
 #include <particles/sph/open_end.h>
 #include <particles/sph/phase_map.h>
@@ -26,7 +27,7 @@ namespace meltfront::particles
   class HeatFlow
   {
   public:
-    /** @param moving where freezing displaces liquid */
+    /** @param moving where freezing displaces liquid along a line */
     HeatFlow(const Discretisation &discretisation, const cases::EffectSet &effects,
              const SphParameters &parameters, const MassCoordinates *moving = nullptr);
 
@@ -40,14 +41,32 @@ namespace meltfront::particles
      * @return heat that this took from the walls (J in the measure of the scene). */
     double hold_walls(double fraction, std::span<double> enthalpy);
 
-    /** Where there is an open end: let displaced liquid leave or enter there at the end
-     * of a step, and follow that. @return heat that came in with it (J/m^2). */
+    /** Let displaced liquid pass the particles, in the plane or in space.
+     * @param enthalpy at the start
+     * @param explicit_step the longest Euler step that is made (s) */
+    void let_liquid_flow(const LiquidBalance &balance,
+                         const Discretisation &discretisation,
+                         std::span<const double> enthalpy, double explicit_step);
+
+    bool displaces_liquid() const
+    {
+      return liquid_end || liquid_flow;
+    }
+
+    /** Where freezing displaces liquid: let it leave or enter at the end of a step, and
+     * follow that. @return heat that came in with it (J in the measure of the scene). */
     double displace(double begin, double end, std::span<double> enthalpy);
 
-    /** Where displaced liquid leaves; null where none is displaced. */
+    /** Where liquid displaced along a line leaves; else null. */
     const OpenEnd *open_end() const
     {
       return liquid_end ? &*liquid_end : nullptr;
+    }
+
+    /** How displaced liquid flows in the plane or in space; else null. */
+    const LiquidFlow *flowing_liquid() const
+    {
+      return liquid_flow ? &*liquid_flow : nullptr;
     }
 
     /** Follow a change of the enthalpy; needed before evaluate(). */
@@ -161,6 +180,7 @@ namespace meltfront::particles
     std::optional<WallFlux> wall_flux;
     std::optional<WallExchange> wall_exchange;
     std::optional<OpenEnd> liquid_end;
+    std::optional<LiquidFlow> liquid_flow;
     Derivative derivative;
     long evaluations = 0;
   };

@@ -20,8 +20,7 @@ namespace meltfront::particles
     {
       const double reach = SmoothingKernel(p.kernel, 1, p.smoothing_length).support();
       const char *wrong
-          = p.dimension != 1                          ? "dimension = 1"
-            : p.layout != LatticeLayout::cell_centred ? "layout = cell"
+          = p.layout != LatticeLayout::cell_centred ? "layout = cell"
             : p.jitter > 0 || p.arrangement >= Arrangement::random
                 ? "particles on a lattice (jitter = 0)"
             : !p.moment_correction ? "moment_correction = true"
@@ -30,7 +29,8 @@ namespace meltfront::particles
                 : nullptr;
       if(wrong)
         throw cases::Refusal(fmt::format(
-            "sph moves liquid past particles along a line only: it needs {}", wrong));
+            "along a line sph moves particles with displaced liquid: it needs {}",
+            wrong));
     }
 
     /** @throws cases::Refusal unless solid lies at the lower end alone. */

@@ -25,6 +25,18 @@ namespace meltfront::particles
               .most_threads = cases::any_number_of_threads};
     }
 
+    /** Liquid leaves through x_max or the outer wall. */
+    cases::Capabilities where_liquid_flows(const std::vector<cases::BoundaryKind> &walls)
+    {
+      cases::Capabilities result = where_liquid_is_displaced(walls);
+      result.form = "where liquid flows";
+      result.shapes = {{cases::DomainShape::box, {2, 3}, walls},
+                       {cases::DomainShape::ball, {2, 3}, walls},
+                       {cases::DomainShape::shell, {2, 3}, walls}};
+      result.most_fronts = 0;
+      return result;
+    }
+
     /** Sources there have a radius: they release heat throughout. */
     cases::Capabilities about_an_axis(const std::vector<cases::BoundaryKind> &walls)
     {
@@ -89,7 +101,8 @@ namespace meltfront::particles
              .most_threads = cases::any_number_of_threads}};
         if(policy.corrected_form.empty())
           forms.insert(forms.end(),
-                       {about_an_axis(round), where_liquid_is_displaced(round)});
+                       {about_an_axis(round), where_liquid_is_displaced(round),
+                        where_liquid_flows(round)});
         return forms;
       }
 
@@ -105,6 +118,11 @@ namespace meltfront::particles
         SphParameters parameters = resolve_parameters(policy, scene, resolution);
         if(!effects.contains(cases::Effect::liquid_motion))
           return sph_demand(parameters, scene, memory);
+        if(parameters.dimension > 1)
+        {
+          constexpr SphMemory with_flow{.per_particle = 1000, .per_neighbour = 80};
+          return sph_demand(parameters, scene, with_flow);
+        }
         const MassCoordinates moving(scene, parameters);
         parameters.n = moving.particles;
         return sph_demand(parameters, moving.at_rest, memory);

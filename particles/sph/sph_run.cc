@@ -24,7 +24,10 @@ namespace meltfront::particles
              const cases::EffectSet &effects, const cases::Resolution &resolution)
         : parameters(resolve_parameters(policy, in_space, resolution))
         , mass_coordinates(in_mass_coordinates(in_space, effects, parameters))
-        , scene(mass_coordinates ? mass_coordinates->at_rest : in_space)
+        , liquid_balance(balance_of_liquid(in_space, effects, parameters))
+        , scene(mass_coordinates ? mass_coordinates->at_rest
+                : liquid_balance ? liquid_balance->at_rest
+                                 : in_space)
         , dis(scene, parameters)
         , n(dis.particles.size())
         , heat_flow(dis, effects, parameters, mass_coordinates.get())
@@ -39,8 +42,12 @@ namespace meltfront::particles
       {
         require_moderate_contrast(dis, parameters.front, stepper->enthalpies(),
                                   policy.name);
+        if(liquid_balance)
+          heat_flow.let_liquid_flow(*liquid_balance, dis, stepper->enthalpies(),
+                                    longest_euler_step(plan));
         weigh();
         initial_heat = heat_content();
+        initial_mass = mass();
       }
 
       cases::RunDescription describe() const override
@@ -81,11 +88,27 @@ namespace meltfront::particles
       in_mass_coordinates(const cases::Scene &in_space, const cases::EffectSet &effects,
                           SphParameters &parameters)
       {
-        if(!effects.contains(cases::Effect::liquid_motion))
+        if(!effects.contains(cases::Effect::liquid_motion) || parameters.dimension > 1)
           return nullptr;
         auto result = std::make_unique<const MassCoordinates>(in_space, parameters);
         parameters.n = result->particles;
         return result;
+      }
+
+      static std::unique_ptr<const LiquidBalance>
+      balance_of_liquid(const cases::Scene &in_space, const cases::EffectSet &effects,
+                        const SphParameters &parameters)
+      {
+        if(!effects.contains(cases::Effect::liquid_motion) || parameters.dimension == 1)
+          return nullptr;
+        return std::make_unique<const LiquidBalance>(in_space, parameters);
+      }
+
+      /** Where liquid flows past the particles, of all matter; else 0. */
+      double mass() const
+      {
+        const LiquidFlow *liquid = heat_flow.flowing_liquid();
+        return liquid ? liquid->mass() : 0;
       }
 
       std::vector<double> start() const
@@ -120,7 +143,7 @@ namespace meltfront::particles
         }
         cases::HeatBudget heat;
         heat.stored = stored.value();
-        heat.latent = latent.value();
+        heat.latent = latent.value() * (liquid_balance ? liquid_balance->in_space() : 1.);
         heat.initial = heat.stored + heat.latent;
         return heat;
       }
@@ -164,6 +187,7 @@ namespace meltfront::particles
         result.heat.initial = initial_heat.initial;
         result.heat.boundary = stepper->boundary_heat();
         result.heat.sources = heat_flow.source_heat(time) / dis.cross_section;
+        result.mass = {mass(), initial_mass};
         return result;
       }
 
@@ -195,9 +219,11 @@ namespace meltfront::particles
       }
 
       SphParameters parameters;
-      /** Where freezing displaces liquid; else null. */
+      /** Where freezing displaces liquid along a line; else null. */
       std::unique_ptr<const MassCoordinates> mass_coordinates;
-      const cases::Scene &scene; ///< of the particles, in mass coordinates if those are
+      /** Where it does so in the plane or in space; else null. */
+      std::unique_ptr<const LiquidBalance> liquid_balance;
+      const cases::Scene &scene; ///< of the particles; at rest if liquid is displaced
       Discretisation dis;
       std::size_t n; ///< particles
       HeatFlow heat_flow;
@@ -207,6 +233,7 @@ namespace meltfront::particles
       std::vector<double> temperature, solid_fraction; ///< for snapshots
       std::vector<double> place, width;                ///< likewise, in space
       cases::HeatBudget initial_heat;
+      double initial_mass = 0;
     };
   } // namespace
 

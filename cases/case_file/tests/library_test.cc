@@ -285,6 +285,7 @@ TEST(Library, ScenesCallForTheEffectsThatTheyShow)
   std::set<Effect> displaced = contrast;
   displaced.insert(liquid_motion);
   EXPECT_EQ(effects_of("plane-density-jump"), displaced);
+  EXPECT_EQ(effects_of("annulus-densities"), displaced);
   EXPECT_EQ(effects_of("annulus"), contrast);
   EXPECT_EQ(effects_of("annulus-perturbed"), contrast);
   EXPECT_EQ(effects_of("merging-disks"), (std::set{phase_change, heat_sources}));

@@ -149,7 +149,6 @@ namespace meltfront::particles::testing
     TEST(OpenEnd, RefusesWhatItDoesNotMove)
     {
       const Problem problem = displacing_slab(with_densities(0.5, 1));
-      expect_refusal(problem, {{"dimension", "2"}}, "dimension = 1");
       expect_refusal(problem, {{"layout", "edge"}}, "layout = cell");
       expect_refusal(problem, {{"jitter", "0.1"}}, "jitter = 0");
       expect_refusal(problem, {{"smoothing_length", "1.3"}}, "smoothing_length");

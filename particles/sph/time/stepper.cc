@@ -45,7 +45,7 @@ namespace meltfront::particles
   double Stepper::advance(long step, double begin)
   {
     const double end = make_step(step, begin);
-    if(heat_flow.open_end())
+    if(heat_flow.displaces_liquid())
       booked.add(heat_flow.displace(begin, end, enthalpy));
     check(step, end);
     return end;

@@ -79,6 +79,13 @@ namespace meltfront::particles
     return (double(stages) * stages + stages - 2) / 4;
   }
 
+  double longest_euler_step(const StepPlan &plan)
+  {
+    return plan.stages > 1 ? std::max(plan.step / plan.euler_substeps,
+                                      plan.step / super_step_reach(plan.stages))
+                           : plan.step;
+  }
+
   namespace
   {
     bool guarded(const SphParameters &p)

@@ -93,6 +93,9 @@ namespace meltfront::particles
 
   /** (s^2 + s - 2)/4 */
   double super_step_reach(int stages);
+
+  /** The longest Euler step of a plan, or what a super step is stable for (s). */
+  double longest_euler_step(const StepPlan &plan);
 } // namespace meltfront::particles
 
 #endif

@@ -96,7 +96,10 @@ namespace meltfront::verification::claims
       /** Over that of the solid, in scenes with a front. */
       double density_of_liquid() const
       {
-        return capabilities.form == "where liquid is displaced" ? 0.8 : 1;
+        return capabilities.form == "where liquid is displaced"
+                       || capabilities.form == "where liquid flows"
+                   ? 0.8
+                   : 1;
       }
 
       bool solves_in_more_dimensions() const
@@ -231,7 +234,8 @@ namespace meltfront::verification::claims
         return form.takes(DomainShape::slab)
                    ? moving_front(DomainShape::slab, 1, BoundaryKind::insulated, false,
                                   form.density_of_liquid())
-                   : moving_front(DomainShape::box, 2, BoundaryKind::insulated, false);
+                   : moving_front(DomainShape::box, 2, BoundaryKind::insulated, false,
+                                  form.density_of_liquid());
       case FrontOrigin::source:
         return line_sink(0.6, form.symmetric(), false);
       default:

@@ -53,6 +53,13 @@ namespace meltfront::verification::claims
       trial.n = 36;
     if(method == "fem-enthalpy" && form == "where liquid is displaced")
       trial.n = 80; // little liquid is left at the end, and its mapping is of first order
+    if(form == "where liquid flows")
+    {
+      if(shape == DomainShape::slab)
+        trial.options.emplace_back("dimension", "2");
+      else if(dimension == 2 || trial.scene.domain.round())
+        trial.n = dimension == 2 ? 40 : 24; // each has a front, smeared over a spacing
+    }
     if(method == "fem-enthalpy" && shape == DomainShape::ball)
       trial.n = !trial.scene.sources.empty() ? 64
                 : dimension == 2             ? 32
