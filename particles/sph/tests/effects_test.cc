@@ -118,13 +118,13 @@ namespace meltfront::particles::testing
                       std::erf(outcome->position_x[i] / (2 * std::sqrt(0.02))), 2e-3);
     }
 
-    TEST(Effects, LiquidMotionIsRefusedInThePlane)
+    TEST(Effects, LiquidMotionIsRefusedBesideSources)
     {
       cases::Material lighter_ice = water();
       lighter_ice.solid.density = 917;
       Problem problem;
       problem.scene = unit_box(2, lighter_ice, 10, 1);
-      problem.scene.boundaries[0] = fixed_wall(-10);
+      problem.scene.sources = {steady_sink({}, 1)};
       EXPECT_THROW(run(*make_sph(), problem, 20), cases::Refusal);
     }
 
