@@ -4,8 +4,8 @@ namespace meltfront::verification
 {
   namespace
   {
-    /** The largest relative defect of any snapshot: of heat; of an alloy, of all mass and
-     * of the solute that has the larger one. */
+    /** The largest relative defect of any snapshot: of heat; of mass, where a method
+     * counts it; of an alloy, of the solute that has the larger one. */
     class Budgets : public Measure
     {
     public:
@@ -14,9 +14,10 @@ namespace meltfront::verification
       void observe(const Sighting &sighting) override
       {
         keep_largest("budget_defect", sighting.snapshot.heat.defect());
+        if(run.scene.alloy || sighting.snapshot.mass.initial > 0)
+          keep_largest("mass_defect", sighting.snapshot.mass.defect());
         if(!run.scene.alloy)
           return;
-        keep_largest("mass_defect", sighting.snapshot.mass.defect());
         for(std::size_t s = 0; s < run.scene.alloy->solutes.size(); ++s)
           keep_largest("solute_defect", sighting.snapshot.solute[s].defect());
       }

@@ -126,6 +126,21 @@ TEST(Measures, OfAMushAreTakenAtIntermediateTimesAndAtTheEnd)
   EXPECT_NEAR(quantities.at("solid_fraction_rms"), 0, 1e-15);
 }
 
+TEST(Measures, CountMassWhereAMethodDoes)
+{
+  cases::Case c = salty_case();
+  c.scene.alloy.reset();
+  c.scene.initial.concentration = {};
+  Measured measured(c);
+  tests::State state = exact_state(0.1);
+  measured.add(state, 0.1);
+  EXPECT_EQ(measured.results().count("mass_defect"), 0u);
+  state.snapshot.mass = {2.02, 2};
+  measured.add(state, 0.2);
+  EXPECT_NEAR(measured.results().at("mass_defect"), 0.01, 1e-15);
+  EXPECT_EQ(measured.results().count("solute_defect"), 0u);
+}
+
 TEST(Measures, KeepTheWorstDefectOfAnySnapshot)
 {
   const cases::Case c = salty_case();
