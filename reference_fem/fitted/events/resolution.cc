@@ -88,7 +88,11 @@ namespace meltfront::reference_fem::fitted
     {
       const FittedProblem problem(mesh, physics);
       const dealii::Vector<double> u = problem.state(time, fronts, temperature);
-      const std::vector<double> modes = highest_modes(problem, time, u);
+      std::vector<double> modes = highest_modes(problem, time, u);
+      // What a scene says of the temperature at a source is bounded, its field is not:
+      // halved cells would show that ever more.
+      if(physics.power)
+        modes.front() = 0;
       const auto worst = std::ranges::max_element(modes);
       if(*worst <= resolved_mode)
         break;

@@ -19,7 +19,7 @@ namespace meltfront::reference_fem::fitted
   /**
    * A mesh whose layers of cells are halved where they do not resolve the state at a
    * time: until their highest modes are below 1e-3, or twelve times. Elements below
-   * degree 4 have too few modes to tell, and are left alone.
+   * degree 4 have too few modes to tell, and are left alone, as is the cell at a source.
    *
    * @param fronts as of FittedProblem::state()
    * @throws Refusal where a cell's highest mode stays beyond 0.05: the temperature jumps
