@@ -42,7 +42,10 @@ end
       std::map<std::string, nlohmann::json> files;
       for(const fs::directory_entry &entry : fs::recursive_directory_iterator(directory))
       {
-        if(entry.path().filename() == ".lock") // of a run that was killed, held by nobody
+        // What a run has beside it while it is made: a killed one leaves it, and nobody
+        // asks.
+        const std::string name = entry.path().filename();
+        if(name == ".lock" || name == "claim" || name == "run.log")
           continue;
         nlohmann::json &of_file = files[fs::relative(entry.path(), directory)];
         if(entry.path().filename() == "run.json")
