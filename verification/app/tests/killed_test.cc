@@ -42,11 +42,6 @@ end
       std::map<std::string, nlohmann::json> files;
       for(const fs::directory_entry &entry : fs::recursive_directory_iterator(directory))
       {
-        // What a run has beside it while it is made: a killed one leaves it, and nobody
-        // asks.
-        const std::string name = entry.path().filename();
-        if(name == ".lock" || name == "claim" || name == "run.log")
-          continue;
         nlohmann::json &of_file = files[fs::relative(entry.path(), directory)];
         if(entry.path().filename() == "run.json")
         {
@@ -58,10 +53,20 @@ end
       return all;
     }
 
-    /** What differs, as a JSON patch; empty where nothing does. */
-    std::string difference(const fs::path &one, const fs::path &other)
+    /** What differs, as a JSON patch; empty where nothing does. Files that only the first
+     * has do not count: what a run has beside it while it is made stays where it is
+     * killed, and nobody asks for it. */
+    std::string difference(const fs::path &killed, const fs::path &whole)
     {
-      const nlohmann::json patch = nlohmann::json::diff(results(one), results(other));
+      nlohmann::json ours = results(killed);
+      const nlohmann::json wanted = results(whole);
+      std::vector<std::string> more;
+      for(const auto &[name, content] : ours.at("files").items())
+        if(!wanted.at("files").contains(name))
+          more.push_back(name);
+      for(const std::string &name : more)
+        ours.at("files").erase(name);
+      const nlohmann::json patch = nlohmann::json::diff(ours, wanted);
       return patch.empty() ? "" : patch.dump().substr(0, 1000);
     }
 
