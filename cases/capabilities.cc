@@ -116,11 +116,13 @@ namespace meltfront::cases
   {
     if(!holds(capabilities.problems, scene.problem))
       return fmt::format("solves no scenes of the kind '{}'", to_string(scene.problem));
-    for(const std::string &reason :
-        {missing_effects(capabilities, effects), wrong_domain(capabilities, scene),
-         wrong_fronts(capabilities, scene)})
-      if(!reason.empty())
-        return reason;
+    if(std::string reason = missing_effects(capabilities, effects); !reason.empty())
+      return reason;
+    if(std::string reason = wrong_domain(capabilities, scene); !reason.empty())
+      return reason;
+    // Last: it looks at thousands of points.
+    if(std::string reason = wrong_fronts(capabilities, scene); !reason.empty())
+      return reason;
     if(threads > capabilities.most_threads)
       return fmt::format("runs in {} thread{}, not in {}", capabilities.most_threads,
                          capabilities.most_threads == 1 ? "" : "s", threads);
