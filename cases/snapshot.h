@@ -104,7 +104,7 @@ namespace meltfront::cases
      * there holds this over 1 - solid_fraction. Empty for a solute that is not simulated.
      */
     std::array<std::span<const double>, most_solutes> concentration{};
-    SubstanceBudget mass; ///< of an alloy: all substances
+    SubstanceBudget mass; ///< of an alloy, all substances; of a method that counts it
     std::array<SubstanceBudget, most_solutes> solute{};
   };
 } // namespace meltfront::cases
