@@ -215,7 +215,9 @@ namespace meltfront::reference_fem::fitted
              highest_mode = std::ranges::max(highest_modes(*problem, time, u));
            shown = &u;
            reached(step, time);
-         }});
+         },
+         [this](double time, const dealii::Vector<double> &u)
+         { refuse_unresolved_layer(time, u); }});
     timeline.run(std::move(first));
     integration = timeline.cost();
     add_effect_costs();

@@ -154,7 +154,15 @@ namespace meltfront::reference_fem::fitted
     const double end = setting.scene.end_time;
     const bool last = step.clock == clock.clock(end);
     const double time = last ? end : clock.time(step.clock);
-    phases.check(*segment.problem, ++steps, time, step.u);
+    try
+    {
+      phases.check(*segment.problem, ++steps, time, step.u);
+    }
+    catch(const cases::NumericalError &)
+    {
+      listener.find_cause(time, step.u);
+      throw;
+    }
     listener.step(steps, time, step.u, last);
     point = {step.clock, step.u, step.rate};
   }

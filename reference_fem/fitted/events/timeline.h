@@ -33,6 +33,9 @@ namespace meltfront::reference_fem::fitted
     {
       std::function<void(const RunSegment &)> begin;
       std::function<void(long, double, const dealii::Vector<double> &, bool)> step;
+      /** Asked before a state whose phases are wrong ends the run: throws if it knows the
+       * cause. */
+      std::function<void(double, const dealii::Vector<double> &)> find_cause;
     };
 
     Timeline(EventScene setting, IntegrationOptions options, Listener listener);
