@@ -8,9 +8,9 @@
 #include <verification/matrix/runner.h>
 #include <verification/matrix/timing_rounds.h>
 #include <verification/matrix/workers.h>
-#include <verification/record/provenance.h>
 #include <verification/record/json_values.h>
 #include <verification/record/label.h>
+#include <verification/record/provenance.h>
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #include <verification/matrix/directory_lock.h>
 #include <verification/matrix/progress.h>
 #include <verification/record/hash.h>
-#include <verification/record/provenance.h>
 #include <verification/record/json_values.h>
+#include <verification/record/provenance.h>
 #include <verification/studies/crosscheck/crosscheck.h>
 #include <verification/studies/crosscheck/scene_generator.h>
 #include <verification/studies/crosscheck/verdict_record.h>
