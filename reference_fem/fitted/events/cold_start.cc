@@ -121,12 +121,14 @@ namespace meltfront::reference_fem::fitted
                                            const LayeredState &state, const bool inner)
   {
     const RayScene &rays = setting.rays;
+    const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
+    if(inner && geometry.has_centre())
+      return std::nullopt;
     const cases::Side side = side_at(setting.scene, inner);
     const cases::Boundary &wall = setting.scene.boundary(side);
     if(wall.kind != BoundaryKind::fixed_temperature)
       return std::nullopt;
     const cases::Material &material = setting.scene.material;
-    const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
     const double at_wall
         = wall.value(geometry.position(0, inner ? rays.inner : rays.outer), state.time);
     const double beside = temperature_at_end(setting, state, inner);
@@ -146,13 +148,11 @@ namespace meltfront::reference_fem::fitted
                                          const LayeredState &initial)
   {
     std::vector<SuddenStart> result;
-    const bool centre = setting.rays.surface.exponent > 0 && setting.rays.inner == 0;
     if(setting.effects.contains(cases::Effect::heat_sources) && initial.fronts.empty())
       result.push_back({true, sink_start(setting, initial), "the sink at the centre"});
     for(const bool inner : {true, false})
-      if(!inner || !centre)
-        if(auto start = start_at_wall(setting, initial, inner))
-          result.push_back(*start);
+      if(auto start = start_at_wall(setting, initial, inner))
+        result.push_back(*start);
     return result;
   }
 

@@ -202,6 +202,15 @@ namespace meltfront::reference_fem::fitted::tests
       expect_agreement(scene, run(scene, 16), 1e-3);
     }
 
+    TEST(Layers, AJumpOfTheWallOfADiskAsksNothingOfItsCentre)
+    {
+      cases::Scene scene = ball(unlike(1, 0.9), 2, 1, 0, 0.2);
+      set_boundary(scene, Side::outer,
+                   wall_of(BoundaryKind::fixed_temperature,
+                           [](double t) { return t < 0.1 ? -0.7 : -0.3; }, {0.1}));
+      expect_agreement(scene, run(scene, 16), 2e-3);
+    }
+
     TEST(Layers, ThreeFrontsOfTheStartMoveApartAsTheyShould)
     {
       cases::Scene scene = start_of(slab(unit_material(), 1, 0, 0, 0.05), [](double x)
