@@ -168,7 +168,8 @@ namespace meltfront::reference_fem::fitted
       const EventScene setting{scene, effects, options, rays_of(scene, options)};
       Timeline timeline(setting, {},
                         {[](const RunSegment &) {},
-                         [](long, double, const dealii::Vector<double> &, bool) {}});
+                         [](long, double, const dealii::Vector<double> &, bool) {},
+                         [](double, const dealii::Vector<double> &) {}});
       timeline.run(one_phase_stretch(setting));
       return timeline.events();
     }

@@ -2,8 +2,8 @@
 #include <cases/tests/support/scenes.h>
 #include <particles/rkpm_tracked/rkpm_tracked.h>
 #include <reference_fem/enthalpy/enthalpy.h>
-#include <reference_fem/fitted/events/tests/random_slabs.h>
 #include <reference_fem/fitted/fitted.h>
+#include <verification/app/tests/random_slabs.h>
 
 #include <cases/error.h>
 #include <cases/exact/planar_neumann.h>
@@ -16,10 +16,11 @@
 #include <numbers>
 
 /** Several fronts along a ray: how they start, meet and vanish. */
-namespace meltfront::reference_fem::fitted::tests
+namespace meltfront::verification::tests
 {
   namespace
   {
+    using namespace reference_fem;
     using cases::BoundaryKind;
     using cases::Side;
     using namespace test_support;
@@ -353,4 +354,4 @@ namespace meltfront::reference_fem::fitted::tests
       EXPECT_LE(refused, (to - from) / 10);
     }
   } // namespace
-} // namespace meltfront::reference_fem::fitted::tests
+} // namespace meltfront::verification::tests

@@ -1,11 +1,11 @@
 #include <cases/tests/support/scenes.h>
-#include <reference_fem/fitted/events/tests/random_slabs.h>
+#include <verification/app/tests/random_slabs.h>
 
 #include <cmath>
 #include <numbers>
 #include <random>
 
-namespace meltfront::reference_fem::fitted::tests
+namespace meltfront::verification::tests
 {
   namespace
   {
@@ -116,4 +116,4 @@ namespace meltfront::reference_fem::fitted::tests
       test_support::set_boundary(scene, side, random_wall(numbers, end));
     return scene;
   }
-} // namespace meltfront::reference_fem::fitted::tests
+} // namespace meltfront::verification::tests

@@ -1,11 +1,11 @@
-#ifndef meltfront_reference_fem_fitted_events_tests_random_slabs_h
-#define meltfront_reference_fem_fitted_events_tests_random_slabs_h
+#ifndef meltfront_verification_app_tests_random_slabs_h
+#define meltfront_verification_app_tests_random_slabs_h
 
 #include <cases/scene.h>
 
 #include <cstdint>
 
-namespace meltfront::reference_fem::fitted::tests
+namespace meltfront::verification::tests
 {
   /**
    * A slab of unit length with any start and any walls: properties of the phases within a
@@ -14,6 +14,6 @@ namespace meltfront::reference_fem::fitted::tests
    * The same for the same number, on any machine.
    */
   cases::Scene random_slab(std::uint64_t number);
-} // namespace meltfront::reference_fem::fitted::tests
+} // namespace meltfront::verification::tests
 
 #endif
