@@ -149,7 +149,6 @@ namespace meltfront::cases
         {"step_factor", "cfl"},
         {"largest_move", "cfl"},
         {"absorption", "interpolation_distance"},
-        {"closure", "heat_correction"},
         {"homing", "springs"},
         {"marks", "intermediate times"},
         {"picture mark", "picture time number"},

@@ -90,13 +90,6 @@ namespace meltfront::particles::rkpm_tracked
                 "The phase that gives way where the densities differ; the other is at "
                 "rest.",
                 {{"liquid", Displaced::liquid}, {"solid", Displaced::solid}});
-    options.add("heat_correction", heat_correction,
-                "When the front of a plane scene is moved by the heat that collocation "
-                "lost: where the heat through all walls is given or none, never, or "
-                "always.",
-                {{"given-walls", HeatCorrection::given_walls},
-                 {"never", HeatCorrection::never},
-                 {"always", HeatCorrection::always}});
     options.add("relax", relax,
                 "Inner nodes are relaxed every so many steps, so that they keep their "
                 "distance from the front as it moves through them; 0: they stay.",

@@ -62,14 +62,6 @@ namespace meltfront::particles::rkpm_tracked
     lennard_jones ///< as published: the Lennard-Jones energy alone
   };
 
-  /** When lost heat is made up for by the front, in the plane. */
-  enum class HeatCorrection
-  {
-    never,
-    given_walls, ///< where the heat through all walls is given
-    always
-  };
-
   /** What n refines. */
   enum class Refine
   {
@@ -100,7 +92,6 @@ namespace meltfront::particles::rkpm_tracked
     Start start = Start::automatic;
     bool exact_history = true; ///< before the start, where the start is exact
     Displaced displaced = Displaced::liquid;
-    HeatCorrection heat_correction = HeatCorrection::given_walls;
     int relax = 0; ///< steps between relaxations of the inner nodes; 0: none
     RelaxRule relax_rule = RelaxRule::springs;
   };

@@ -59,9 +59,11 @@ namespace meltfront::particles::rkpm_tracked
     after = measure(scene, nodes, heat, state);
     marked.seed(state.front, solid_beyond);
     settle_nodes();
+    const double wanted = before.sensible + before.latent;
+    const double missing = book_heat(state, scene, nodes, heat, places, wanted);
+    unbooked_heat += missing;
     const double energy = scene.material.solid.density * scene.material.latent_heat
                           * (after.solid_area - before.solid_area);
-    const double booked = book_latent_heat(state, scene, nodes, heat, places, energy);
     decreed_heat += std::abs(energy);
     for(const TopologyEvent &change : changes)
     {
@@ -72,8 +74,8 @@ namespace meltfront::particles::rkpm_tracked
     const double area = after.solid_area - before.solid_area;
     events.back().second
         += fmt::format("; {:.3g} m^2 {} by that, of {:.3g} J/m latent heat {:.3g} J/m "
-                       "went into the nodes about it",
-                       std::abs(area), area > 0 ? "froze" : "melted", energy, booked);
+                       "are missing in the nodes about it",
+                       std::abs(area), area > 0 ? "froze" : "melted", energy, missing);
     older.reset();
     restarted = true;
   }

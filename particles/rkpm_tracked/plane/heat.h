@@ -36,6 +36,18 @@ namespace meltfront::particles::rkpm_tracked
     std::array<cases::EffectMeter, cases::n_boundary_kinds> walls;
   };
 
+  /** What a pass finds: of the nodes' temperatures, then of the ways of the front's
+   * particles (in spacings), what they are without the multiplier and their change with
+   * it. */
+  struct PlaneSolution
+  {
+    std::vector<double> constant, slope;
+    /** Heat that a unit of the multiplier gives in the step, about (J/m). */
+    double heat = 0;
+
+    std::vector<double> at(double multiplier) const;
+  };
+
   /**
    * A time step by backward differentiation with one or two states before it:
    *
@@ -61,7 +73,13 @@ namespace meltfront::particles::rkpm_tracked
    * In node i of phase j, with the front particles p at T_p - G_p d_p,
    *
    *   rho c dT/dt = k lap T,     rho L (x_p + d_p n_p - history) . n_p a/step
-   *                                = [k_s dT_s/dn - k_l dT_l/dn] at x_p + d_p n_p.
+   *                                = [k_s dT_s/dn - k_l dT_l/dn] at x_p + d_p n_p
+   *                                  + mu (k_s |dT_s/dn| + k_l |dT_l/dn|).
+   *
+   * Collocation conserves no heat. The multiplier mu is the unknown that belongs to one
+   * more equation, the heat balance of the step (PlaneRun::balance): the share by which
+   * fluxes at the front, which local fits tell to so much, are off. Where no front is,
+   * mu rho c is released alike everywhere.
    */
   class PlaneHeat
   {
@@ -89,10 +107,18 @@ namespace meltfront::particles::rkpm_tracked
     /**
      * One pass on the front of `next` (set_front() first).
      * @param next has expansions, of the pass before or of the last state
-     * @return the displacements along the normals that are still to be made (m); nothing
-     * where the matrix is singular
+     * @return nothing where the matrix is singular
      */
-    std::optional<std::vector<double>> solve(const PlaneStep &step, PlaneState &next);
+    std::optional<PlaneSolution> solve(const PlaneStep &step, PlaneState &next);
+
+    /**
+     * Give a state what the last pass has found, for a value of the multiplier.
+     * @param next its front is where it was in the pass; temperatures, expansions, speeds
+     * and heat are set
+     * @return the displacements along the normals that are still to be made (m)
+     */
+    std::vector<double> apply(const PlaneStep &step, const PlaneSolution &solution,
+                              double multiplier, PlaneState &next);
 
     /** Temperature of the front's particles (K), curvature of the state. */
     double front_temperature(double curvature) const;
@@ -166,6 +192,11 @@ namespace meltfront::particles::rkpm_tracked
     double known_rate(const PlaneStep &step, NodePhase phase, std::size_t node) const;
     void add_wall(const PlaneStep &step, const PlaneState &next, const WallNode &wall);
     void add_front(const PlaneStep &step, const PlaneState &next, std::size_t particle);
+    void find_wall_inflow(const PlaneStep &step, const PlaneState &next);
+    double power_through(const PlaneStep &step, const WallPiece &piece,
+                         const PlanePoint &place, double own, double guess) const;
+    double particle_length(const PlaneFront &front, std::size_t particle) const;
+    double spread_multiplier(const PlaneStep &step, const PlaneState &next);
     cases::HeatTransfer transfer_through(const WallPiece &piece, double value,
                                          const PlaneState &latest, std::uint32_t node);
     void add(NodePhase phase, std::uint32_t column, double weight);
@@ -174,10 +205,11 @@ namespace meltfront::particles::rkpm_tracked
     void extrapolate_inactive(PlaneState &state) const;
     double front_value(NodePhase phase, std::size_t particle,
                        std::span<const double> solution) const;
+    void add_heat(const PlaneStep &step, double power, PlaneState &next);
     double wall_power(const PlaneStep &step, const PlaneState &state,
                       std::span<const double> solution) const;
     double flux_heat(const PlaneStep &step) const;
-    double released_heat(const PlaneStep &step) const;
+    double released_heat(const PlaneStep &step);
 
     const cases::Scene &scene;
     GivenValues given;
@@ -201,6 +233,10 @@ namespace meltfront::particles::rkpm_tracked
 
     CompressedRows matrix;
     std::vector<double> right_side;
+    std::vector<double> wall_inflow; ///< to front particles, at walls (W/m)
+    double release_begin = 0, release_end = 0; ///< of the step last asked for (s)
+    double released = 0;                       ///< in that (J/m)
+    std::vector<double> spread; ///< of a unit of the multiplier, by row
     std::vector<std::uint32_t> row_columns, scratch;
     std::vector<double> row_values;
     double row_right_side = 0;

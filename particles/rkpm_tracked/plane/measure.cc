@@ -11,9 +11,6 @@ namespace meltfront::particles::rkpm_tracked
 {
   namespace
   {
-    /** Spacings from the front within which areas are summed over points. */
-    constexpr double cut_reach = 1.3;
-
     /** Spacings from a sink within which its singular part is summed over points. */
     constexpr double sink_reach = 3;
 

@@ -7,6 +7,9 @@
 
 namespace meltfront::particles::rkpm_tracked
 {
+  /** Spacings from the front within which areas are summed over points. */
+  inline constexpr double cut_reach = 1.3;
+
   /** What a state holds of solid and of heat. */
   struct PlaneMeasure
   {

@@ -1,6 +1,9 @@
 #include <cases/wall_law.h>
 #include <particles/rkpm_tracked/plane/heat.h>
 
+#include <cmath>
+#include <limits>
+
 namespace meltfront::particles::rkpm_tracked
 {
   /** Where the temperature is held the power is what the balance of the wall node's area
@@ -24,20 +27,14 @@ namespace meltfront::particles::rkpm_tracked
         for(int i = 0; i < wall.n_pieces; ++i)
         {
           const WallPiece &piece = wall.pieces[i];
-          const bool transfers = cases::exchanges_heat(piece.boundary->kind);
-          if(piece.boundary->kind == cases::BoundaryKind::insulated
-             || (!transfers && !given.mean_of(*piece.boundary).steady()))
-            continue;
-          const double value = given.wall(*piece.boundary, position_of(place), step.span);
           // What the node's row has of the law, so that the book has the same heat.
           const bool radiates = piece.boundary->kind == cases::BoundaryKind::radiation;
           const double guess
               = !radiates || at_front ? own : wall_guesses[nodes.wall_of_node[wall.node]];
-          const cases::HeatTransfer near
-              = transfers ? cases::heat_transfer_near(*piece.boundary, value, guess)
-                          : cases::HeatTransfer();
-          power += piece.length
-                   * (transfers ? near.coefficient * (near.ambient - own) : value);
+          if(cases::exchanges_heat(piece.boundary->kind)
+             || (piece.boundary->kind == cases::BoundaryKind::flux
+                 && given.mean_of(*piece.boundary).steady()))
+            power += power_through(step, piece, place, own, guess);
         }
         continue;
       }
@@ -62,6 +59,18 @@ namespace meltfront::particles::rkpm_tracked
     return power;
   }
 
+  /** Heat that has come in up to the end of a step. A power that the rows have comes in
+   * by the formula of their derivative in time, so that what they conserve adds up. */
+  void PlaneHeat::add_heat(const PlaneStep &step, double power, PlaneState &next)
+  {
+    next.wall_heat = step.b * step.last.wall_heat + step.step * power;
+    if(step.older)
+      next.wall_heat -= step.c * step.older->wall_heat;
+    next.wall_heat /= step.a;
+    next.flux_heat = step.last.flux_heat + flux_heat(step);
+    next.released_heat = step.last.released_heat + released_heat(step);
+  }
+
   double PlaneHeat::flux_heat(const PlaneStep &step) const
   {
     double heat = 0;
@@ -84,16 +93,83 @@ namespace meltfront::particles::rkpm_tracked
     return heat;
   }
 
-  double PlaneHeat::released_heat(const PlaneStep &step) const
+  /** What is released in a step. The cells that the front cuts are summed over points:
+   * what is released may jump there. */
+  double PlaneHeat::released_heat(const PlaneStep &step)
   {
     if(!scene.volumetric_source)
       return 0;
+    if(step.span.begin == release_begin && step.time == release_end)
+      return released;
     LinearStep span = step.span;
     span.share_before = 0;
-    double heat = 0;
+    release_begin = span.begin;
+    release_end = step.time;
+    released = 0;
     for(std::size_t i = 0; i < nodes.size(); ++i)
-      heat += nodes.weight[i] * step.step
-              * given.release(position_of(nodes.position[i]), span);
-    return heat;
+    {
+      const PlanePoint &place = nodes.position[i];
+      const bool cut
+          = std::abs(index->signed_distance(place, nodes.spacing)) < nodes.spacing;
+      const std::span<const PlanePoint> points
+          = cut ? nodes.samples_of(i) : std::span(&place, 1);
+      for(const PlanePoint &point : points)
+        released += nodes.weight[i] * step.step
+                    * given.release(position_of(point), span)
+                    / static_cast<double>(points.size());
+    }
+    return released;
+  }
+
+  /** What a piece of a wall brings to a node at a temperature, by the law linearised
+   * about a guess (W/m). */
+  double PlaneHeat::power_through(const PlaneStep &step, const WallPiece &piece,
+                                  const PlanePoint &place, double own,
+                                  double guess) const
+  {
+    if(piece.boundary->kind == cases::BoundaryKind::insulated)
+      return 0;
+    const double value = given.wall(*piece.boundary, position_of(place), step.span);
+    if(!cases::exchanges_heat(piece.boundary->kind))
+      return piece.length * value;
+    const cases::HeatTransfer near
+        = cases::heat_transfer_near(*piece.boundary, value, guess);
+    return piece.length * near.coefficient * (near.ambient - own);
+  }
+
+  /** A wall's node on the front has no balance: what comes in there goes to the nearest
+   * particle. */
+  void PlaneHeat::find_wall_inflow(const PlaneStep &step, const PlaneState &next)
+  {
+    wall_inflow.assign(next.front.size(), 0.);
+    for(const WallNode &wall : nodes.walls)
+    {
+      if(next.phase[wall.node] != NodePhase::front || wall.dirichlet())
+        continue;
+      const PlanePoint &place = nodes.position[wall.node];
+      const double own = front_temperature_near(wall.node);
+      double least = std::numeric_limits<double>::infinity();
+      std::size_t nearest = 0;
+      front_bins.visit(place, 2 * nodes.spacing,
+                       [&](std::uint32_t p, double square)
+                       {
+                         if(!next.front.active[p] || square >= least)
+                           return;
+                         least = square;
+                         nearest = p;
+                       });
+      if(std::isfinite(least))
+        for(int i = 0; i < wall.n_pieces; ++i)
+          wall_inflow[nearest] += power_through(step, wall.pieces[i], place, own, own);
+    }
+  }
+
+  /** Half the way to either neighbour along the curve (m). */
+  double PlaneHeat::particle_length(const PlaneFront &front, std::size_t particle) const
+  {
+    const PlanePoint &place = front.position[particle];
+    return ((front.position[after[particle]] - place).norm()
+            + (place - front.position[before[particle]]).norm())
+           / 2;
   }
 } // namespace meltfront::particles::rkpm_tracked

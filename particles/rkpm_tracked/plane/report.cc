@@ -32,7 +32,6 @@ namespace meltfront::particles::rkpm_tracked
     cost.work = heat.entries;
     cost.solver_iterations = heat.solves;
     cost.most_iterations = most_passes;
-    cost.capped_steps = capped_steps;
     cost.effects = effect_costs();
     cost.evidence = evidence();
     return cost;
@@ -65,6 +64,7 @@ namespace meltfront::particles::rkpm_tracked
     reached(0, scene.start_time);
     if(seeded)
       state = *std::move(seeded);
+    unbooked_heat = lost_heat(state);
   }
 
   cases::Snapshot PlaneRun::snapshot(long step, double time)
@@ -93,8 +93,9 @@ namespace meltfront::particles::rkpm_tracked
     snapshot.temperature = measured.temperature;
     snapshot.solid_fraction = measured.solid_fraction;
     snapshot.obeys_maximum_principle = false;
-    snapshot.heat = {measured.sensible, measured.latent, boundary_heat,
-                     heat.sinks.energy(state.time) + released_heat, initial_heat};
+    snapshot.heat
+        = {measured.sensible, measured.latent, state.wall_heat + state.flux_heat,
+           heat.sinks.energy(state.time) + state.released_heat, initial_heat};
     return snapshot;
   }
 
@@ -111,8 +112,9 @@ namespace meltfront::particles::rkpm_tracked
   {
     return {{"steps halved", double(halved_steps)},
             {"singular matrices, met by halving the step", double(heat.singular)},
-            {"steps taken with 1e-4 to 1e-2 spacings left to move", double(capped_steps)},
-            {"heat that the front made up for (J/m)", closed_heat},
+            {"largest share by which the heat balance changes fluxes at the front",
+             largest_multiplier},
+            {"heat that start and events leave out of the balance (J/m)", unbooked_heat},
             {"latent heat of areas that changed phase by decree (J/m)", decreed_heat},
             {"largest distance of level set and front particles, in spacings", mismatch}};
   }

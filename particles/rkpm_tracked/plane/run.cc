@@ -1,4 +1,3 @@
-#include <particles/rkpm_tracked/plane/heat_correction.h>
 #include <particles/rkpm_tracked/plane/measure.h>
 #include <particles/rkpm_tracked/plane/run.h>
 #include <particles/rkpm_tracked/plane/topology.h>
@@ -32,17 +31,15 @@ namespace meltfront::particles::rkpm_tracked
     /** Passes in which nodes change their phases. */
     constexpr long regrouping_passes = 4;
 
-    /** What is accepted, and counted, of a step that cannot be halved further. */
-    constexpr double nearly_done = 1e-2;
+    /** Of the heat balance, over the largest heat in it, and trials to reach that. */
+    constexpr double balanced = 1e-13;
+    constexpr int most_trials = 12;
 
     /** Shares of their distance within which front particles may stand. */
     constexpr double closest = 0.7, farthest = 1.35;
 
     /** No step takes a curve nearer to its middle than by this share. */
     constexpr double share_of_radius = 0.5;
-
-    /** No particle makes up for lost heat by more than this in a step, in spacings. */
-    constexpr double farthest_correction = 0.05;
 
     /** Largest and smallest radius of a seed around a sink, in spacings. */
     constexpr double largest_seed = 3, smallest_seed = 0.75;
@@ -77,9 +74,6 @@ namespace meltfront::particles::rkpm_tracked
     , heat(scene, nodes, settings_of(scene, parameters, resolution.threads))
     , relaxation(nodes, parameters.relax_rule, std::max(1, resolution.threads))
     , marked(nodes, std::max(1, resolution.threads))
-    , closes_budget(parameters.heat_correction == HeatCorrection::always
-                    || (parameters.heat_correction == HeatCorrection::given_walls
-                        && wall_heat_is_given(scene)))
     , bounds(cases::temperature_bounds(scene))
     , breakpoints(cases::breakpoints_of(scene))
   {
@@ -180,6 +174,7 @@ namespace meltfront::particles::rkpm_tracked
   {
     next.front = state.front;
     next.phase = state.phase;
+    next.multiplier = state.multiplier;
     const double farthest_way = farthest_step * nodes.spacing;
     for(std::size_t p = 0; p < next.front.size(); ++p)
       next.front.position[p]
@@ -246,17 +241,70 @@ namespace meltfront::particles::rkpm_tracked
     while(largest > done && passes < passes_allowed)
     {
       heat.set_front(next, passes >= regrouping_passes);
-      const std::optional<std::vector<double>> ways = heat.solve(times, next);
+      const std::optional<PlaneSolution> solution = heat.solve(times, next);
       ++passes;
-      if(!ways || move(*ways, next, largest))
+      if(!solution || !balance(times, *solution, next, largest))
         return failed;
     }
     most_passes = std::max(most_passes, passes);
     return largest;
   }
 
+  /** Heat that has come in and is not there (J/m). */
+  double PlaneRun::lost_heat(const PlaneState &of) const
+  {
+    const PlaneMeasure found = measure(scene, nodes, heat, of);
+    return initial_heat + of.wall_heat + of.flux_heat + of.released_heat
+           + heat.sinks.energy(of.time) - unbooked_heat - found.sensible - found.latent;
+  }
+
+  /**
+   * The equation of the multiplier: no heat is lost up to the end of the step, that of
+   * the state as it will be accepted, with the front moved. It is solved to round-off,
+   * by the secant method, in the last pass; before that once, by what the multiplier
+   * gives.
+   * @param next is what the pass has found, its front moved
+   * @param largest way that was left, in spacings
+   * @return whether particles stay within their limits and the balance holds
+   */
+  bool PlaneRun::balance(const PlaneStep &times, const PlaneSolution &solution,
+                         PlaneState &next, double &largest)
+  {
+    const PlaneFront front = next.front;
+    const auto take = [&](double multiplier)
+    {
+      next.front = front;
+      return !move(heat.apply(times, solution, multiplier, next), next, largest);
+    };
+    double multiplier = next.multiplier;
+    if(!take(multiplier))
+      return false;
+    double slope = solution.heat;
+    double lost = lost_heat(next);
+    for(int trial = 0; trial < most_trials; ++trial)
+    {
+      const double scale
+          = std::max({std::abs(initial_heat), std::abs(next.wall_heat + next.flux_heat),
+                      scene.material.solid.density * scene.material.latent_heat
+                          * nodes.area});
+      if(std::abs(lost) <= balanced * scale)
+        return true;
+      const double change = lost / slope;
+      if(!std::isfinite(change) || !take(multiplier + change))
+        return false;
+      if(largest > done)
+        return true;
+      const double left = lost_heat(next);
+      slope = (lost - left) / change;
+      multiplier += change;
+      lost = left;
+    }
+    return false;
+  }
+
   void PlaneRun::step()
   {
+    prepare();
     double step = next_step();
     PlaneState next;
     double left = attempt(step, next);
@@ -266,7 +314,7 @@ namespace meltfront::particles::rkpm_tracked
       step /= 2;
       left = attempt(step, next);
     }
-    if(left > nearly_done)
+    if(left > done)
       throw cases::NumericalError(
           method_name, step_number + 1, state.time + step, "front",
           std::isfinite(left)
@@ -274,26 +322,8 @@ namespace meltfront::particles::rkpm_tracked
                             "short the step",
                             left, passes_allowed)
               : "moves too far or meets a singular matrix, however short the step");
-    capped_steps += left > done;
     last_step = shorten_to_bounds(step, next);
     accept(std::move(next));
-  }
-
-  /** Heat that the scheme lost in the step is made up for by the front. */
-  void PlaneRun::close_budget()
-  {
-    if(!closes_budget)
-      return;
-    const PlaneMeasure measured = measure(scene, nodes, heat, state);
-    const double missing = initial_heat + boundary_heat + released_heat
-                           + heat.sinks.energy(state.time) - measured.sensible
-                           - measured.latent;
-    const PlaneFront &front = state.front;
-    const bool gone = std::ranges::none_of(front.active, [](char on) { return on; });
-    closed_heat += gone ? warm_nodes(scene, nodes, state, missing)
-                        : rkpm_tracked::close_budget(scene, heat.sinks, older->front,
-                                                     state, missing,
-                                                     farthest_correction * nodes.spacing);
   }
 
   /** The level set goes along; then the particles are put onto its zeros. */
@@ -314,17 +344,22 @@ namespace meltfront::particles::rkpm_tracked
 
   void PlaneRun::accept(PlaneState next)
   {
-    const double before = restarted ? next.wall_power : state.wall_power;
-    boundary_heat += (next.time - state.time) * (before + next.wall_power) / 2;
-    boundary_heat += next.flux_heat;
-    released_heat += next.released_heat;
     older = std::move(state);
     state = std::move(next);
     restarted = false;
     ++step_number;
+    largest_multiplier = std::max(largest_multiplier, std::abs(state.multiplier));
     check_resolved();
     warn_of_ripples();
-    close_budget();
+  }
+
+  /** Between steps: particles, curves and nodes are laid anew where they have to be. What
+   * that does to the heat of a state is part of the next step, whose balance goes on from
+   * the state that was reported. */
+  void PlaneRun::prepare()
+  {
+    if(restarted)
+      return;
     follow_level_set();
     redistribute(state.front, front_spacing * nodes.spacing, closest, farthest);
     // Particles that were placed anew may lie beyond a wall.

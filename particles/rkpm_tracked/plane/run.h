@@ -45,7 +45,10 @@ namespace meltfront::particles::rkpm_tracked
               double &largest) const;
     void accept(PlaneState next);
     void relax_nodes();
-    void close_budget();
+    bool balance(const PlaneStep &times, const PlaneSolution &solution, PlaneState &next,
+                 double &largest);
+    double lost_heat(const PlaneState &of) const;
+    void prepare();
     void follow_level_set();
     void follow_topology();
     TopologySettings topology_settings() const;
@@ -77,10 +80,8 @@ namespace meltfront::particles::rkpm_tracked
     PlaneHeat heat;
     PlaneRelaxation relaxation;
     MarkedFront marked;
-    bool closes_budget;
     cases::TemperatureBounds bounds;
     std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
-    double released_heat = 0;        ///< throughout the domain (J/m)
     std::string start_in_words;
     std::size_t front_at_start = 0; ///< particles
     PlaneState state;
@@ -88,10 +89,11 @@ namespace meltfront::particles::rkpm_tracked
     double last_step = 0;
     bool warned_of_ripples = false;
     bool restarted = true; ///< no step was made since the start or an event
-    long step_number = 0, halved_steps = 0, capped_steps = 0, most_passes = 0;
+    long step_number = 0, halved_steps = 0, most_passes = 0;
     long next_meeting = 0;
-    double boundary_heat = 0, initial_heat = 0, condition = 0;
-    double closed_heat = 0;  ///< that the front made up for (J/m)
+    double initial_heat = 0, condition = 0;
+    double unbooked_heat = 0; ///< by which start and events are off in the book (J/m)
+    double largest_multiplier = 0;
     double decreed_heat = 0; ///< latent, of areas that changed phase by decree (J/m)
     double mismatch = 0;     ///< largest of level set and particles, in spacings
     std::vector<std::pair<double, std::string>> events; ///< not yet told

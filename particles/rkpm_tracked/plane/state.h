@@ -66,10 +66,12 @@ namespace meltfront::particles::rkpm_tracked
     std::array<FrontExpansion, n_phases> expansion; ///< by index_of(phase)
     std::vector<PlanePoint> expanded_about; ///< places of the front particles that they
                                             ///< are expansions about
-    /** Heat in through walls, without that of fluxes that vary (W/m). */
-    double wall_power = 0;
-    double flux_heat = 0;     ///< what these brought in the last step (J/m)
-    double released_heat = 0; ///< likewise of the heat released throughout (J/m)
+    /** Heat that has come in through walls, without that of fluxes that vary: by the
+     * formula in time that the temperatures have (J/m). */
+    double wall_heat = 0;
+    double flux_heat = 0;     ///< of fluxes that vary (J/m)
+    double released_heat = 0; ///< throughout the domain (J/m)
+    double multiplier = 0;    ///< of the heat balance in the last step
     PlaneBins expansion_bins; ///< of expanded_about
 
     /** The unknown of a phase at a place, also beyond the front: there by the expansion

@@ -193,7 +193,9 @@ namespace meltfront::particles::rkpm_tracked
       finish_row(front.speed[particle] - step.a / step.step * way);
       return;
     }
-    double known = -rate * way, slope = rate;
+    double known
+        = -rate * way + wall_inflow[particle] / particle_length(front, particle);
+    double slope = rate;
     for(const NodePhase phase : phases)
     {
       const double conductivity
@@ -221,8 +223,46 @@ namespace meltfront::particles::rkpm_tracked
     finish_row(known);
   }
 
-  std::optional<std::vector<double>> PlaneHeat::solve(const PlaneStep &step,
-                                                      PlaneState &next)
+  /**
+   * The rows that a unit of the multiplier enters: at the front it adds what flows to a
+   * particle from both sides, so that each flux is wrong by the same share; where nothing
+   * flows it warms all nodes alike.
+   * @return the heat that it gives in the step, were it not conducted on (J/m)
+   */
+  double PlaneHeat::spread_multiplier(const PlaneStep &step, const PlaneState &next)
+  {
+    const PlaneFront &front = next.front;
+    double power = 0;
+    for(std::size_t p = 0; p < front.size(); ++p)
+    {
+      if(!front.active[p])
+        continue;
+      const PlanePoint &place = front.position[p], &normal = front.normal[p];
+      const PlanePoint solid
+          = next.expansion[1].gradient[p] + sinks.gradient(place, step.time);
+      const double flow
+          = properties(NodePhase::solid).conductivity * std::abs(solid.dot(normal))
+            + properties(NodePhase::liquid).conductivity
+                  * std::abs(next.expansion[0].gradient[p].dot(normal));
+      spread[nodes.size() + p] = flow;
+      power += flow * particle_length(front, p);
+    }
+    if(power > 0)
+      return power * step.step / step.a;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+    {
+      const std::int32_t wall = nodes.wall_of_node[i];
+      if(wall >= 0 && nodes.walls[wall].dirichlet())
+        continue;
+      const double capacity = properties(next.phase[i]).volumetric_heat_capacity();
+      spread[i] = capacity * (wall >= 0 ? wall_areas[wall] : 1);
+      power += capacity * nodes.weight[i];
+    }
+    return power * step.step / step.a;
+  }
+
+  std::optional<PlaneSolution> PlaneHeat::solve(const PlaneStep &step,
+                                                PlaneState &next)
   {
     next.time = step.time;
     make_rows(next);
@@ -234,35 +274,56 @@ namespace meltfront::particles::rkpm_tracked
         });
     matrix = CompressedRows();
     right_side.clear();
+    spread.assign(nodes.size() + next.front.size(), 0.);
     for(std::size_t i = 0; i < nodes.size(); ++i)
       add_node(step, next, i);
     meters.front.measure(
         [&]
         {
+          find_wall_inflow(step, next);
           for(std::size_t p = 0; p < next.front.size(); ++p)
             add_front(step, next, p);
         });
     LinearSolverParameters parameters;
     parameters.method = LinearMethod::direct;
     LinearSolver solver(matrix, parameters);
-    std::vector<double> solution(matrix.rows(), 0.);
-    const LinearSolver::Outcome outcome = solver.solve(right_side, solution);
+    PlaneSolution solution;
+    solution.heat = spread_multiplier(step, next);
+    solution.constant.resize(matrix.rows());
+    solution.slope.resize(matrix.rows());
+    const bool solved = solver.solve(right_side, solution.constant).converged
+                        && solver.solve(spread, solution.slope).converged;
     ++solves;
     entries += static_cast<long>(matrix.size());
     most_unknowns = std::max(most_unknowns, matrix.rows());
-    if(!outcome.converged)
+    if(!solved)
     {
       ++singular;
       return std::nullopt;
     }
+    return solution;
+  }
+
+  std::vector<double> PlaneSolution::at(double multiplier) const
+  {
+    std::vector<double> result(constant);
+    for(std::size_t i = 0; i < result.size(); ++i)
+      result[i] += multiplier * slope[i];
+    return result;
+  }
+
+  std::vector<double> PlaneHeat::apply(const PlaneStep &step,
+                                       const PlaneSolution &found, double multiplier,
+                                       PlaneState &next)
+  {
+    const std::vector<double> solution = found.at(multiplier);
+    next.multiplier = multiplier;
     next.unknown.assign(solution.begin(), solution.begin() + nodes.size());
     std::vector<double> displacement(next.front.size());
     for(std::size_t p = 0; p < displacement.size(); ++p)
       displacement[p] = nodes.spacing * solution[nodes.size() + p];
     meters.front.measure([&] { update_expansions(next, solution); });
-    next.wall_power = wall_power(step, next, solution);
-    next.flux_heat = flux_heat(step);
-    next.released_heat = released_heat(step);
+    add_heat(step, wall_power(step, next, solution), next);
     return displacement;
   }
 

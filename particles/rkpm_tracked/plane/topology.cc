@@ -1,4 +1,5 @@
 #include <particles/rkpm_tracked/plane/bodies.h>
+#include <particles/rkpm_tracked/plane/measure.h>
 #include <particles/rkpm_tracked/plane/topology.h>
 
 #include <fmt/format.h>
@@ -352,14 +353,22 @@ namespace meltfront::particles::rkpm_tracked
     return longest;
   }
 
-  double book_latent_heat(PlaneState &state, const cases::Scene &scene,
-                          const PlaneNodes &nodes, const PlaneHeat &heat,
-                          const std::vector<PlanePoint> &places, double energy)
+  double book_heat(PlaneState &state, const cases::Scene &scene, const PlaneNodes &nodes,
+                   const PlaneHeat &heat, const std::vector<PlanePoint> &places,
+                   double wanted)
   {
+    const auto missing = [&]
+    {
+      const PlaneMeasure found = measure(scene, nodes, heat, state);
+      return wanted - found.sensible - found.latent;
+    };
+    const double energy = missing();
     if(places.empty())
-      return 0;
+      return energy;
     const PlaneBins bins(places, nodes.spacing);
-    const double melting = scene.material.melting_temperature;
+    const FrontIndex index(state.front, heat.settings.solid_beyond, nodes.spacing);
+    const double melting = scene.material.melting_temperature,
+                 beside_front = cut_reach * nodes.spacing;
     struct Store
     {
       double distance, excess, capacity;
@@ -368,15 +377,16 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<Store> stores;
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
-      if(state.phase[i] == NodePhase::front || nodes.wall_of_node[i] >= 0)
+      const PlanePoint &place = nodes.position[i];
+      if(state.phase[i] == NodePhase::front || nodes.wall_of_node[i] >= 0
+         || std::abs(index.signed_distance(place, beside_front)) < beside_front)
         continue;
       const double excess = heat.temperature(state, i) - melting;
       if(excess * energy >= 0)
         continue;
       const auto &phase = state.phase[i] == NodePhase::solid ? scene.material.solid
                                                              : scene.material.liquid;
-      const PlanePoint &place = places[bins.nearest(nodes.position[i])];
-      stores.push_back({(nodes.position[i] - place).norm(), excess,
+      stores.push_back({(place - places[bins.nearest(place)]).norm(), excess,
                         phase.volumetric_heat_capacity() * nodes.weight[i],
                         static_cast<std::uint32_t>(i)});
     }
@@ -393,10 +403,19 @@ namespace meltfront::particles::rkpm_tracked
       ++count;
     }
     if(room == 0)
-      return 0;
+      return energy;
+    const auto approach = [&](double share)
+    {
+      for(std::size_t i = 0; i < count; ++i)
+        state.unknown[stores[i].node] -= share * stores[i].excess;
+    };
+    // Heat depends on these temperatures linearly: the second share is exact.
     const double share = std::min(largest_share, std::abs(energy) / room);
-    for(std::size_t i = 0; i < count; ++i)
-      state.unknown[stores[i].node] -= share * stores[i].excess;
-    return std::copysign(share * room, energy);
+    approach(share);
+    const double left = missing();
+    if(share == largest_share)
+      return left;
+    approach(share * left / (energy - left));
+    return missing();
   }
 } // namespace meltfront::particles::rkpm_tracked

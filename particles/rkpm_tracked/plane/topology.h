@@ -54,17 +54,18 @@ namespace meltfront::particles::rkpm_tracked
   double longest_step_of_films(const PlaneFront &front, const TopologySettings &settings);
 
   /**
-   * Take the latent heat of areas that changed their phase by decree out of the nodes
-   * about them: their temperatures approach the melting temperature, the nearest nodes',
-   * and those of no more nodes than it takes, so that none is changed by more than half
-   * its distance from it.
+   * Take the heat by which areas that changed their phase by decree changed that of a
+   * state out of the nodes about them: their temperatures approach the melting
+   * temperature, the nearest nodes', and those of no more nodes than it takes, so that
+   * none is changed by more than half its distance from it. Nodes whose area the front
+   * may cut are left out: there the expansions about the front tell the heat.
    * @param places where it was
-   * @param energy that is to be added to the nodes (J/m)
-   * @return the part of it that was (J/m)
+   * @param wanted heat of the state, as measure() finds it (J/m)
+   * @return the heat that is missing afterwards, round-off where nodes had enough (J/m)
    */
-  double book_latent_heat(PlaneState &state, const cases::Scene &scene,
-                          const PlaneNodes &nodes, const PlaneHeat &heat,
-                          const std::vector<PlanePoint> &places, double energy);
+  double book_heat(PlaneState &state, const cases::Scene &scene, const PlaneNodes &nodes,
+                   const PlaneHeat &heat, const std::vector<PlanePoint> &places,
+                   double wanted);
 } // namespace meltfront::particles::rkpm_tracked
 
 #endif
