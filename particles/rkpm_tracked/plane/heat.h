@@ -44,6 +44,8 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<double> constant, slope;
     /** Heat that a unit of the multiplier gives in the step, about (J/m). */
     double heat = 0;
+    /** By which it lowers what held walls are found to give (W/m). */
+    double wall_power = 0;
 
     std::vector<double> at(double multiplier) const;
   };
@@ -176,6 +178,7 @@ namespace meltfront::particles::rkpm_tracked
     };
 
     const cases::PhaseProperties &properties(NodePhase phase) const;
+    std::vector<double> collocated(const PlaneStencil &stencil, std::size_t node) const;
     void make_rows(const PlaneState &state);
     void make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,
                   std::size_t node);
@@ -196,7 +199,12 @@ namespace meltfront::particles::rkpm_tracked
     double power_through(const PlaneStep &step, const WallPiece &piece,
                          const PlanePoint &place, double own, double guess) const;
     double particle_length(const PlaneFront &front, std::size_t particle) const;
-    double spread_multiplier(const PlaneStep &step, const PlaneState &next);
+    void spread_multiplier(const PlaneStep &step, const PlaneState &next,
+                           PlaneSolution &solution);
+    double flow_to_front(const PlaneStep &step, const PlaneState &next);
+    void find_flux_errors(const PlaneStep &step, const PlaneState &next);
+    double last_value(const PlaneStep &step, const PlaneState &next, NodePhase phase,
+                      std::uint32_t column) const;
     cases::HeatTransfer transfer_through(const WallPiece &piece, double value,
                                          const PlaneState &latest, std::uint32_t node);
     void add(NodePhase phase, std::uint32_t column, double weight);
@@ -215,6 +223,7 @@ namespace meltfront::particles::rkpm_tracked
     GivenValues given;
     const PlaneNodes &nodes;
     std::vector<StencilMaker> makers; ///< one for each thread
+    StencilMaker other_maker;         ///< of another order, to tell what fits are off by
     std::unique_ptr<FrontIndex> index;
     PlaneBins front_bins;
     std::vector<Row> rows;
@@ -233,10 +242,14 @@ namespace meltfront::particles::rkpm_tracked
 
     CompressedRows matrix;
     std::vector<double> right_side;
-    std::vector<double> wall_inflow; ///< to front particles, at walls (W/m)
+    /** Squares of what fluxes are off by, over the length, at front particles and in all
+     * on held walls (W^2/m^3). */
+    std::vector<double> front_errors;
+    double wall_errors = 0;
+    std::vector<double> wall_inflow;           ///< to front particles, at walls (W/m)
     double release_begin = 0, release_end = 0; ///< of the step last asked for (s)
     double released = 0;                       ///< in that (J/m)
-    std::vector<double> spread; ///< of a unit of the multiplier, by row
+    std::vector<double> spread;                ///< of a unit of the multiplier, by row
     std::vector<std::uint32_t> row_columns, scratch;
     std::vector<double> row_values;
     double row_right_side = 0;

@@ -1,6 +1,7 @@
 #include <cases/wall_law.h>
 #include <particles/rkpm_tracked/plane/heat.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -93,8 +94,8 @@ namespace meltfront::particles::rkpm_tracked
     return heat;
   }
 
-  /** What is released in a step. The cells that the front cuts are summed over points:
-   * what is released may jump there. */
+  /** What is released in a step: in cells that the front cuts, where it may jump, by
+   * their samples, in others inside by four points of Gauss. */
   double PlaneHeat::released_heat(const PlaneStep &step)
   {
     if(!scene.volumetric_source)
@@ -106,16 +107,23 @@ namespace meltfront::particles::rkpm_tracked
     release_begin = span.begin;
     release_end = step.time;
     released = 0;
+    std::array<PlanePoint, 4> gauss;
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
-      const PlanePoint &place = nodes.position[i];
-      const bool cut
-          = std::abs(index->signed_distance(place, nodes.spacing)) < nodes.spacing;
-      const std::span<const PlanePoint> points
-          = cut ? nodes.samples_of(i) : std::span(&place, 1);
+      const PlanePoint &centre = nodes.centroid[i];
+      const double reach = nodes.spacing;
+      std::span<const PlanePoint> points(&centre, 1);
+      if(std::abs(index->signed_distance(nodes.position[i], reach)) < reach)
+        points = nodes.samples_of(i);
+      else if(nodes.wall_of_node[i] < 0)
+      {
+        const double offset = std::sqrt(nodes.weight[i] / 12);
+        for(std::size_t g = 0; g < gauss.size(); ++g)
+          gauss[g] = centre + offset * PlanePoint(g % 2 ? 1 : -1, g / 2 ? 1 : -1);
+        points = gauss;
+      }
       for(const PlanePoint &point : points)
-        released += nodes.weight[i] * step.step
-                    * given.release(position_of(point), span)
+        released += nodes.weight[i] * step.step * given.release(position_of(point), span)
                     / static_cast<double>(points.size());
     }
     return released;
@@ -124,8 +132,7 @@ namespace meltfront::particles::rkpm_tracked
   /** What a piece of a wall brings to a node at a temperature, by the law linearised
    * about a guess (W/m). */
   double PlaneHeat::power_through(const PlaneStep &step, const WallPiece &piece,
-                                  const PlanePoint &place, double own,
-                                  double guess) const
+                                  const PlanePoint &place, double own, double guess) const
   {
     if(piece.boundary->kind == cases::BoundaryKind::insulated)
       return 0;

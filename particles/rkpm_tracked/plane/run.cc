@@ -174,6 +174,7 @@ namespace meltfront::particles::rkpm_tracked
   {
     next.front = state.front;
     next.phase = state.phase;
+    next.unknown.clear();
     next.multiplier = state.multiplier;
     const double farthest_way = farthest_step * nodes.spacing;
     for(std::size_t p = 0; p < next.front.size(); ++p)
@@ -283,10 +284,9 @@ namespace meltfront::particles::rkpm_tracked
     double lost = lost_heat(next);
     for(int trial = 0; trial < most_trials; ++trial)
     {
-      const double scale
-          = std::max({std::abs(initial_heat), std::abs(next.wall_heat + next.flux_heat),
-                      scene.material.solid.density * scene.material.latent_heat
-                          * nodes.area});
+      const double scale = std::max(
+          {std::abs(initial_heat), std::abs(next.wall_heat + next.flux_heat),
+           scene.material.solid.density * scene.material.latent_heat * nodes.area});
       if(std::abs(lost) <= balanced * scale)
         return true;
       const double change = lost / slope;

@@ -193,8 +193,7 @@ namespace meltfront::particles::rkpm_tracked
       finish_row(front.speed[particle] - step.a / step.step * way);
       return;
     }
-    double known
-        = -rate * way + wall_inflow[particle] / particle_length(front, particle);
+    double known = -rate * way + wall_inflow[particle] / particle_length(front, particle);
     double slope = rate;
     for(const NodePhase phase : phases)
     {
@@ -224,31 +223,30 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   /**
-   * The rows that a unit of the multiplier enters: at the front it adds what flows to a
-   * particle from both sides, so that each flux is wrong by the same share; where nothing
-   * flows it warms all nodes alike.
-   * @return the heat that it gives in the step, were it not conducted on (J/m)
+   * What a unit of the multiplier adds to each flux that a fit tells. Of all changes of
+   * fluxes that close the balance these are the least, each measured by what the flux
+   * may be off by: the minimum of sum (change/e)^2 over the front and the held walls has
+   * changes in proportion to e^2. They are scaled to sum up to what flows to the front;
+   * where nothing flows all nodes are warmed alike.
    */
-  double PlaneHeat::spread_multiplier(const PlaneStep &step, const PlaneState &next)
+  void PlaneHeat::spread_multiplier(const PlaneStep &step, const PlaneState &next,
+                                    PlaneSolution &solution)
   {
-    const PlaneFront &front = next.front;
-    double power = 0;
-    for(std::size_t p = 0; p < front.size(); ++p)
+    const double flow = flow_to_front(step, next);
+    double sum = wall_errors;
+    for(std::size_t p = 0; p < next.front.size(); ++p)
+      if(next.front.active[p])
+        sum += front_errors[p] * particle_length(next.front, p);
+    if(flow > 0 && sum > 0)
     {
-      if(!front.active[p])
-        continue;
-      const PlanePoint &place = front.position[p], &normal = front.normal[p];
-      const PlanePoint solid
-          = next.expansion[1].gradient[p] + sinks.gradient(place, step.time);
-      const double flow
-          = properties(NodePhase::solid).conductivity * std::abs(solid.dot(normal))
-            + properties(NodePhase::liquid).conductivity
-                  * std::abs(next.expansion[0].gradient[p].dot(normal));
-      spread[nodes.size() + p] = flow;
-      power += flow * particle_length(front, p);
+      for(std::size_t p = 0; p < next.front.size(); ++p)
+        if(next.front.active[p])
+          spread[nodes.size() + p] = flow / sum * front_errors[p];
+      solution.wall_power = flow / sum * wall_errors;
+      solution.heat = flow * step.step / step.a;
+      return;
     }
-    if(power > 0)
-      return power * step.step / step.a;
+    double power = 0;
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
       const std::int32_t wall = nodes.wall_of_node[i];
@@ -258,11 +256,98 @@ namespace meltfront::particles::rkpm_tracked
       spread[i] = capacity * (wall >= 0 ? wall_areas[wall] : 1);
       power += capacity * nodes.weight[i];
     }
-    return power * step.step / step.a;
+    solution.heat = power * step.step / step.a;
   }
 
-  std::optional<PlaneSolution> PlaneHeat::solve(const PlaneStep &step,
-                                                PlaneState &next)
+  /** Sum of what flows to the front from either side (W/m). */
+  double PlaneHeat::flow_to_front(const PlaneStep &step, const PlaneState &next)
+  {
+    double flow = 0;
+    for(std::size_t p = 0; p < next.front.size(); ++p)
+      if(next.front.active[p])
+        for(const NodePhase phase : phases)
+        {
+          PlanePoint gradient = next.expansion[index_of(phase)].gradient[p];
+          if(phase == NodePhase::solid)
+            gradient += sinks.gradient(next.front.position[p], step.time);
+          flow += properties(phase).conductivity
+                  * std::abs(gradient.dot(next.front.normal[p]))
+                  * particle_length(next.front, p);
+        }
+    return flow;
+  }
+
+  /** Value of a column in a phase at the last state. */
+  double PlaneHeat::last_value(const PlaneStep &step, const PlaneState &next,
+                               NodePhase phase, std::uint32_t column) const
+  {
+    if(column < nodes.size())
+      return next.phase[column] == NodePhase::front
+                 ? front_temperature_near(column)
+                 : step.last.extended(phase, column, nodes.position[column]);
+    return front_values[index_of(phase)][column - nodes.size()].constant;
+  }
+
+  /** Once in a step: what fluxes are off by, as fits of two orders to the last state
+   * differ, and no less than a profile has that bends over the domain's size D,
+   * (h/D)^2 of the flux. */
+  void PlaneHeat::find_flux_errors(const PlaneStep &step, const PlaneState &next)
+  {
+    const double least = nodes.spacing * nodes.spacing / nodes.area;
+    PlaneStencil other;
+    const auto sum = [&](NodePhase phase, const PlaneStencil &stencil, const auto &weight)
+    {
+      double result = 0;
+      for(std::size_t e = 0; e < stencil.columns.size(); ++e)
+        result += weight(e) * last_value(step, next, phase, stencil.columns[e]);
+      return result;
+    };
+    const auto error = [&](NodePhase phase, double flux, double other_flux)
+    {
+      return std::pow(properties(phase).conductivity
+                          * (std::abs(flux - other_flux) + least * std::abs(flux)),
+                      2);
+    };
+    front_errors.assign(next.front.size(), 0.);
+    for(std::size_t p = 0; p < next.front.size(); ++p)
+      if(next.front.active[p])
+        for(const NodePhase phase : phases)
+        {
+          const PlanePoint &normal = next.front.normal[p];
+          const auto slope = [&](const PlaneStencil &stencil)
+          {
+            return sum(phase, stencil,
+                       [&](std::size_t e) {
+                         return normal.x() * stencil.weights[d_x][e]
+                                + normal.y() * stencil.weights[d_y][e];
+                       });
+          };
+          other_maker.make(next.front.position[p], phase, other);
+          front_errors[p]
+              += error(phase, slope(front_stencils[index_of(phase)][p]), slope(other));
+        }
+    wall_errors = 0;
+    for(const WallNode &wall : nodes.walls)
+    {
+      const NodePhase phase = next.phase[wall.node];
+      if(phase == NodePhase::front || !wall.dirichlet())
+        continue;
+      double length = 0;
+      for(int i = 0; i < wall.n_pieces; ++i)
+        length += wall.pieces[i].length;
+      other_maker.make(nodes.position[wall.node], phase, other);
+      const std::vector<double> weights = collocated(other, wall.node);
+      const double other_flux
+          = sum(phase, other, [&](std::size_t e) { return weights[e]; });
+      const Row &row = rows[wall.node];
+      double flux = 0;
+      for(std::size_t e = 0; e < row.columns.size(); ++e)
+        flux += row.weights[e] * last_value(step, next, phase, row.columns[e]);
+      wall_errors += error(phase, flux / length, other_flux / length) * length;
+    }
+  }
+
+  std::optional<PlaneSolution> PlaneHeat::solve(const PlaneStep &step, PlaneState &next)
   {
     next.time = step.time;
     make_rows(next);
@@ -287,8 +372,10 @@ namespace meltfront::particles::rkpm_tracked
     LinearSolverParameters parameters;
     parameters.method = LinearMethod::direct;
     LinearSolver solver(matrix, parameters);
+    if(next.unknown.empty())
+      find_flux_errors(step, next);
     PlaneSolution solution;
-    solution.heat = spread_multiplier(step, next);
+    spread_multiplier(step, next, solution);
     solution.constant.resize(matrix.rows());
     solution.slope.resize(matrix.rows());
     const bool solved = solver.solve(right_side, solution.constant).converged
@@ -312,9 +399,8 @@ namespace meltfront::particles::rkpm_tracked
     return result;
   }
 
-  std::vector<double> PlaneHeat::apply(const PlaneStep &step,
-                                       const PlaneSolution &found, double multiplier,
-                                       PlaneState &next)
+  std::vector<double> PlaneHeat::apply(const PlaneStep &step, const PlaneSolution &found,
+                                       double multiplier, PlaneState &next)
   {
     const std::vector<double> solution = found.at(multiplier);
     next.multiplier = multiplier;
@@ -323,7 +409,8 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t p = 0; p < displacement.size(); ++p)
       displacement[p] = nodes.spacing * solution[nodes.size() + p];
     meters.front.measure([&] { update_expansions(next, solution); });
-    add_heat(step, wall_power(step, next, solution), next);
+    add_heat(step, wall_power(step, next, solution) - multiplier * found.wall_power,
+             next);
     return displacement;
   }
 
