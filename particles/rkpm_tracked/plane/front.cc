@@ -147,10 +147,7 @@ namespace meltfront::particles::rkpm_tracked
       front.offsets[c] = front.offsets[c] + count - (last - first);
     update_curve(front, curve);
     // Cut corners are given back, so that redistribution melts and freezes nothing.
-    const double shift = (area - signed_area(front, curve)) / knots.back();
-    for(std::size_t p = first; p < first + count; ++p)
-      front.position[p] -= shift * front.normal[p];
-    update_curve(front, curve);
+    restore_area(front, curve, area);
   }
 
   std::size_t redistribute(PlaneFront &front, double target, double least, double largest)
@@ -191,6 +188,14 @@ namespace meltfront::particles::rkpm_tracked
                 * cross(spline.value(k, nodes[g]) - origin, spline.slope(k, nodes[g]))
                 / 2;
     return area;
+  }
+
+  void restore_area(PlaneFront &front, std::size_t curve, double area)
+  {
+    const double shift = (area - signed_area(front, curve)) / curve_length(front, curve);
+    for(std::size_t p = front.offsets[curve]; p < front.offsets[curve + 1]; ++p)
+      front.position[p] -= shift * front.normal[p];
+    update_curve(front, curve);
   }
 
   double curve_length(const PlaneFront &front, std::size_t curve)

@@ -75,6 +75,10 @@ namespace meltfront::particles::rkpm_tracked
   /** Area that a curve encloses, of the spline (m^2); negative if it goes clockwise. */
   double signed_area(const PlaneFront &front, std::size_t curve);
 
+  /** Move a curve's particles along their normals, all alike, so that it encloses an area
+   * (m^2) but for the square of the move. */
+  void restore_area(PlaneFront &front, std::size_t curve, double area);
+
   /** m, of the spline's polygon. */
   double curve_length(const PlaneFront &front, std::size_t curve);
 

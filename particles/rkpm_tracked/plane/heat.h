@@ -76,12 +76,12 @@ namespace meltfront::particles::rkpm_tracked
    *
    *   rho c dT/dt = k lap T,     rho L (x_p + d_p n_p - history) . n_p a/step
    *                                = [k_s dT_s/dn - k_l dT_l/dn] at x_p + d_p n_p
-   *                                  + mu (k_s |dT_s/dn| + k_l |dT_l/dn|).
+   *                                  + mu s_p.
    *
    * Collocation conserves no heat. The multiplier mu is the unknown that belongs to one
-   * more equation, the heat balance of the step (PlaneRun::balance): the share by which
-   * fluxes at the front, which local fits tell to so much, are off. Where no front is,
-   * mu rho c is released alike everywhere.
+   * more equation, the heat balance of the step (PlaneRun::balance). It enters the rows
+   * of the front, of the nodes beside it and the flux through held walls by the squares
+   * of what their fits may be off by; spread_multiplier() says why.
    */
   class PlaneHeat
   {
@@ -202,7 +202,10 @@ namespace meltfront::particles::rkpm_tracked
     void spread_multiplier(const PlaneStep &step, const PlaneState &next,
                            PlaneSolution &solution);
     double flow_to_front(const PlaneStep &step, const PlaneState &next);
-    void find_flux_errors(const PlaneStep &step, const PlaneState &next);
+    void find_row_errors(const PlaneStep &step, const PlaneState &next);
+    double applied(const PlaneStep &step, const PlaneState &next, NodePhase phase,
+                   std::span<const std::uint32_t> columns,
+                   std::span<const double> weights) const;
     double last_value(const PlaneStep &step, const PlaneState &next, NodePhase phase,
                       std::uint32_t column) const;
     cases::HeatTransfer transfer_through(const WallPiece &piece, double value,
@@ -242,9 +245,8 @@ namespace meltfront::particles::rkpm_tracked
 
     CompressedRows matrix;
     std::vector<double> right_side;
-    /** Squares of what fluxes are off by, over the length, at front particles and in all
-     * on held walls (W^2/m^3). */
-    std::vector<double> front_errors;
+    /** Squares of what the heat of rows may be off by, of held walls in all (W^2/m^2). */
+    std::vector<double> row_errors;
     double wall_errors = 0;
     std::vector<double> wall_inflow;           ///< to front particles, at walls (W/m)
     double release_begin = 0, release_end = 0; ///< of the step last asked for (s)

@@ -14,6 +14,12 @@ namespace meltfront::particles::rkpm_tracked
     /** Spacings from a sink within which its singular part is summed over points. */
     constexpr double sink_reach = 3;
 
+    /** Spacings from the front from which on a node's temperature begins to tell the heat
+     * of its area, where the expansions about the front cease to do so at cut_reach; and
+     * those between which its Laplacian begins to count, when all its neighbours are of
+     * its phase. By degrees, as heat that jumps would be made up for by the balance. */
+    constexpr double uncut = 0.75, surrounded_from = 1.5, surrounded_at = 2.1;
+
     constexpr int most_shifts = 20;
 
     /** Spacings within which a node's neighbours tell the slope of the temperature. */
@@ -29,6 +35,13 @@ namespace meltfront::particles::rkpm_tracked
       double weight;
       PlanePoint place;
     };
+
+    /** From 0 to 1 between two distances. */
+    double ramp(double distance, double from, double to)
+    {
+      const double share = std::clamp((distance - from) / (to - from), 0., 1.);
+      return share * share * (3 - 2 * share);
+    }
 
     /** Temperature of the front as last solved for, near a place. */
     double front_temperature(const PlaneState &state, const PlanePoint &place,
@@ -46,7 +59,8 @@ namespace meltfront::particles::rkpm_tracked
      * neighbours surround the Laplacian over the area's second moment, that of a square.
      */
     double mean_beyond_node(const PlaneNodes &nodes, const PlaneState &state,
-                            const std::vector<double> &temperature, std::size_t i)
+                            const std::vector<double> &temperature, std::size_t i,
+                            double distance)
     {
       const PlanePoint &place = nodes.position[i];
       Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
@@ -78,7 +92,9 @@ namespace meltfront::particles::rkpm_tracked
       const PlanePoint slope = spread.inverse() * change;
       const double laplacian
           = surrounded ? 4 * (bend - slope.dot(directions)) / count : 0;
-      return slope.dot(nodes.centroid[i] - place) + nodes.weight[i] / 24 * laplacian;
+      return slope.dot(nodes.centroid[i] - place)
+             + nodes.weight[i] / 24 * laplacian
+                   * ramp(distance / nodes.spacing, surrounded_from, surrounded_at);
     }
 
     /** Share of a sample's area that is solid. */
@@ -125,16 +141,19 @@ namespace meltfront::particles::rkpm_tracked
     const bool solid_beyond = heat.settings.solid_beyond;
     const FrontIndex index(state.front, solid_beyond, h);
     std::vector<Sample> samples;
-    std::vector<char> cut(nodes.size());
+    std::vector<double> distances(nodes.size()), by_node(nodes.size());
     double whole = 0;
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
       result.temperature[i] = state.phase[i] == NodePhase::front
                                   ? front_temperature(state, nodes.position[i], material)
                                   : heat.temperature(state, i);
-      const double distance = index.signed_distance(nodes.position[i], cut_reach * h);
-      cut[i] = std::abs(distance) < cut_reach * h;
-      if(!cut[i])
+      const double distance = index.signed_distance(nodes.position[i], surrounded_at * h);
+      distances[i] = std::abs(distance);
+      by_node[i] = state.phase[i] == NodePhase::front
+                       ? 0
+                       : ramp(distances[i] / h, uncut, cut_reach);
+      if(distances[i] >= cut_reach * h)
       {
         result.solid_fraction[i] = distance < 0 ? 1 : 0;
         whole += distance < 0 ? nodes.weight[i] : 0;
@@ -181,7 +200,8 @@ namespace meltfront::particles::rkpm_tracked
       const PlanePoint offset = sample.place - state.expanded_about[nearest];
       for(const bool solid : {false, true})
       {
-        const double area = sample.weight * (solid ? part : 1 - part);
+        const double area
+            = sample.weight * (solid ? part : 1 - part) * (1 - by_node[sample.node]);
         if(area > 0)
           add_heat(solid, area,
                    state.expansion[solid].at(nearest, offset)
@@ -191,16 +211,16 @@ namespace meltfront::particles::rkpm_tracked
     }
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
-      if(cut[i])
-      {
+      if(distances[i] < cut_reach * h)
         result.solid_fraction[i] = nodes.weight[i] > 0
                                        ? result.solid_fraction[i] / nodes.weight[i]
                                        : (state.phase[i] == NodePhase::solid ? 1 : 0);
+      if(by_node[i] == 0)
         continue;
-      }
       const bool solid = state.phase[i] == NodePhase::solid;
-      double excess = result.temperature[i] - material.melting_temperature
-                      + mean_beyond_node(nodes, state, result.temperature, i);
+      double excess
+          = result.temperature[i] - material.melting_temperature
+            + mean_beyond_node(nodes, state, result.temperature, i, distances[i]);
       double near = std::numeric_limits<double>::infinity();
       for(const PlanePoint &place : heat.sinks.places)
         near = std::min(near, (place - nodes.position[i]).norm());
@@ -213,7 +233,7 @@ namespace meltfront::particles::rkpm_tracked
                   / static_cast<double>(samples.size());
         excess = state.unknown[i] + mean - material.melting_temperature;
       }
-      add_heat(solid, nodes.weight[i], excess);
+      add_heat(solid, by_node[i] * nodes.weight[i], excess);
     }
     result.latent = material.solid.density * material.latent_heat
                     * (nodes.area - result.solid_area);

@@ -32,6 +32,7 @@ namespace meltfront::particles::rkpm_tracked
     cost.work = heat.entries;
     cost.solver_iterations = heat.solves;
     cost.most_iterations = most_passes;
+    cost.capped_steps = capped_steps;
     cost.effects = effect_costs();
     cost.evidence = evidence();
     return cost;
@@ -112,7 +113,8 @@ namespace meltfront::particles::rkpm_tracked
   {
     return {{"steps halved", double(halved_steps)},
             {"singular matrices, met by halving the step", double(heat.singular)},
-            {"largest share by which the heat balance changes fluxes at the front",
+            {"steps taken with 1e-4 to 1e-2 spacings left to move", double(capped_steps)},
+            {"largest heat that the balance adds, of what flows to the front",
              largest_multiplier},
             {"heat that start and events leave out of the balance (J/m)", unbooked_heat},
             {"latent heat of areas that changed phase by decree (J/m)", decreed_heat},

@@ -31,6 +31,11 @@ namespace meltfront::particles::rkpm_tracked
     /** Passes in which nodes change their phases. */
     constexpr long regrouping_passes = 4;
 
+    /** What is accepted, and counted, of a step that gets no better by halving:
+     * neighbours of stencils change from pass to pass. Its heat balance holds all the
+     * same. */
+    constexpr double nearly_done = 1e-2;
+
     /** Of the heat balance, over the largest heat in it, and trials to reach that. */
     constexpr double balanced = 1e-13;
     constexpr int most_trials = 12;
@@ -310,11 +315,14 @@ namespace meltfront::particles::rkpm_tracked
     double left = attempt(step, next);
     for(int halvings = 0; left > done && halvings < most_halvings; ++halvings)
     {
+      const double before = left;
       ++halved_steps;
       step /= 2;
       left = attempt(step, next);
+      if(left <= nearly_done && left > before / 2)
+        break;
     }
-    if(left > done)
+    if(left > nearly_done)
       throw cases::NumericalError(
           method_name, step_number + 1, state.time + step, "front",
           std::isfinite(left)
@@ -322,6 +330,7 @@ namespace meltfront::particles::rkpm_tracked
                             "short the step",
                             left, passes_allowed)
               : "moves too far or meets a singular matrix, however short the step");
+    capped_steps += left > done;
     last_step = shorten_to_bounds(step, next);
     accept(std::move(next));
   }
@@ -338,7 +347,12 @@ namespace meltfront::particles::rkpm_tracked
     ways();
     marked.carry(older->front, front.displacement, step_number, state.time);
     mismatch = std::max(mismatch, marked.mismatch(front) / nodes.spacing);
+    std::vector<double> areas;
+    for(std::size_t c = 0; c < front.curves(); ++c)
+      areas.push_back(signed_area(front, c));
     marked.reproject(front, front.displacement);
+    for(std::size_t c = 0; c < front.curves(); ++c)
+      restore_area(front, c, areas[c]);
     ways();
   }
 

@@ -89,7 +89,7 @@ namespace meltfront::particles::rkpm_tracked
     double last_step = 0;
     bool warned_of_ripples = false;
     bool restarted = true; ///< no step was made since the start or an event
-    long step_number = 0, halved_steps = 0, most_passes = 0;
+    long step_number = 0, halved_steps = 0, capped_steps = 0, most_passes = 0;
     long next_meeting = 0;
     double initial_heat = 0, condition = 0;
     double unbooked_heat = 0; ///< by which start and events are off in the book (J/m)

@@ -223,25 +223,28 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   /**
-   * What a unit of the multiplier adds to each flux that a fit tells. Of all changes of
-   * fluxes that close the balance these are the least, each measured by what the flux
-   * may be off by: the minimum of sum (change/e)^2 over the front and the held walls has
-   * changes in proportion to e^2. They are scaled to sum up to what flows to the front;
-   * where nothing flows all nodes are warmed alike.
+   * What a unit of the multiplier adds to the heat of rows whose fits may be off: at the
+   * front, in the nodes beside it and on held walls. Of all changes that close the
+   * balance these are the least, each measured by what may be off there: the minimum of
+   * sum (change/e)^2 has changes in proportion to e^2. They are scaled to sum up to what
+   * flows to the front; where nothing flows all nodes are warmed alike.
    */
   void PlaneHeat::spread_multiplier(const PlaneStep &step, const PlaneState &next,
                                     PlaneSolution &solution)
   {
     const double flow = flow_to_front(step, next);
     double sum = wall_errors;
-    for(std::size_t p = 0; p < next.front.size(); ++p)
-      if(next.front.active[p])
-        sum += front_errors[p] * particle_length(next.front, p);
+    for(const double square : row_errors)
+      sum += square;
     if(flow > 0 && sum > 0)
     {
+      for(std::size_t i = 0; i < nodes.size(); ++i)
+        if(row_errors[i] > 0 && next.phase[i] != NodePhase::front)
+          spread[i] = flow / sum * row_errors[i] / nodes.weight[i];
       for(std::size_t p = 0; p < next.front.size(); ++p)
         if(next.front.active[p])
-          spread[nodes.size() + p] = flow / sum * front_errors[p];
+          spread[nodes.size() + p] = flow / sum * row_errors[nodes.size() + p]
+                                     / particle_length(next.front, p);
       solution.wall_power = flow / sum * wall_errors;
       solution.heat = flow * step.step / step.a;
       return;
@@ -250,7 +253,8 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
       const std::int32_t wall = nodes.wall_of_node[i];
-      if(wall >= 0 && nodes.walls[wall].dirichlet())
+      if(next.phase[i] == NodePhase::front
+         || (wall >= 0 && nodes.walls[wall].dirichlet()))
         continue;
       const double capacity = properties(next.phase[i]).volumetric_heat_capacity();
       spread[i] = capacity * (wall >= 0 ? wall_areas[wall] : 1);
@@ -277,73 +281,84 @@ namespace meltfront::particles::rkpm_tracked
     return flow;
   }
 
-  /** Value of a column in a phase at the last state. */
+  /** Value of a column in a phase at the last state; what a wall holds may jump, and is
+   * that of the step's end. */
   double PlaneHeat::last_value(const PlaneStep &step, const PlaneState &next,
                                NodePhase phase, std::uint32_t column) const
   {
-    if(column < nodes.size())
-      return next.phase[column] == NodePhase::front
-                 ? front_temperature_near(column)
-                 : step.last.extended(phase, column, nodes.position[column]);
-    return front_values[index_of(phase)][column - nodes.size()].constant;
+    if(column >= nodes.size())
+      return front_values[index_of(phase)][column - nodes.size()].constant;
+    if(next.phase[column] == NodePhase::front)
+      return front_temperature_near(column);
+    const PlanePoint &place = nodes.position[column];
+    const std::int32_t wall = nodes.wall_of_node[column];
+    const WallPiece *piece = wall >= 0 ? nodes.walls[wall].dirichlet() : nullptr;
+    if(!piece)
+      return step.last.extended(phase, column, place);
+    return cases::value_at_end(piece->boundary->value, position_of(place), step.last.time,
+                               step.time)
+           - (phase == NodePhase::solid ? sinks.value(place, step.time) : 0);
   }
 
-  /** Once in a step: what fluxes are off by, as fits of two orders to the last state
-   * differ, and no less than a profile has that bends over the domain's size D,
-   * (h/D)^2 of the flux. */
-  void PlaneHeat::find_flux_errors(const PlaneStep &step, const PlaneState &next)
+  /** Of a sum of weights times values of the last state. */
+  double PlaneHeat::applied(const PlaneStep &step, const PlaneState &next,
+                            NodePhase phase, std::span<const std::uint32_t> columns,
+                            std::span<const double> weights) const
+  {
+    double sum = 0;
+    for(std::size_t e = 0; e < columns.size(); ++e)
+      sum += weights[e] * last_value(step, next, phase, columns[e]);
+    return sum;
+  }
+
+  /**
+   * Once in a step: squares of what the heat of rows is off by, as fits of two orders to
+   * the last state differ; no less than of a profile that bends over the domain's size D,
+   * (h/D)^2 of itself, and no more than itself.
+   */
+  void PlaneHeat::find_row_errors(const PlaneStep &step, const PlaneState &next)
   {
     const double least = nodes.spacing * nodes.spacing / nodes.area;
-    PlaneStencil other;
-    const auto sum = [&](NodePhase phase, const PlaneStencil &stencil, const auto &weight)
+    const auto square = [&](NodePhase phase, double size, double one, double other)
     {
-      double result = 0;
-      for(std::size_t e = 0; e < stencil.columns.size(); ++e)
-        result += weight(e) * last_value(step, next, phase, stencil.columns[e]);
-      return result;
-    };
-    const auto error = [&](NodePhase phase, double flux, double other_flux)
-    {
-      return std::pow(properties(phase).conductivity
-                          * (std::abs(flux - other_flux) + least * std::abs(flux)),
+      const double difference = std::min(std::abs(one - other), std::abs(one));
+      return std::pow(size * properties(phase).conductivity
+                          * (difference + least * std::abs(one)),
                       2);
     };
-    front_errors.assign(next.front.size(), 0.);
+    PlaneStencil other;
+    row_errors.assign(nodes.size() + next.front.size(), 0.);
     for(std::size_t p = 0; p < next.front.size(); ++p)
       if(next.front.active[p])
         for(const NodePhase phase : phases)
         {
-          const PlanePoint &normal = next.front.normal[p];
+          other_maker.make(next.front.position[p], phase, other);
           const auto slope = [&](const PlaneStencil &stencil)
           {
-            return sum(phase, stencil,
-                       [&](std::size_t e) {
-                         return normal.x() * stencil.weights[d_x][e]
-                                + normal.y() * stencil.weights[d_y][e];
-                       });
+            const PlanePoint gradient(
+                applied(step, next, phase, stencil.columns, stencil.weights[d_x]),
+                applied(step, next, phase, stencil.columns, stencil.weights[d_y]));
+            return gradient.dot(next.front.normal[p]);
           };
-          other_maker.make(next.front.position[p], phase, other);
-          front_errors[p]
-              += error(phase, slope(front_stencils[index_of(phase)][p]), slope(other));
+          row_errors[nodes.size() + p]
+              += square(phase, particle_length(next.front, p),
+                        slope(front_stencils[index_of(phase)][p]), slope(other));
         }
     wall_errors = 0;
-    for(const WallNode &wall : nodes.walls)
+    for(std::size_t i = 0; i < nodes.size(); ++i)
     {
-      const NodePhase phase = next.phase[wall.node];
-      if(phase == NodePhase::front || !wall.dirichlet())
+      const std::int32_t wall = nodes.wall_of_node[i];
+      const bool held = wall >= 0 && nodes.walls[wall].dirichlet();
+      const bool beside_front = wall < 0 && rows[i].reach == 0;
+      const NodePhase phase = next.phase[i];
+      if(phase == NodePhase::front || !(held || beside_front))
         continue;
-      double length = 0;
-      for(int i = 0; i < wall.n_pieces; ++i)
-        length += wall.pieces[i].length;
-      other_maker.make(nodes.position[wall.node], phase, other);
-      const std::vector<double> weights = collocated(other, wall.node);
-      const double other_flux
-          = sum(phase, other, [&](std::size_t e) { return weights[e]; });
-      const Row &row = rows[wall.node];
-      double flux = 0;
-      for(std::size_t e = 0; e < row.columns.size(); ++e)
-        flux += row.weights[e] * last_value(step, next, phase, row.columns[e]);
-      wall_errors += error(phase, flux / length, other_flux / length) * length;
+      other_maker.make(nodes.position[i], phase, other);
+      const double error
+          = square(phase, held ? 1 : nodes.weight[i],
+                   applied(step, next, phase, rows[i].columns, rows[i].weights),
+                   applied(step, next, phase, other.columns, collocated(other, i)));
+      (held ? wall_errors : row_errors[i]) += error;
     }
   }
 
@@ -373,7 +388,7 @@ namespace meltfront::particles::rkpm_tracked
     parameters.method = LinearMethod::direct;
     LinearSolver solver(matrix, parameters);
     if(next.unknown.empty())
-      find_flux_errors(step, next);
+      find_row_errors(step, next);
     PlaneSolution solution;
     spread_multiplier(step, next, solution);
     solution.constant.resize(matrix.rows());

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 namespace meltfront::particles::rkpm_tracked
@@ -132,8 +133,12 @@ namespace meltfront::particles::rkpm_tracked
         const bool outside
             = beyond
               && curve_radius(front, c) < std::sqrt(nodes.area / std::numbers::pi) / 2;
-        const bool small
-            = curve_radius(front, c) < settings.least_radius * settings.spacing;
+        const double speed = std::accumulate(front.speed.begin() + first,
+                                             front.speed.begin() + last, 0.);
+        const bool shrinks = signed_area(front, c) * speed > 0;
+        const bool small = curve_radius(front, c)
+                           < (shrinks ? settings.vanishing_radius : settings.least_radius)
+                                 * settings.spacing;
         if(!small && !outside)
           continue;
         if(outside && !small)
