@@ -80,8 +80,8 @@ namespace meltfront::particles::rkpm_tracked
    *
    * Collocation conserves no heat. The multiplier mu is the unknown that belongs to one
    * more equation, the heat balance of the step (PlaneRun::balance). It enters the rows
-   * of the front, of the nodes beside it and the flux through held walls by the squares
-   * of what their fits may be off by; spread_multiplier() says why.
+   * of the front and the flux through held walls by the squares of what their fits may be
+   * off by; spread_multiplier() says why.
    */
   class PlaneHeat
   {
@@ -179,6 +179,7 @@ namespace meltfront::particles::rkpm_tracked
 
     const cases::PhaseProperties &properties(NodePhase phase) const;
     std::vector<double> collocated(const PlaneStencil &stencil, std::size_t node) const;
+    bool is_held(std::size_t node) const;
     void make_rows(const PlaneState &state);
     void make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,
                   std::size_t node);
@@ -202,7 +203,7 @@ namespace meltfront::particles::rkpm_tracked
     void spread_multiplier(const PlaneStep &step, const PlaneState &next,
                            PlaneSolution &solution);
     double flow_to_front(const PlaneStep &step, const PlaneState &next);
-    void find_row_errors(const PlaneStep &step, const PlaneState &next);
+    void find_flux_errors(const PlaneStep &step, const PlaneState &next);
     double applied(const PlaneStep &step, const PlaneState &next, NodePhase phase,
                    std::span<const std::uint32_t> columns,
                    std::span<const double> weights) const;
@@ -226,7 +227,8 @@ namespace meltfront::particles::rkpm_tracked
     GivenValues given;
     const PlaneNodes &nodes;
     std::vector<StencilMaker> makers; ///< one for each thread
-    StencilMaker other_maker;         ///< of another order, to tell what fits are off by
+    /** Of another order, to tell what fits are off by. */
+    std::vector<StencilMaker> other_makers;
     std::unique_ptr<FrontIndex> index;
     PlaneBins front_bins;
     std::vector<Row> rows;
@@ -245,8 +247,9 @@ namespace meltfront::particles::rkpm_tracked
 
     CompressedRows matrix;
     std::vector<double> right_side;
-    /** Squares of what the heat of rows may be off by, of held walls in all (W^2/m^2). */
-    std::vector<double> row_errors;
+    /** Squares of what the heat through front particles, of nodes beside the front and,
+     * in all, held walls may be off by (W^2/m^2). */
+    std::vector<double> front_errors, node_errors;
     double wall_errors = 0;
     std::vector<double> wall_inflow;           ///< to front particles, at walls (W/m)
     double release_begin = 0, release_end = 0; ///< of the step last asked for (s)

@@ -223,28 +223,30 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   /**
-   * What a unit of the multiplier adds to the heat of rows whose fits may be off: at the
-   * front, in the nodes beside it and on held walls. Of all changes that close the
-   * balance these are the least, each measured by what may be off there: the minimum of
-   * sum (change/e)^2 has changes in proportion to e^2. They are scaled to sum up to what
-   * flows to the front; where nothing flows all nodes are warmed alike.
+   * What a unit of the multiplier adds to the heat that fits tell: at the front, in the
+   * nodes beside it and on held walls. Of all changes that close the balance these are
+   * the least, each measured by what may be off there: the minimum of sum (change/e)^2
+   * has changes in proportion to e^2. They are scaled to sum up to what flows to the
+   * front; where nothing flows all nodes are warmed alike.
    */
   void PlaneHeat::spread_multiplier(const PlaneStep &step, const PlaneState &next,
                                     PlaneSolution &solution)
   {
     const double flow = flow_to_front(step, next);
     double sum = wall_errors;
-    for(const double square : row_errors)
+    for(const double square : node_errors)
+      sum += square;
+    for(const double square : front_errors)
       sum += square;
     if(flow > 0 && sum > 0)
     {
       for(std::size_t i = 0; i < nodes.size(); ++i)
-        if(row_errors[i] > 0 && next.phase[i] != NodePhase::front)
-          spread[i] = flow / sum * row_errors[i] / nodes.weight[i];
+        if(node_errors[i] > 0 && next.phase[i] != NodePhase::front)
+          spread[i] = flow / sum * node_errors[i] / nodes.weight[i];
       for(std::size_t p = 0; p < next.front.size(); ++p)
         if(next.front.active[p])
-          spread[nodes.size() + p] = flow / sum * row_errors[nodes.size() + p]
-                                     / particle_length(next.front, p);
+          spread[nodes.size() + p]
+              = flow / sum * front_errors[p] / particle_length(next.front, p);
       solution.wall_power = flow / sum * wall_errors;
       solution.heat = flow * step.step / step.a;
       return;
@@ -312,11 +314,11 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   /**
-   * Once in a step: squares of what the heat of rows is off by, as fits of two orders to
-   * the last state differ; no less than of a profile that bends over the domain's size D,
-   * (h/D)^2 of itself, and no more than itself.
+   * Once in a step: squares of what the heat through front and held walls is off by, as
+   * fits of two orders to the last state differ; no less than of a profile that bends
+   * over the domain's size D, (h/D)^2 of itself, and no more than itself.
    */
-  void PlaneHeat::find_row_errors(const PlaneStep &step, const PlaneState &next)
+  void PlaneHeat::find_flux_errors(const PlaneStep &step, const PlaneState &next)
   {
     const double least = nodes.spacing * nodes.spacing / nodes.area;
     const auto square = [&](NodePhase phase, double size, double one, double other)
@@ -327,12 +329,12 @@ namespace meltfront::particles::rkpm_tracked
                       2);
     };
     PlaneStencil other;
-    row_errors.assign(nodes.size() + next.front.size(), 0.);
+    front_errors.assign(next.front.size(), 0.);
     for(std::size_t p = 0; p < next.front.size(); ++p)
       if(next.front.active[p])
         for(const NodePhase phase : phases)
         {
-          other_maker.make(next.front.position[p], phase, other);
+          other_makers[0].make(next.front.position[p], phase, other);
           const auto slope = [&](const PlaneStencil &stencil)
           {
             const PlanePoint gradient(
@@ -340,25 +342,34 @@ namespace meltfront::particles::rkpm_tracked
                 applied(step, next, phase, stencil.columns, stencil.weights[d_y]));
             return gradient.dot(next.front.normal[p]);
           };
-          row_errors[nodes.size() + p]
+          front_errors[p]
               += square(phase, particle_length(next.front, p),
                         slope(front_stencils[index_of(phase)][p]), slope(other));
         }
-    wall_errors = 0;
+    node_errors.assign(nodes.size(), 0.);
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
-      const std::int32_t wall = nodes.wall_of_node[i];
-      const bool held = wall >= 0 && nodes.walls[wall].dirichlet();
-      const bool beside_front = wall < 0 && rows[i].reach == 0;
       const NodePhase phase = next.phase[i];
-      if(phase == NodePhase::front || !(held || beside_front))
+      if(phase == NodePhase::front || nodes.wall_of_node[i] >= 0 || rows[i].reach > 0)
         continue;
-      other_maker.make(nodes.position[i], phase, other);
-      const double error
-          = square(phase, held ? 1 : nodes.weight[i],
+      other_makers[0].make(nodes.position[i], phase, other);
+      node_errors[i]
+          = square(phase, nodes.weight[i],
                    applied(step, next, phase, rows[i].columns, rows[i].weights),
                    applied(step, next, phase, other.columns, collocated(other, i)));
-      (held ? wall_errors : row_errors[i]) += error;
+    }
+    wall_errors = 0;
+    for(const WallNode &wall : nodes.walls)
+    {
+      const NodePhase phase = next.phase[wall.node];
+      if(phase == NodePhase::front || !wall.dirichlet())
+        continue;
+      const bool finer = other_makers[0].basis_order() > settings.order;
+      (finer ? makers : other_makers)[0].make(nodes.position[wall.node], phase, other);
+      const Row &row = rows[wall.node];
+      wall_errors += square(
+          phase, 1, applied(step, next, phase, row.columns, row.weights),
+          applied(step, next, phase, other.columns, collocated(other, wall.node)));
     }
   }
 
@@ -388,7 +399,7 @@ namespace meltfront::particles::rkpm_tracked
     parameters.method = LinearMethod::direct;
     LinearSolver solver(matrix, parameters);
     if(next.unknown.empty())
-      find_row_errors(step, next);
+      find_flux_errors(step, next);
     PlaneSolution solution;
     spread_multiplier(step, next, solution);
     solution.constant.resize(matrix.rows());

@@ -240,8 +240,16 @@ namespace meltfront::particles::rkpm_tracked
           = [&](const PlanePoint &point) { return marked.value(point); };
       if(crosses_walls(front))
       {
-        const double radius = settings.least_radius * settings.spacing;
-        const SmallBodies small(nodes, value, std::numbers::pi * radius * radius);
+        const auto disk = [&](double radius)
+        { return std::numbers::pi * std::pow(radius * settings.spacing, 2); };
+        const SmallBodies small(nodes, value, disk(settings.vanishing_radius));
+        const PlaneBins bins(front.position, settings.spacing);
+        const auto vanishes = [&](const Body &body)
+        {
+          const double speed = front.speed[bins.nearest(body.centre)];
+          return body.area < disk(settings.least_radius)
+                 || (body.solid ? speed > 0 : speed < 0);
+        };
         for(const bool solid : {false, true})
           if(small.all(solid))
           {
@@ -252,13 +260,15 @@ namespace meltfront::particles::rkpm_tracked
             return events;
           }
         for(const Body &body : small.bodies())
-          events.push_back(vanished(body.solid, body.centre));
+          if(vanishes(body))
+            events.push_back(vanished(body.solid, body.centre));
         if(!events.empty())
         {
           const auto without = [&](const PlanePoint &point)
           {
             const Body *body = small.at(point);
-            return body ? (body->solid ? 1 : -1) * settings.spacing : value(point);
+            return body && vanishes(*body) ? (body->solid ? 1 : -1) * settings.spacing
+                                           : value(point);
           };
           lay_anew(front, marked, without, solid_beyond, settings);
           return events;
