@@ -2,6 +2,7 @@
 
 #include <cases/error.h>
 #include <particles/rkpm_tracked/plane/contour.h>
+#include <particles/rkpm_tracked/plane/measure.h>
 #include <particles/rkpm_tracked/plane/topology.h>
 
 #include <gtest/gtest.h>
@@ -349,22 +350,30 @@ namespace
     PlaneState state;
     state.phase.assign(nodes.size(), NodePhase::liquid);
     state.unknown.assign(nodes.size(), 0.2);
-    const double taken
-        = book_latent_heat(state, scene, nodes, heat, {PlanePoint(0, 0)}, -1e-3);
-    EXPECT_NEAR(taken, -1e-3, 1e-15);
+    const auto stored = [&]
+    {
+      const PlaneMeasure found = measure(scene, nodes, heat, state);
+      return found.sensible + found.latent;
+    };
+    const double before = stored();
+    const PlanePoint middle(0, 0);
+    EXPECT_NEAR(book_heat(state, scene, nodes, heat, {middle}, before - 1e-3), 0, 1e-14);
+    EXPECT_NEAR(stored() - before, -1e-3, 1e-14);
     double sum = 0;
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
-      EXPECT_GE(state.unknown[i], 0.1 - 1e-15);
+      EXPECT_GE(state.unknown[i], 0.1 - 1e-12);
       sum += nodes.weight[i] * (state.unknown[i] - 0.2);
       if(nodes.position[i].norm() > 3 * nodes.spacing)
       {
         EXPECT_EQ(state.unknown[i], 0.2);
       }
     }
-    EXPECT_NEAR(sum, -1e-3, 1e-15);
+    EXPECT_NEAR(sum, -1e-3, 1e-14);
     // Nothing there that could freeze.
-    EXPECT_EQ(book_latent_heat(state, scene, nodes, heat, {PlanePoint(0, 0)}, 1e-3), 0);
-    EXPECT_EQ(book_latent_heat(state, scene, nodes, heat, {}, -1e-3), 0);
+    const double now = stored();
+    EXPECT_NEAR(book_heat(state, scene, nodes, heat, {middle}, now + 1e-3), 1e-3, 1e-14);
+    EXPECT_NEAR(book_heat(state, scene, nodes, heat, {}, now - 1e-3), -1e-3, 1e-14);
+    EXPECT_EQ(stored(), now);
   }
 } // namespace
