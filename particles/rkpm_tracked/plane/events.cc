@@ -45,6 +45,7 @@ namespace meltfront::particles::rkpm_tracked
     if(changes.empty())
       return;
     const PlaneMeasure before = measure(scene, nodes, heat, state);
+    const double due = before.sensible + before.latent + lost_heat(state);
     state.front = std::move(front);
     heat.settings.solid_beyond = solid_beyond;
     heat.mark_active(state.front);
@@ -59,8 +60,7 @@ namespace meltfront::particles::rkpm_tracked
     after = measure(scene, nodes, heat, state);
     marked.seed(state.front, solid_beyond);
     settle_nodes();
-    const double wanted = before.sensible + before.latent;
-    const double missing = book_heat(state, scene, nodes, heat, places, wanted);
+    const double missing = book_heat(state, scene, nodes, heat, places, due);
     unbooked_heat += missing;
     const double energy = scene.material.solid.density * scene.material.latent_heat
                           * (after.solid_area - before.solid_area);
@@ -128,24 +128,18 @@ namespace meltfront::particles::rkpm_tracked
                   "it worse"));
   }
 
-  /** Nodes that changed their phase without a front that passed over them are at the
-   * melting temperature: beyond where the front was, their new phase has no past. */
+  /** Phases of the nodes by the new curves. One that changed its own without a front that
+   * passed over it is at the front's temperature: beyond where the front was, its new
+   * phase has no past. */
   void PlaneRun::settle_nodes()
   {
-    const double absorbed = parameters.interpolation_distance * nodes.spacing;
-    const FrontIndex index(state.front, heat.settings.solid_beyond, nodes.spacing);
+    const std::vector<NodePhase> before = state.phase;
+    heat.set_front(state);
     for(std::size_t i = 0; i < nodes.size(); ++i)
-    {
-      const PlanePoint &place = nodes.position[i];
-      const double distance = index.signed_distance(place, nodes.spacing);
-      const NodePhase phase = distance < 0 ? NodePhase::solid : NodePhase::liquid;
-      const double kept = state.phase[i] == NodePhase::front ? 1.5 * absorbed : absorbed;
-      if(state.phase[i] == phase || std::abs(distance) < kept)
-        continue;
-      state.phase[i] = phase;
-      state.unknown[i]
-          = scene.material.melting_temperature
-            - (phase == NodePhase::solid ? heat.sinks.value(place, state.time) : 0);
-    }
+      if(state.phase[i] != before[i])
+        state.unknown[i] = heat.front_temperature_near(i)
+                           - (state.phase[i] == NodePhase::solid
+                                  ? heat.sinks.value(nodes.position[i], state.time)
+                                  : 0);
   }
 } // namespace meltfront::particles::rkpm_tracked

@@ -369,11 +369,11 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   double book_heat(PlaneState &state, const cases::Scene &scene, const PlaneNodes &nodes,
-                   const PlaneHeat &heat, const std::vector<PlanePoint> &places,
-                   double wanted)
+                   PlaneHeat &heat, const std::vector<PlanePoint> &places, double wanted)
   {
     const auto missing = [&]
     {
+      heat.expand(state);
       const PlaneMeasure found = measure(scene, nodes, heat, state);
       return wanted - found.sensible - found.latent;
     };

@@ -67,8 +67,7 @@ namespace meltfront::particles::rkpm_tracked
    * @return the heat that is missing afterwards, round-off where nodes had enough (J/m)
    */
   double book_heat(PlaneState &state, const cases::Scene &scene, const PlaneNodes &nodes,
-                   const PlaneHeat &heat, const std::vector<PlanePoint> &places,
-                   double wanted);
+                   PlaneHeat &heat, const std::vector<PlanePoint> &places, double wanted);
 } // namespace meltfront::particles::rkpm_tracked
 
 #endif

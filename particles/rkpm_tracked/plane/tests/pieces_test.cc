@@ -254,6 +254,48 @@ namespace
     EXPECT_LT(third, 0.035);
   }
 
+  // Else the balance of the first step after an event would have to make up for heat that
+  // no time brings, the more power the shorter it is.
+  TEST(PlaneHeat, AnExpandedStateLosesNoHeatInNoTime)
+  {
+    const PlanePoint middle(0.5, 0.5);
+    const PlaneFunction temperature = [&](const cases::Position &place)
+    { return std::hypot(place[0] - middle.x(), place[1] - middle.y()) - 0.3; };
+    const cases::Scene scene = insulated_box({1, 1}, temperature, temperature, 1);
+    const PlaneNodes nodes(scene, 20, {});
+    PlaneHeatSettings settings;
+    settings.solid_beyond = false;
+    PlaneHeat heat(scene, nodes, settings);
+    PlaneState state;
+    state.front = circle(0.3, 33, middle);
+    heat.set_front(state);
+    for(const PlanePoint &place : nodes.position)
+      state.unknown.push_back(temperature({place.x(), place.y(), 0}));
+    heat.expand(state);
+    const auto stored = [&](const PlaneState &of)
+    {
+      const PlaneMeasure found = measure(scene, nodes, heat, of);
+      return found.sensible + found.latent;
+    };
+    const auto change = [&](double duration)
+    {
+      PlaneState next;
+      next.front = state.front;
+      next.expansion = state.expansion;
+      heat.set_front(next);
+      const PlaneStep step(state, nullptr, duration);
+      const std::vector<double> ways
+          = heat.apply(step, heat.solve(step, next).value(), 0, next);
+      for(std::size_t p = 0; p < ways.size(); ++p)
+        next.front.position[p] += ways[p] * next.front.normal[p];
+      update_geometry(next.front);
+      return std::abs(stored(next) - stored(state));
+    };
+    const double longer = change(1e-5), shorter = change(1e-7);
+    EXPECT_LT(longer, 1e-5);
+    EXPECT_NEAR(shorter / longer, 0.01, 1e-3);
+  }
+
   TEST(PlaneTopology, SmallBodiesGoAndNearOnesJoin)
   {
     const cases::Scene scene = merging_disks(1);
@@ -346,9 +388,9 @@ namespace
     const PlaneNodes nodes(scene, 40, {});
     PlaneHeatSettings settings;
     settings.solid_beyond = false;
-    const PlaneHeat heat(scene, nodes, settings);
+    PlaneHeat heat(scene, nodes, settings);
     PlaneState state;
-    state.phase.assign(nodes.size(), NodePhase::liquid);
+    heat.set_front(state);
     state.unknown.assign(nodes.size(), 0.2);
     const auto stored = [&]
     {
