@@ -80,8 +80,8 @@ namespace meltfront::particles::rkpm_tracked
    *
    * Collocation conserves no heat. The multiplier mu is the unknown that belongs to one
    * more equation, the heat balance of the step (PlaneRun::balance). It enters the rows
-   * of the front and the flux through held walls by the squares of what their fits may be
-   * off by; spread_multiplier() says why.
+   * of the front, of the nodes beside it and the flux through held walls by what their
+   * fits may be off by; spread_multiplier() says why.
    */
   class PlaneHeat
   {
@@ -103,7 +103,7 @@ namespace meltfront::particles::rkpm_tracked
     void set_front(PlaneState &state, bool keep_phases = false);
 
     /** Expansions about the front of temperatures that are given at the nodes, and the
-     * speeds that they make; for the start. */
+     * speeds that they make; for the start and after events (set_front() first). */
     void expand(PlaneState &state);
 
     /**
@@ -247,8 +247,8 @@ namespace meltfront::particles::rkpm_tracked
 
     CompressedRows matrix;
     std::vector<double> right_side;
-    /** Squares of what the heat through front particles, of nodes beside the front and,
-     * in all, held walls may be off by (W^2/m^2). */
+    /** What the heat through front particles, of nodes beside the front and, in all, held
+     * walls may be off by (W/m). */
     std::vector<double> front_errors, node_errors;
     double wall_errors = 0;
     std::vector<double> wall_inflow;           ///< to front particles, at walls (W/m)

@@ -243,13 +243,14 @@ namespace meltfront::particles::rkpm_tracked
     const PlaneStep times(state, two_steps ? &*older : nullptr, next.time);
     predict(step, next);
     double largest = failed;
+    std::optional<double> response;
     long passes = 0;
     while(largest > done && passes < passes_allowed)
     {
       heat.set_front(next, passes >= regrouping_passes);
       const std::optional<PlaneSolution> solution = heat.solve(times, next);
       ++passes;
-      if(!solution || !balance(times, *solution, next, largest))
+      if(!solution || !balance(times, *solution, next, response, largest))
         return failed;
     }
     most_passes = std::max(most_passes, passes);
@@ -267,14 +268,16 @@ namespace meltfront::particles::rkpm_tracked
   /**
    * The equation of the multiplier: no heat is lost up to the end of the step, that of
    * the state as it will be accepted, with the front moved. It is solved to round-off,
-   * by the secant method, in the last pass; before that once, by what the multiplier
-   * gives.
+   * by the secant method, in the last pass, before that by one secant.
    * @param next is what the pass has found, its front moved
+   * @param response of the heat found, over what the multiplier puts in: nothing yet, or
+   * that of the pass before
    * @param largest way that was left, in spacings
    * @return whether particles stay within their limits and the balance holds
    */
   bool PlaneRun::balance(const PlaneStep &times, const PlaneSolution &solution,
-                         PlaneState &next, double &largest)
+                         PlaneState &next, std::optional<double> &response,
+                         double &largest)
   {
     const PlaneFront front = next.front;
     const auto take = [&](double multiplier)
@@ -285,7 +288,6 @@ namespace meltfront::particles::rkpm_tracked
     double multiplier = next.multiplier;
     if(!take(multiplier))
       return false;
-    double slope = solution.heat;
     double lost = lost_heat(next);
     for(int trial = 0; trial < most_trials; ++trial)
     {
@@ -294,13 +296,13 @@ namespace meltfront::particles::rkpm_tracked
            scene.material.solid.density * scene.material.latent_heat * nodes.area});
       if(std::abs(lost) <= balanced * scale)
         return true;
-      const double change = lost / slope;
+      const double change = lost / (response.value_or(1) * solution.heat);
       if(!std::isfinite(change) || !take(multiplier + change))
         return false;
-      if(largest > done)
+      if(largest > done && response)
         return true;
       const double left = lost_heat(next);
-      slope = (lost - left) / change;
+      response = (lost - left) / (change * solution.heat);
       multiplier += change;
       lost = left;
     }

@@ -225,19 +225,19 @@ namespace meltfront::particles::rkpm_tracked
   /**
    * What a unit of the multiplier adds to the heat that fits tell: at the front, in the
    * nodes beside it and on held walls. Of all changes that close the balance these are
-   * the least, each measured by what may be off there: the minimum of sum (change/e)^2
-   * has changes in proportion to e^2. They are scaled to sum up to what flows to the
-   * front; where nothing flows all nodes are warmed alike.
+   * the least, each measured by what may be off there: the largest |change|/e is least
+   * where all are alike, changes in proportion to e. They are scaled to sum up to what
+   * flows to the front; where nothing flows all nodes are warmed alike.
    */
   void PlaneHeat::spread_multiplier(const PlaneStep &step, const PlaneState &next,
                                     PlaneSolution &solution)
   {
     const double flow = flow_to_front(step, next);
     double sum = wall_errors;
-    for(const double square : node_errors)
-      sum += square;
-    for(const double square : front_errors)
-      sum += square;
+    for(const double error : node_errors)
+      sum += error;
+    for(const double error : front_errors)
+      sum += error;
     if(flow > 0 && sum > 0)
     {
       for(std::size_t i = 0; i < nodes.size(); ++i)
@@ -314,19 +314,17 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   /**
-   * Once in a step: squares of what the heat through front and held walls is off by, as
-   * fits of two orders to the last state differ; no less than of a profile that bends
-   * over the domain's size D, (h/D)^2 of itself, and no more than itself.
+   * Once in a step: what the heat through front and held walls may be off by, as fits of
+   * two orders to the last state differ; no less than of a profile that bends over the
+   * domain's size D, (h/D)^2 of itself, and no more than itself.
    */
   void PlaneHeat::find_flux_errors(const PlaneStep &step, const PlaneState &next)
   {
     const double least = nodes.spacing * nodes.spacing / nodes.area;
-    const auto square = [&](NodePhase phase, double size, double one, double other)
+    const auto error = [&](NodePhase phase, double size, double one, double other)
     {
       const double difference = std::min(std::abs(one - other), std::abs(one));
-      return std::pow(size * properties(phase).conductivity
-                          * (difference + least * std::abs(one)),
-                      2);
+      return size * properties(phase).conductivity * (difference + least * std::abs(one));
     };
     PlaneStencil other;
     front_errors.assign(next.front.size(), 0.);
@@ -343,8 +341,8 @@ namespace meltfront::particles::rkpm_tracked
             return gradient.dot(next.front.normal[p]);
           };
           front_errors[p]
-              += square(phase, particle_length(next.front, p),
-                        slope(front_stencils[index_of(phase)][p]), slope(other));
+              += error(phase, particle_length(next.front, p),
+                       slope(front_stencils[index_of(phase)][p]), slope(other));
         }
     node_errors.assign(nodes.size(), 0.);
     for(std::size_t i = 0; i < nodes.size(); ++i)
@@ -354,9 +352,9 @@ namespace meltfront::particles::rkpm_tracked
         continue;
       other_makers[0].make(nodes.position[i], phase, other);
       node_errors[i]
-          = square(phase, nodes.weight[i],
-                   applied(step, next, phase, rows[i].columns, rows[i].weights),
-                   applied(step, next, phase, other.columns, collocated(other, i)));
+          = error(phase, nodes.weight[i],
+                  applied(step, next, phase, rows[i].columns, rows[i].weights),
+                  applied(step, next, phase, other.columns, collocated(other, i)));
     }
     wall_errors = 0;
     for(const WallNode &wall : nodes.walls)
@@ -367,7 +365,7 @@ namespace meltfront::particles::rkpm_tracked
       const bool finer = other_makers[0].basis_order() > settings.order;
       (finer ? makers : other_makers)[0].make(nodes.position[wall.node], phase, other);
       const Row &row = rows[wall.node];
-      wall_errors += square(
+      wall_errors += error(
           phase, 1, applied(step, next, phase, row.columns, row.weights),
           applied(step, next, phase, other.columns, collocated(other, wall.node)));
     }
