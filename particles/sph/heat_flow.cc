@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace meltfront::particles
 {
@@ -207,8 +208,11 @@ namespace meltfront::particles
     Extremes w
         = variable.mapped() ? extremes : find_extremes(enthalpy.first(n), thread_count);
     if(own.shared())
-      w = {-own.largest(-w.lowest), own.largest(w.highest),
-           own.largest(w.finite ? 0. : 1.) == 0};
+    {
+      std::array<double, 3> most{-w.lowest, w.highest, w.finite ? 0. : 1.};
+      own.take_largest(most);
+      w = {-most[0], most[1], most[2] == 0};
+    }
     return {variable.temperature(w.lowest), variable.temperature(w.highest), w.finite};
   }
 

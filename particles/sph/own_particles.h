@@ -23,10 +23,11 @@ namespace meltfront::particles
     /** Sum over all processes. */
     virtual double total(const ExactSum &own) = 0;
 
-    /** Largest over all processes. */
-    virtual double largest(double own) = 0;
+    /** Put in the place of each value the largest of those of all processes. */
+    virtual void take_largest(std::span<double> values) = 0;
 
-    /** Times of refresh(), and of total() and largest(). */
+    /** Times of refresh(), and of total() and
+     * take_largest(). */
     virtual long exchanges() const = 0;
     virtual long reductions() const = 0;
 
@@ -89,7 +90,14 @@ namespace meltfront::particles
 
     double largest(double own) const
     {
-      return exchange ? exchange->largest(own) : own;
+      take_largest({&own, 1});
+      return own;
+    }
+
+    void take_largest(std::span<double> values) const
+    {
+      if(exchange)
+        exchange->take_largest(values);
     }
 
     /** The part of an array that is of the own particles. */

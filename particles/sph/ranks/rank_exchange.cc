@@ -61,11 +61,10 @@ namespace meltfront::particles
         return ExactSum(sum).value();
       }
 
-      double largest(double own) override
+      void take_largest(std::span<double> values) override
       {
-        double result = own;
-        reduce(Teuchos::REDUCE_MAX, 1, &own, &result);
-        return result;
+        const std::vector<double> own(values.begin(), values.end());
+        reduce(Teuchos::REDUCE_MAX, own.size(), own.data(), values.data());
       }
 
       long exchanges() const override
