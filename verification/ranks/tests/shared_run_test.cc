@@ -8,16 +8,15 @@ namespace meltfront::verification::tests
 {
   namespace
   {
-    /** With mpirun, which adds lines of its own where the status is not zero; each rank
-     * may be given arguments of its own. */
-    Outcome run_on_two_ranks(const std::string &first, const std::string &second)
+    /** With mpirun, which adds lines of its own where the status is not zero. */
+    Outcome run_on_two_ranks(const std::string &arguments)
     {
       Outcome outcome;
       const std::string command = fmt::format(
           "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
           "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 "
-          "{0} -np 1 {1} {2} : -np 1 {1} {3} 2>&1",
-          MELTFRONT_MPIRUN, MELTFRONT_PROGRAM, first, second);
+          "{} -np 2 {} {} 2>&1",
+          MELTFRONT_MPIRUN, MELTFRONT_PROGRAM, arguments);
       std::FILE *pipe = popen(command.c_str(), "r");
       if(pipe == nullptr)
         return outcome;
@@ -27,11 +26,6 @@ namespace meltfront::verification::tests
       const int status = pclose(pipe);
       outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
       return outcome;
-    }
-
-    Outcome run_on_two_ranks(const std::string &arguments)
-    {
-      return run_on_two_ranks(arguments, arguments);
     }
 
     std::size_t times_in(const std::string &text, const std::string &word)
@@ -95,17 +89,18 @@ namespace meltfront::verification::tests
       EXPECT_TRUE(fs::exists(shared.path(file))) << file;
   }
 
-  /** The second rank's part has no folder to go to. */
-  TEST(SharedRun, WhatOneRankCannotWriteEndsAll)
+  /** The first rank alone looks at the time. */
+  TEST(SharedRun, OfParticlesEndsWhereOneRankEndsIt)
   {
     const TemporaryDirectory directory;
-    const std::string run = "run corner-freezing --method sph --n 24 --out ",
-                      here = directory.path().string();
     const Outcome outcome
-        = run_on_two_ranks(run + here, run + here + "/no-such-directory");
-    EXPECT_EQ(outcome.status, 4) << outcome.output;
-    EXPECT_EQ(times_in(outcome.output, "meltfront: "), 1u) << outcome.output;
-    expect_text(outcome, "cannot write");
+        = run_on_two_ranks("run corner-freezing --method sph --n 400 --time-limit 0.5 "
+                           "--out "
+                           + directory.path().string());
+    EXPECT_EQ(outcome.status, 3) << outcome.output;
+    EXPECT_EQ(read_json(directory.path("run.json"))["status"], "failed");
+    EXPECT_EQ(times_in(outcome.output, "took longer than its time limit of 0.5 s"), 1u)
+        << outcome.output;
   }
 
   TEST(SharedRun, RefusesOtherCommandsAndMethodsInOneSentence)
