@@ -32,6 +32,12 @@ namespace meltfront::particles
         dis.scene.start_time,
         cases::end_of_piece(breakpoints, dis.scene.start_time, time_of(1)));
     heat_flow.hold_walls(0, enthalpy);
+    follow();
+  }
+
+  void Stepper::follow()
+  {
+    dis.own.refresh(std::span(enthalpy).first(n));
     heat_flow.follow(enthalpy);
   }
 
@@ -54,7 +60,7 @@ namespace meltfront::particles
   double Stepper::finish()
   {
     const double dirichlet = heat_flow.hold_walls(1, enthalpy);
-    heat_flow.follow(enthalpy);
+    follow();
     extremes = heat_flow.temperatures(enthalpy);
     return dirichlet;
   }
