@@ -69,6 +69,21 @@ namespace meltfront::particles
             "the nearest particles alone, and with explicit steps");
       return p.front;
     }
+    /** Widest band along a line that is solved for directly: a periodic line's has all
+     * of its particles. */
+    constexpr std::size_t widest_band = 8;
+
+    std::size_t half_bandwidth_along_line(const Discretisation &dis,
+                                          const ParticleOperator &rows)
+    {
+      if(dis.dimension > 1)
+        return 0;
+      std::size_t widest = 1;
+      for(std::size_t a = 0; a < rows.rows(); ++a)
+        rows.visit_row(a, [&](std::size_t b, double)
+                       { widest = std::max(widest, a < b ? b - a : a - b); });
+      return widest <= widest_band ? widest : 0;
+    }
   } // namespace
 
   HeatFlow::HeatFlow(const Discretisation &dis, const cases::EffectSet &effects,
@@ -84,6 +99,7 @@ namespace meltfront::particles
     , exchange_effect(Effect::phase_conductivity)
   {
     require_true_conductivity(dis, conduction.rows);
+    bandwidth = half_bandwidth_along_line(dis, conduction.rows);
     const bool melts_gradually = sharp_latent_heat(material) > 0;
     // Without latent heat no particle melts gradually: fronts lie between particles.
     if(lies_within_particles(front_rule))

@@ -124,6 +124,13 @@ namespace meltfront::particles
       return conduction.rows.padded_rows();
     }
 
+    /** Along a line, how far apart the numbers of particles are that exchange heat, if
+     * that is a few; else 0. */
+    std::size_t half_bandwidth() const
+    {
+      return bandwidth;
+    }
+
     /** What the report prints of the operator. */
     std::vector<cases::Parameter> describe() const;
 
@@ -166,6 +173,7 @@ namespace meltfront::particles
     const cases::Material &material;
     std::size_t n; ///< particles
     int thread_count;
+    std::size_t bandwidth = 0; ///< see half_bandwidth()
     ConductionRows conduction;
     ConductionVariable variable;
     FrontRule front_rule;

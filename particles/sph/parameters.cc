@@ -20,6 +20,12 @@ namespace meltfront::particles
 
   } // namespace
 
+  namespace
+  {
+    /** Of steps by `automatic`, where none is asked for. */
+    constexpr double automatic_step_error = 0.01;
+  } // namespace
+
   const std::vector<std::string> &time_scheme_names()
   {
     static const std::vector<std::string> names{"euler", "rkl2", "backward-euler",
@@ -62,7 +68,7 @@ namespace meltfront::particles
         FrontRule::automatic,
         true,
         1.0,
-        TimeScheme::rkl2,
+        TimeScheme::automatic,
         1.0};
     return policy;
   }
@@ -128,10 +134,12 @@ namespace meltfront::particles
                  {"plane", FrontRule::plane},
                  {"partner", FrontRule::partner},
                  {"liquid", FrontRule::liquid}});
+    cases::Words<TimeScheme> schemes = cases::in_order<TimeScheme>(time_scheme_names());
+    schemes.emplace_back("automatic", TimeScheme::automatic);
     options.add("time_scheme", values.time_scheme,
                 "Explicit Euler steps, Runge-Kutta-Legendre super steps of second order, "
                 "or implicit steps of first or second order.",
-                cases::in_order<TimeScheme>(time_scheme_names()));
+                schemes);
     options.add("stages", values.stages, "Most stages of a super step.", 3, 64);
     options.add("step_factor", values.step_factor,
                 "Time step over the largest that keeps the maximum principle; 0: as the "
@@ -209,7 +217,10 @@ namespace meltfront::particles
     p.columns = policy.as_published ? p.n : 0;
     if(p.smoothing_length == 0)
       p.smoothing_length = scene.symmetry == cases::Symmetry::planar ? 1.2 : 1.3;
-    if(p.step_error > 0 && !is_implicit(p.time_scheme))
+    if(p.step_error == 0 && p.time_scheme == TimeScheme::automatic)
+      p.step_error = automatic_step_error;
+    if(p.step_error > 0 && !is_implicit(p.time_scheme)
+       && p.time_scheme != TimeScheme::automatic)
       throw cases::Refusal(fmt::format(
           "{} chooses steps by a wanted error (step_error) for the implicit schemes "
           "backward-euler and crank-nicolson only",

@@ -10,9 +10,6 @@ namespace meltfront::particles
 {
   namespace
   {
-    /** Fewest steps of a run, so that fronts can be sampled at 100 times. */
-    constexpr long fewest_steps = 200;
-
     /** Equal steps of at most some length. @throws cases::Refusal for too many. */
     long steps_within(double duration, double step)
     {
@@ -79,6 +76,13 @@ namespace meltfront::particles
     return (double(stages) * stages + stages - 2) / 4;
   }
 
+  int stages_reaching(double reach)
+  {
+    // (s^2 + s - 2)/4 = reach
+    const double root = std::sqrt(2.25 + 4 * reach * (1 - 1e-12)) - 0.5;
+    return static_cast<int>(std::ceil(std::clamp(root, 3., 1e9)));
+  }
+
   double longest_euler_step(const StepPlan &plan)
   {
     return plan.stages > 1 ? std::max(plan.step / plan.euler_substeps,
@@ -99,15 +103,6 @@ namespace meltfront::particles
       return guarded(p) ? steps_for(duration, step) : steps_within(duration, step);
     }
 
-    /** Fewest stages, at least three, with which a super step reaches so many times the
-     * step of explicit Euler. */
-    int stages_for(double reach)
-    {
-      // (s^2 + s - 2)/4 = reach
-      const double root = std::sqrt(2.25 + 4 * reach * (1 - 1e-12)) - 0.5;
-      return static_cast<int>(std::ceil(std::clamp(root, 3., 1e9)));
-    }
-
     void refuse_unstable_step(double step, double monotone)
     {
       if(step > monotone * (1 + 1e-12))
@@ -126,7 +121,7 @@ namespace meltfront::particles
         refuse_unstable_step(plan.step, limits.monotone);
       if(p.time_scheme == TimeScheme::rkl2)
       {
-        plan.stages = stages_for(plan.step / euler);
+        plan.stages = stages_reaching(plan.step / euler);
         if(plan.stages > p.stages)
           throw cases::Refusal(fmt::format(
               "a step of {:.6g} s needs super steps of {} stages, and at most {} are "
@@ -144,7 +139,7 @@ namespace meltfront::particles
       if(p.time_scheme != TimeScheme::rkl2)
         return plan;
       const long steps = steps_for(p, duration, euler * super_step_reach(p.stages));
-      const int stages = stages_for(duration / (euler * steps));
+      const int stages = stages_reaching(duration / (euler * steps));
       // Few stages gain nothing over as many explicit steps.
       if(stages * steps < plan.steps)
       {
@@ -163,6 +158,8 @@ namespace meltfront::particles
         = p.step_factor > 0
               ? p.step_factor * (guarded(p) ? limits.monotone : limits.stable)
               : published_step(scene.material, smoothing_length);
+    if(p.time_scheme == TimeScheme::automatic)
+      return {0, std::min(euler, duration / fewest_steps), 1, limits, 1, 0};
     if(is_implicit(p.time_scheme) && p.steps == 0)
     {
       const long steps = steps_within(duration, euler);

@@ -66,6 +66,13 @@ namespace meltfront::particles
   StepPlan plan_steps(const SphParameters &parameters, const cases::Scene &scene,
                       const StepLimits &limits, double smoothing_length);
 
+  /** Fewest steps of a run, so that fronts can be sampled at 100 times. */
+  inline constexpr long fewest_steps = 200;
+
+  /** Fewest stages, at least three, with which a super step reaches so many times the
+   * step of explicit Euler. */
+  int stages_reaching(double reach);
+
   /** One stage of a super step; F is the rate of change. */
   struct SuperStage
   {
