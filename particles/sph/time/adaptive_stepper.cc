@@ -11,15 +11,15 @@ namespace meltfront::particles
 {
   namespace
   {
-    /** What evaluations of the flows an iteration of Newton's method costs beside
-     * products with the derivative: residual, derivative, elimination. */
-    constexpr double newton_overhead = 3;
-
-    /** Iterations of both stages of an implicit step, as long as none has been made. */
-    constexpr double first_guess_of_newton = 8;
-
     /** What is left until a kink, over the step, that is not worth a step of its own. */
     constexpr double negligible = 0.01;
+
+    /** Of steps that an error foretells. */
+    constexpr double caution = 0.9;
+
+    /** Length of the step after a kink, in explicit ones: what has ceased to melt cools
+     * or warms within the time that heat takes to cross a particle. */
+    constexpr double after_kink = 8;
 
     double span_of_enthalpy(const cases::Scene &scene)
     {
@@ -45,8 +45,8 @@ namespace meltfront::particles
     , heat_span(std::max(jump, span_of_enthalpy(dis.scene)))
     , front_at_rest(std::pow(double(n), 1 - 1. / dis.dimension))
     , explicit_scheme(n, enthalpy.size(), heat_flow.threads())
-    , newton_work(newton_overhead + 2. * heat_flow.half_bandwidth() + 1)
-    , last_newton(first_guess_of_newton)
+    , newton_work(work_of_newton_iteration(heat_flow.half_bandwidth()))
+    , last_newton(usual_newton_iterations)
     , before(enthalpy.size())
     , flow(enthalpy.size())
     , end_flow(enthalpy.size())
@@ -71,23 +71,18 @@ namespace meltfront::particles
   double AdaptiveStepper::make_step(long step, double begin)
   {
     double end = aim(begin);
-    bool by_euler = false, at_kink = false;
+    bool by_euler = false, at_kink = ends_at_kink;
     for(;;)
     {
       const double duration = end - begin;
       before = enthalpy;
       const Trial trial = attempt(begin, end, by_euler);
-      constexpr double caution = 0.9, least = 0.2, most = 2, unsound = 0.25;
-      const double factor
-          = trial.sound
-                ? std::clamp(caution * std::sqrt(wanted_error / trial.error), least, most)
-                : unsound;
       const bool shortest = duration <= explicit_step * (1 + 1e-12);
       if(by_euler || (trial.sound && (trial.error <= wanted_error || shortest)))
       {
-        // A step that ends early for another reason does not shorten the next.
-        const bool cut = duration < 0.99 * next_step && factor >= 1;
-        next_step = cut ? std::max(next_step, factor * duration) : factor * duration;
+        choose_next_step(duration, trial);
+        if(at_kink)
+          next_step = std::min(next_step, after_kink * explicit_step);
         std::swap(flow, end_flow);
         book(trial.through_walls, trial.dirichlet);
         return end;
@@ -102,8 +97,12 @@ namespace meltfront::particles
         end = begin + kink * duration;
       else
       {
-        next_step = factor * duration;
+        next_step = duration
+                    * (trial.sound ? std::clamp(
+                           caution * std::sqrt(wanted_error / trial.error), 0.1, 0.9)
+                                   : 0.25);
         end = aim(begin);
+        at_kink = ends_at_kink;
       }
       if(end - begin < 1e-14 * (dis.scene.end_time - dis.scene.start_time))
         throw cases::NumericalError(method, step, end, "enthalpy",
@@ -111,13 +110,30 @@ namespace meltfront::particles
     }
   }
 
-  double AdaptiveStepper::aim(double begin) const
+  void AdaptiveStepper::choose_next_step(double duration, const Trial &trial)
+  {
+    double factor = caution * std::sqrt(wanted_error / trial.error);
+    // The trend of the error over the last two steps goes on (Gustafsson 1994).
+    if(last_error > 0 && trial.error > 0)
+      factor *= std::clamp(duration / last_duration * std::sqrt(last_error / trial.error),
+                           0.5, 3.);
+    last_error = trial.error;
+    last_duration = duration;
+    factor = std::clamp(factor, 0.2, 5.);
+    // A step that ends early for another reason does not shorten the next.
+    const bool cut = duration < 0.99 * next_step && factor >= 1;
+    next_step = cut ? std::max(next_step, factor * duration) : factor * duration;
+  }
+
+  double AdaptiveStepper::aim(double begin)
   {
     double duration = std::clamp(next_step, explicit_step, longest);
+    ends_at_kink = false;
     if(solver)
     {
-      const double kink = time_to_kink(negligible * duration);
-      if(kink < duration)
+      const double kink = time_to_kink(duration);
+      ends_at_kink = kink < duration;
+      if(ends_at_kink)
         duration = kink;
       else if(kink < 2 * duration)
         duration = 0.5 * kink;
@@ -127,16 +143,18 @@ namespace meltfront::particles
                                begin + 1.01 * duration >= last ? last : begin + duration);
   }
 
-  double AdaptiveStepper::time_to_kink(double least) const
+  double AdaptiveStepper::time_to_kink(double step) const
   {
     double soonest = std::numeric_limits<double>::infinity();
+    const double least_change = negligible * wanted_error * heat_span;
     const double rate_of_flow = heat_flow.scale() / mass();
     for(std::size_t a = 0; a < n; ++a)
     {
       const double h = enthalpy[a], rate = rate_of_flow * flow[a];
       const double kink = rate > 0 ? (h < 0 ? 0. : jump) : (h > jump ? jump : 0.);
       const double time = (kink - h) / rate;
-      if(time >= least && time < soonest && changes_phase(a))
+      if(time >= negligible * step && time < soonest
+         && std::abs(rate) * step > least_change && changes_phase(a))
         soonest = time;
     }
     return soonest;

@@ -50,11 +50,14 @@ namespace meltfront::particles
     double make_step(long step, double begin) override;
 
     /** Where a step is to end. */
-    double aim(double begin) const;
+    double aim(double begin);
+
+    void choose_next_step(double duration, const Trial &trial);
 
     /** Time until the first particle begins or ceases to melt, if flows stay what they
-     * are, not counting those that do so within `least`; infinite if none does (s). */
-    double time_to_kink(double least) const;
+     * are, not counting those that do so in a hundredth of `step` or hardly change in it;
+     * infinite if none does (s). */
+    double time_to_kink(double step) const;
 
     /** Whether a particle melts or lies beside one of the other phase: others may come
      * near to the melting point for ever. */
@@ -72,17 +75,19 @@ namespace meltfront::particles
     double error_of(double duration);
 
     double wanted_error;
-    double explicit_step; ///< the longest of Euler's that is certain (s)
-    double longest;       ///< of all steps (s)
-    double next_step;     ///< by the error (s)
+    double explicit_step;      ///< the longest of Euler's that is certain (s)
+    double longest;            ///< of all steps (s)
+    double next_step;          ///< by the error (s)
+    bool ends_at_kink = false; ///< the step that aim() gave
+    double last_error = 0, last_duration = 0; ///< of the last step (s)
     double jump;          ///< latent heat exchanged at one temperature (J/kg)
     double heat_span;     ///< between the extremes of the scene (J/kg)
     double front_at_rest; ///< particles across the domain, where none melts
     ExplicitScheme explicit_scheme;
     std::optional<ImplicitHeatFlow> implicit_flow; ///< along a line
     std::optional<ImplicitSolver> solver;
-    double newton_work; ///< evaluations by iteration of Newton's method
-    double last_newton; ///< iterations in the last implicit step
+    double newton_work;                 ///< evaluations by iteration of Newton's method
+    double last_newton;                 ///< iterations in the last implicit step
     std::vector<double> before;         ///< the state at the begin of a step
     std::vector<double> flow, end_flow; ///< at the begin and at the end of a step
     long implicit_steps = 0;

@@ -31,8 +31,7 @@ namespace meltfront::particles
       array->resize(heat_flow.padded_size(), 0.);
   }
 
-  void ImplicitSolver::multiply(std::span<const double> change,
-                                std::span<double> result)
+  void ImplicitSolver::multiply(std::span<const double> change, std::span<double> result)
   {
     heat_flow.apply_derivative(change, result);
     for(std::size_t a = 0; a < change.size(); ++a)
@@ -46,9 +45,8 @@ namespace meltfront::particles
           ->solve(diagonal, residual, correction, linear_tolerance,
                   most_linear_iterations)
           .iterations;
-    if(!banded->factorise(
-           [this](std::span<const double> change, std::span<double> result)
-           { multiply(change, result); }))
+    if(!banded->factorise([this](std::span<const double> change, std::span<double> result)
+                          { multiply(change, result); }))
       return 0;
     correction = residual;
     banded->solve(correction);
@@ -96,11 +94,16 @@ namespace meltfront::particles
     for(;;)
     {
       const double size = evaluate(equation, enthalpy);
-      heat_flow.linearise(enthalpy, equation.fraction);
-      const auto slopes = heat_flow.derivative_diagonal();
-      for(std::size_t a = 0; a < diagonal.size(); ++a)
-        diagonal[a] = 1 - factor * slopes[a];
-      outcome.converged = size <= tolerance(equation, enthalpy);
+      // The last diagonal tells how stiff the equations are, too.
+      outcome.converged = outcome.iterations > 0 && size <= tolerance(equation, enthalpy);
+      if(!outcome.converged)
+      {
+        heat_flow.linearise(enthalpy, equation.fraction);
+        const auto slopes = heat_flow.derivative_diagonal();
+        for(std::size_t a = 0; a < diagonal.size(); ++a)
+          diagonal[a] = 1 - factor * slopes[a];
+        outcome.converged = size <= tolerance(equation, enthalpy);
+      }
       if(outcome.converged || outcome.iterations == most_newton_iterations
          || !std::isfinite(size))
         break;

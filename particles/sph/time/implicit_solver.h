@@ -164,9 +164,9 @@ namespace meltfront::particles
       hold(1., enthalpy);
       const Outcome second
           = solve({std::span(base).first(n), weighted / mass, 1.}, enthalpy);
-      heat.through += duration * heat_flow.scale()
-                      * ((1 - gamma) * first.through_walls
-                         + gamma * second.through_walls);
+      heat.through
+          += duration * heat_flow.scale()
+             * ((1 - gamma) * first.through_walls + gamma * second.through_walls);
       return second.converged;
     }
 

@@ -76,6 +76,62 @@ namespace meltfront::particles
     return (double(stages) * stages + stages - 2) / 4;
   }
 
+  double work_of_newton_iteration(std::size_t half_bandwidth)
+  {
+    return 3 + (2. * half_bandwidth + 1);
+  }
+
+  namespace
+  {
+    /** Why steps cannot be chosen by an error; null if they can. */
+    const char *why_equal_steps(const SphParameters &p, const TimeSchemeDemand &demand)
+    {
+      if(p.steps > 0)
+        return "their number is given";
+      if(!guarded(p) || p.step_factor == 0)
+        return "their length is given";
+      if(demand.displaces_liquid)
+        return "liquid is displaced after each of them";
+      if(demand.moves_sources)
+        return "a source moves on with each of them";
+      if(demand.half_bandwidth == 0)
+        return "particles are not along a line";
+      return nullptr;
+    }
+
+    /** Share of a particle by which a front may be elsewhere after a step, if that were
+     * of first order. */
+    constexpr double usual_step_error = 0.01;
+  } // namespace
+
+  std::string settle_time_scheme(SphParameters &p, const TimeSchemeDemand &demand)
+  {
+    if(p.time_scheme != TimeScheme::automatic)
+      return "";
+    const char *reason = why_equal_steps(p, demand);
+    if(reason && p.step_error > 0)
+      throw cases::Refusal(fmt::format(
+          "steps cannot be chosen by an error (step_error) with time_scheme = automatic, "
+          "for {}; the implicit schemes may do so",
+          reason));
+    const double super_work
+        = demand.duration / demand.explicit_step * p.stages / super_step_reach(p.stages);
+    const double implicit_work = fewest_steps * usual_newton_iterations
+                                 * work_of_newton_iteration(demand.half_bandwidth);
+    if(!reason && p.step_error == 0 && super_work <= implicit_work)
+      reason = "implicit ones would cost more";
+    if(!reason)
+    {
+      if(p.step_error == 0)
+        p.step_error = usual_step_error;
+      return "as long as an error allows, by RKL2 or two implicit stages, whichever "
+             "costs "
+             "less";
+    }
+    p.time_scheme = TimeScheme::rkl2;
+    return fmt::format("equal, for {}", reason);
+  }
+
   int stages_reaching(double reach)
   {
     // (s^2 + s - 2)/4 = reach
