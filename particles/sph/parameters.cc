@@ -62,7 +62,7 @@ namespace meltfront::particles
         FrontRule::automatic,
         true,
         1.0,
-        TimeScheme::automatic,
+        TimeScheme::rkl2,
         1.0};
     return policy;
   }

@@ -10,6 +10,11 @@ namespace meltfront::particles
 {
   namespace
   {
+    bool guarded(const SphParameters &p)
+    {
+      return p.step_limit == StepLimit::monotone;
+    }
+
     /** Equal steps of at most some length. @throws cases::Refusal for too many. */
     long steps_within(double duration, double step)
     {
@@ -148,11 +153,6 @@ namespace meltfront::particles
 
   namespace
   {
-    bool guarded(const SphParameters &p)
-    {
-      return p.step_limit == StepLimit::monotone;
-    }
-
     /** Steps that are to be too long are not made shorter for the sake of samples. */
     long steps_for(const SphParameters &p, double duration, double step)
     {
