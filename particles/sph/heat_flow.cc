@@ -51,6 +51,21 @@ namespace meltfront::particles
                     == 0;
     }
 
+    /** Widest band along a line that is solved for directly: a periodic line's has all
+     * of its particles. */
+    constexpr std::size_t widest_band = 8;
+
+    std::size_t half_bandwidth_along_line(const Discretisation &dis,
+                                          const ParticleOperator &rows)
+    {
+      if(dis.dimension > 1)
+        return 0;
+      std::size_t widest = 1;
+      for(std::size_t a = 0; a < rows.rows(); ++a)
+        rows.visit_row(a, [&](std::size_t b, double)
+                       { widest = std::max(widest, a < b ? b - a : a - b); });
+      return widest <= widest_band ? widest : 0;
+    }
   } // namespace
 
   FrontRule resolve_front_rule(const Discretisation &dis, const SphParameters &p)
@@ -86,6 +101,7 @@ namespace meltfront::particles
   {
     require_true_conductivity(dis, conduction.rows);
     find_own_slices();
+    bandwidth = half_bandwidth_along_line(dis, conduction.rows);
     const bool melts_gradually = sharp_latent_heat(material) > 0;
     // Without latent heat no particle melts gradually: fronts lie between particles.
     if(lies_within_particles(front_rule))

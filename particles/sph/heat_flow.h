@@ -130,6 +130,13 @@ namespace meltfront::particles
       return conduction.rows.padded_rows();
     }
 
+    /** Along a line, how far apart the numbers of particles are that exchange heat, if
+     * that is a few; else 0. */
+    std::size_t half_bandwidth() const
+    {
+      return bandwidth;
+    }
+
     /** What the report prints of the operator. */
     std::vector<cases::Parameter> describe() const;
 
@@ -175,6 +182,7 @@ namespace meltfront::particles
     const OwnParticles &own;
     std::size_t n; ///< particles at hand
     int thread_count;
+    std::size_t bandwidth = 0; ///< see half_bandwidth()
     ConductionRows conduction;
     /** Those of own particles, where processes share a run; else empty: all. */
     std::vector<std::uint32_t> own_slices;

@@ -68,6 +68,8 @@ namespace meltfront::particles
     {
     case TimeScheme::backward_euler:
       return "backward Euler";
+    case TimeScheme::automatic:
+      return "RKL2 or two implicit stages";
     case TimeScheme::crank_nicolson:
       return "Crank-Nicolson after two steps of backward Euler";
     default:

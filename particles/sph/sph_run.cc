@@ -33,11 +33,7 @@ namespace meltfront::particles
         , dis(scene, parameters)
         , n(share(ranks, effects))
         , heat_flow(dis, effects, parameters, mass_coordinates.get())
-        , plan(plan_steps(
-              parameters, scene,
-              heat_flow.step_limits(dis.particle_volume * scene.material.solid.density,
-                                    parameters.step_limit, dis.dirichlet),
-              dis.kernel.smoothing_length()))
+        , plan(make_plan(effects))
         , stepper(make_stepper(parameters, heat_flow, dis, plan, start(), policy.name))
         , temperature(n)
         , solid_fraction(n)
@@ -56,7 +52,11 @@ namespace meltfront::particles
 
       cases::RunDescription describe() const override
       {
-        return describe_run(dis, parameters, plan, unknowns(), heat_flow.describe());
+        cases::RunDescription description
+            = describe_run(dis, parameters, plan, unknowns(), heat_flow.describe());
+        if(!why_these_steps.empty())
+          description.parameters.push_back({"steps", why_these_steps, ""});
+        return description;
       }
 
       cases::Cost cost() const override
@@ -122,6 +122,20 @@ namespace meltfront::particles
         if(parameters.step_error > 0)
           note(scene.end_time, fmt::format("{} steps were accepted and {} rejected",
                                            steps, stepper->counts().repeated));
+      }
+
+      /** Settles the time scheme, too. */
+      StepPlan make_plan(const cases::EffectSet &effects)
+      {
+        const StepLimits limits
+            = heat_flow.step_limits(dis.particle_volume * scene.material.solid.density,
+                                    parameters.step_limit, dis.dirichlet);
+        why_these_steps = settle_time_scheme(
+            parameters,
+            {scene.end_time - scene.start_time, parameters.step_factor * limits.monotone,
+             heat_flow.half_bandwidth(), effects.contains(cases::Effect::liquid_motion),
+             effects.contains(cases::Effect::moving_source)});
+        return plan_steps(parameters, scene, limits, dis.kernel.smoothing_length());
       }
 
       static std::unique_ptr<const MassCoordinates>
@@ -269,6 +283,7 @@ namespace meltfront::particles
       std::size_t n;                      ///< particles at hand
       std::vector<std::uint64_t> numbers; ///< of own particles, where ranks share a run
       HeatFlow heat_flow;
+      std::string why_these_steps; ///< of automatic, for the record
       StepPlan plan;
       std::unique_ptr<Stepper> stepper;
       long steps = 0;                                  ///< made so far

@@ -28,7 +28,7 @@ namespace meltfront::particles
     {
       if(p.layout != LatticeLayout::cell_centred || dis.displaced)
         refuse("particles on a lattice of cells (layout = cell, arrangement = lattice)");
-      if(is_implicit(p.time_scheme))
+      if(is_implicit(p.time_scheme) || p.time_scheme == TimeScheme::automatic)
         refuse("explicit steps (time_scheme = rkl2 or euler)");
       if(p.step_limit != StepLimit::monotone)
         refuse("steps that keep the maximum principle (step_limit = monotone)");

@@ -1,5 +1,6 @@
 #include <cases/temperature_slack.h>
 #include <cases/time_integral.h>
+#include <particles/sph/time/adaptive_stepper.h>
 #include <particles/sph/time/explicit_stepper.h>
 #include <particles/sph/time/implicit_stepper.h>
 #include <particles/sph/time/stepper.h>
@@ -96,6 +97,9 @@ namespace meltfront::particles
   {
     if(is_implicit(parameters.time_scheme))
       return std::make_unique<ImplicitStepper>(parameters, heat_flow, discretisation,
+                                               plan, std::move(enthalpy), method);
+    if(parameters.time_scheme == TimeScheme::automatic)
+      return std::make_unique<AdaptiveStepper>(parameters, heat_flow, discretisation,
                                                plan, std::move(enthalpy), method);
     return std::make_unique<ExplicitStepper>(heat_flow, discretisation, plan,
                                              std::move(enthalpy), method);
