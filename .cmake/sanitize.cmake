@@ -5,6 +5,7 @@
 set(MELTFRONT_SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread")
 if(MELTFRONT_SANITIZE)
   add_compile_options(-fsanitize=${MELTFRONT_SANITIZE} -fno-omit-frame-pointer -g1)
+  add_compile_definitions(MELTFRONT_SANITIZE)
   add_link_options(-fsanitize=${MELTFRONT_SANITIZE})
   if(MELTFRONT_SANITIZE MATCHES "undefined")
     # A finding is to fail the test that it is made in.
