@@ -179,6 +179,12 @@ namespace meltfront::cases
     }
   }
 
+  std::string parent_subsection(const std::string &path)
+  {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? std::string() : path.substr(0, slash);
+  }
+
   std::string trimmed(const std::string &text)
   {
     const std::size_t first = text.find_first_not_of(blanks);

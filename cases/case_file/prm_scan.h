@@ -50,6 +50,9 @@ namespace meltfront::cases
   /** `key 'KEY' in subsection 'PATH'`, or `key 'KEY' at the top level`. */
   std::string name_of_key(const std::string &subsection, const std::string &key);
 
+  /** The path of the subsection that holds another one; empty at the top level. */
+  std::string parent_subsection(const std::string &path);
+
   /** The parts of a text between separators, each without blanks around it. */
   std::vector<std::string> split_list(const std::string &text, char separator);
 

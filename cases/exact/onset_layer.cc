@@ -1,5 +1,5 @@
 #include <cases/error.h>
-#include <cases/exact/heat_quadrature.h>
+#include <cases/exact/lagrange_points.h>
 #include <cases/exact/onset_layer.h>
 #include <cases/exact/planar_neumann.h>
 #include <cases/wall_law.h>
@@ -14,9 +14,6 @@ namespace meltfront::cases
 {
   namespace
   {
-    /** Where the layer's erfc and its integrals are below 1e-16 of their start, in xi. */
-    constexpr double last_xi = 6;
-
     constexpr int layer_intervals = 38, phase_intervals = 12, before_intervals = 16;
     constexpr int n_points = 14;
 
@@ -32,31 +29,6 @@ namespace meltfront::cases
         points[n_points - 1 - i]
             = (1 + std::cos(2 * std::numbers::pi * i / (2 * n_points - 1))) / 2;
       return points;
-    }
-
-    Eigen::VectorXd barycentric_weights(const Eigen::VectorXd &points)
-    {
-      Eigen::VectorXd weights = Eigen::VectorXd::Ones(points.size());
-      for(Eigen::Index i = 0; i < points.size(); ++i)
-        for(Eigen::Index j = 0; j < points.size(); ++j)
-          if(j != i)
-            weights[i] /= 4 * (points[i] - points[j]);
-      return weights;
-    }
-
-    /** d/dx at the points of the polynomial through values there. */
-    Eigen::MatrixXd differentiation_matrix(const Eigen::VectorXd &points)
-    {
-      const Eigen::VectorXd weights = barycentric_weights(points);
-      Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(points.size(), points.size());
-      for(Eigen::Index i = 0; i < points.size(); ++i)
-      {
-        for(Eigen::Index j = 0; j < points.size(); ++j)
-          if(j != i)
-            matrix(i, j) = weights[j] / weights[i] / (points[i] - points[j]);
-        matrix(i, i) = -matrix.row(i).sum();
-      }
-      return matrix;
     }
 
     /** Rows: values at the points; columns: Chebyshev polynomials on [0, 1]. */
@@ -84,7 +56,7 @@ namespace meltfront::cases
     , phase_basis(phase_intervals)
     , before_basis(before_intervals)
     , points(radau_points())
-    , differentiation(differentiation_matrix(points))
+    , differentiation(spectral::differentiation_matrix(points))
   {
     const auto phases = problem.before->fronts(problem.before->start_time()).size();
     const bool old_is_solid
@@ -421,145 +393,5 @@ namespace meltfront::cases
     solution = guess.replicate(1, n_points);
     return newton(instants)
            && resolved(instants.back().old_excess.lpNorm<Eigen::Infinity>());
-  }
-
-  std::string OnsetLayer::description() const
-  {
-    const char *what = sign > 0 ? "freezing" : "melting";
-    return fmt::format("{} at the {} wall from t = {:.12g} on, {}",
-                       grows() ? what : "a layer", problem.at_inner ? "inner" : "outer",
-                       problem.time, problem.before->description());
-  }
-
-  Symmetry OnsetLayer::symmetry() const
-  {
-    return problem.before->symmetry();
-  }
-
-  double OnsetLayer::start_time() const
-  {
-    return problem.before->start_time();
-  }
-
-  double OnsetLayer::end_time() const
-  {
-    return problem.time + last_tau * last_tau;
-  }
-
-  bool OnsetLayer::solid_at_origin() const
-  {
-    return problem.before->solid_at_origin() != (grows() && problem.at_inner);
-  }
-
-  double OnsetLayer::inner() const
-  {
-    return problem.before->inner();
-  }
-
-  double OnsetLayer::outer() const
-  {
-    return problem.before->outer();
-  }
-
-  double OnsetLayer::root_of_time(double time) const
-  {
-    const double slack = 1e-9 * (end_time() - start_time());
-    if(!(time <= end_time() + slack))
-      throw InputError(
-          fmt::format("spectral oracle: time {} is after {}", time, end_time()));
-    return std::sqrt(std::max(time - problem.time, 0.));
-  }
-
-  Eigen::VectorXd OnsetLayer::at(double tau) const
-  {
-    const double x = tau / last_tau;
-    const Eigen::VectorXd weights = barycentric_weights(points);
-    Eigen::VectorXd shares(n_points);
-    for(int i = 0; i < n_points; ++i)
-    {
-      if(x == points[i])
-        return solution.col(i);
-      shares[i] = weights[i] / (x - points[i]);
-    }
-    return solution * shares / shares.sum();
-  }
-
-  std::vector<double> OnsetLayer::fronts(double time) const
-  {
-    std::vector<double> result = problem.before->fronts(time);
-    if(!grows())
-      return result;
-    const double tau = root_of_time(time);
-    const double thickness = tau > 0 ? std::pow(tau, q) * unpack(at(tau)).sigma : 0;
-    result.insert(problem.at_inner ? result.begin() : result.end(),
-                  wall + along * thickness);
-    return result;
-  }
-
-  double OnsetLayer::layer_excess(const Unknowns &u, double tau, double thickness,
-                                  double distance) const
-  {
-    const double x = (distance - thickness)
-                     / (2 * std::sqrt(old_phase.diffusivity()) * tau * last_xi);
-    return x < 1 ? std::pow(tau, g) * layer_basis.interpolate(u.v, x) : 0;
-  }
-
-  double OnsetLayer::temperature(double coordinate, double time) const
-  {
-    const double tau = root_of_time(time);
-    const double r = std::clamp(coordinate, inner(), outer());
-    if(tau == 0)
-      return problem.before->temperature(r, time);
-    const Unknowns u = unpack(at(tau));
-    const double thickness = std::pow(tau, q) * u.sigma;
-    const double distance = std::abs(r - wall);
-    if(grows() && distance < thickness)
-      return problem.material.melting_temperature
-             + std::pow(tau, e) * phase_basis.interpolate(u.p, distance / thickness);
-    return problem.before->temperature(r, time)
-           + layer_excess(u, tau, thickness, distance);
-  }
-
-  double OnsetLayer::heat_content(double lower, double upper, double time) const
-  {
-    lower = std::clamp(lower, inner(), outer());
-    upper = std::clamp(upper, inner(), outer());
-    const double tau = root_of_time(time);
-    if(tau == 0)
-      return problem.before->heat_content(lower, upper, time);
-    const Unknowns u = unpack(at(tau));
-    const double thickness = std::pow(tau, q) * u.sigma;
-    const double front = wall + along * thickness;
-    const double split = std::clamp(front, lower, upper);
-    const double layer = 2 * std::sqrt(old_phase.diffusivity()) * tau * last_xi;
-    const double from = problem.at_inner ? lower : split,
-                 to = problem.at_inner ? split : upper;
-    const double beyond_from = problem.at_inner ? split : lower,
-                 beyond_to = problem.at_inner ? upper : split;
-    const double layer_from
-        = std::clamp(std::min(front, front + along * layer), beyond_from, beyond_to),
-        layer_to
-        = std::clamp(std::max(front, front + along * layer), beyond_from, beyond_to);
-    const double latent = sign > 0 ? 0
-                                   : new_phase.density * problem.material.latent_heat
-                                         * volume_between(symmetry(), from, to);
-    return latent
-           + new_phase.volumetric_heat_capacity()
-                 * integrate_panels(
-                     symmetry(), from, to,
-                     [&](double r)
-                     {
-                       return std::pow(tau, e)
-                              * phase_basis.interpolate(u.p,
-                                                        std::abs(r - wall) / thickness);
-                     },
-                     [&](double) { return thickness; })
-           + problem.before->heat_content(beyond_from, beyond_to, time)
-           + old_phase.volumetric_heat_capacity()
-                 * integrate_panels(
-                     symmetry(), layer_from, layer_to,
-                     [&](double r)
-                     { return layer_excess(u, tau, thickness, std::abs(r - wall)); },
-                     [&](double) { return layer / 8; });
   }
 } // namespace meltfront::cases

@@ -126,9 +126,11 @@ namespace meltfront::cases
     /** Of the time, 0 before the onset. */
     double root_of_time(double time) const;
     Eigen::VectorXd at(double tau) const;
-    double thickness(double tau) const;
     double layer_excess(const Unknowns &u, double tau, double thickness,
                         double distance) const;
+
+    /** Where the layer's erfc and its integrals are below 1e-16 of their start, in xi. */
+    static constexpr double last_xi = 6;
 
     OnsetProblem problem;
     PhaseProperties old_phase, new_phase;

@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/exact/lagrange_points.h>
 #include <cases/exact/radau.h>
 
 #include <boost/math/special_functions/legendre.hpp>
@@ -57,30 +58,6 @@ namespace meltfront::cases::spectral
         }
       }
       return primitives * values.inverse();
-    }
-
-    Eigen::VectorXd barycentric_weights(const Eigen::VectorXd &points)
-    {
-      Eigen::VectorXd weights = Eigen::VectorXd::Ones(points.size());
-      for(Eigen::Index i = 0; i < points.size(); ++i)
-        for(Eigen::Index j = 0; j < points.size(); ++j)
-          if(j != i)
-            weights[i] /= points[i] - points[j];
-      return weights;
-    }
-
-    /** Weights of nodal values in the value at x of the polynomial through them. */
-    Eigen::VectorXd interpolation_weights(const Eigen::VectorXd &points,
-                                          const Eigen::VectorXd &weights, double x)
-    {
-      Eigen::VectorXd result(points.size());
-      for(Eigen::Index i = 0; i < points.size(); ++i)
-      {
-        if(x == points[i])
-          return Eigen::VectorXd::Unit(points.size(), i);
-        result[i] = weights[i] / (x - points[i]);
-      }
-      return result / result.sum();
     }
 
     double scaled_norm(const Eigen::MatrixXd &values, const Eigen::VectorXd &scale)

@@ -50,6 +50,8 @@ namespace meltfront::particles
             coefficients[e] = pair_coefficient(a, b);
             row_sum[a] += std::abs(coefficients[e++]);
           }
+          if(!dis.own.holds(a))
+            continue;
           if(dis.layout == LatticeLayout::cell_centred)
             link_to_images(a);
           else
@@ -68,7 +70,9 @@ namespace meltfront::particles
           row_sum[a] = 0;
         result.wall_cells = dis.wall_cells;
         result.take_per_cell(row_sum);
-        result.largest_row_sum = *std::max_element(row_sum.begin(), row_sum.end());
+        const auto own_sums = dis.own.part(std::span<const double>(row_sum));
+        result.largest_row_sum
+            = dis.own.largest(*std::max_element(own_sums.begin(), own_sums.end()));
         result.rows = ParticleOperator(neighbours, coefficients);
       }
 
@@ -351,10 +355,11 @@ namespace meltfront::particles
         for(const cases::Side side : dis.scene.sides())
         {
           const cases::Boundary &boundary = dis.scene.boundary(side);
-          double sum = 0;
+          ExactSum own;
           for(const WallLink &link : links)
             if(points[link.point].boundary == &boundary)
-              sum += link.strength;
+              own.add(link.strength);
+          const double sum = dis.own.total(own);
           for(WallLink &link : links)
             if(points[link.point].boundary == &boundary)
               link.strength *= wall_area(side) / sum;

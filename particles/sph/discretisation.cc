@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace meltfront::particles
 {
@@ -103,6 +104,15 @@ namespace meltfront::particles
     if(scene.domain.shape == DomainShape::axisymmetric)
       turn_about_axis(p);
     find_dirichlet_particles();
+    own.end = own.all = particles.size();
+  }
+
+  void Discretisation::keep(std::span<const std::uint32_t> numbers, OwnParticles mine)
+  {
+    reorder(particles, numbers);
+    weights.resize(numbers.size()); // all alike
+    weights.shrink_to_fit();
+    own = std::move(mine);
   }
 
   /** Each particle stands for a ring.

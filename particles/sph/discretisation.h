@@ -7,6 +7,7 @@
 #include <particles/core/particle_storage.h>
 #include <particles/core/relaxation.h>
 #include <particles/relaxation/conjugate_gradients.h>
+#include <particles/sph/own_particles.h>
 #include <particles/sph/parameters.h>
 
 #include <functional>
@@ -76,6 +77,12 @@ namespace meltfront::particles
   {
     Discretisation(const cases::Scene &scene, const SphParameters &parameters);
 
+    /** Keep some of the particles only, by their numbers in ascending order, of which
+     * this process computes those that `own` tells. For particles that all stand for a
+     * cell.
+     */
+    void keep(std::span<const std::uint32_t> numbers, OwnParticles own);
+
     /** True if a particle lies on the wall (edge layout). */
     bool on_wall(const PlaneWall &wall, std::size_t particle) const;
 
@@ -112,6 +119,7 @@ namespace meltfront::particles
     /** Particles on a wall of prescribed temperature (edge layout), which hold its value.
      */
     std::vector<std::uint32_t> dirichlet;
+    OwnParticles own; ///< of the particles: all, unless processes share them
 
   private:
     void require_whole_cells(const SphParameters &parameters) const;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace meltfront::particles
 {
@@ -50,32 +51,47 @@ namespace meltfront::particles
                     == 0;
     }
 
-    /** The rule asked for, or the best that can be had.
-     * @throws cases::Refusal for a rule that the scene or the particles do not allow */
-    FrontRule resolve_front_rule(const Discretisation &dis, const SphParameters &p)
+    /** Widest band along a line that is solved for directly: a periodic line's has all
+     * of its particles. */
+    constexpr std::size_t widest_band = 8;
+
+    std::size_t half_bandwidth_along_line(const Discretisation &dis,
+                                          const ParticleOperator &rows)
     {
-      const bool curves = bool(dis.scene.material.curves);
-      const bool lines = follows_lines(dis, p) && !curves;
-      if(p.front == FrontRule::automatic)
-        return lines && has_sharp_fronts(dis.scene) ? FrontRule::plane
-                                                    : FrontRule::sub_particle;
-      if(curves && p.front != FrontRule::sub_particle)
-        throw cases::Refusal("where properties depend on temperature, or the material "
-                             "melts over a range, sph needs front = sub_particle");
-      if(p.front == FrontRule::plane && !lines)
-        throw cases::Refusal(
-            "sph follows fronts as lines or planes (front = plane) in two and three "
-            "dimensions, on a lattice (layout = cell, jitter = 0) whose kernel reaches "
-            "the nearest particles alone, and with explicit steps");
-      return p.front;
+      if(dis.dimension > 1)
+        return 0;
+      std::size_t widest = 1;
+      for(std::size_t a = 0; a < rows.rows(); ++a)
+        rows.visit_row(a, [&](std::size_t b, double)
+                       { widest = std::max(widest, a < b ? b - a : a - b); });
+      return widest <= widest_band ? widest : 0;
     }
   } // namespace
+
+  FrontRule resolve_front_rule(const Discretisation &dis, const SphParameters &p)
+  {
+    const bool curves = bool(dis.scene.material.curves);
+    const bool lines = follows_lines(dis, p) && !curves;
+    if(p.front == FrontRule::automatic)
+      return lines && has_sharp_fronts(dis.scene) ? FrontRule::plane
+                                                  : FrontRule::sub_particle;
+    if(curves && p.front != FrontRule::sub_particle)
+      throw cases::Refusal("where properties depend on temperature, or the material "
+                           "melts over a range, sph needs front = sub_particle");
+    if(p.front == FrontRule::plane && !lines)
+      throw cases::Refusal(
+          "sph follows fronts as lines or planes (front = plane) in two and three "
+          "dimensions, on a lattice (layout = cell, jitter = 0) whose kernel reaches "
+          "the nearest particles alone, and with explicit steps");
+    return p.front;
+  }
 
   HeatFlow::HeatFlow(const Discretisation &dis, const cases::EffectSet &effects,
                      const SphParameters &parameters, const MassCoordinates *moving)
     : effects(effects)
     , scene(dis.scene)
     , material(scene.material)
+    , own(dis.own)
     , n(dis.particles.size())
     , thread_count(n < worth_sharing ? 1 : parameters.threads)
     , conduction(dis, parameters.moment_correction)
@@ -84,6 +100,8 @@ namespace meltfront::particles
     , exchange_effect(Effect::phase_conductivity)
   {
     require_true_conductivity(dis, conduction.rows);
+    find_own_slices();
+    bandwidth = half_bandwidth_along_line(dis, conduction.rows);
     const bool melts_gradually = sharp_latent_heat(material) > 0;
     // Without latent heat no particle melts gradually: fronts lie between particles.
     if(lies_within_particles(front_rule))
@@ -119,6 +137,21 @@ namespace meltfront::particles
     {
       liquid_end.emplace(*moving, dis);
       follow_end(static_cast<std::uint32_t>(n - 1));
+    }
+  }
+
+  /** Processes own whole slices, but for the last particles. */
+  void HeatFlow::find_own_slices()
+  {
+    constexpr std::size_t lanes = ParticleOperator::lanes;
+    interactions = conduction.rows.interactions();
+    if(!own.shared())
+      return;
+    interactions = 0;
+    for(std::size_t slice = own.begin / lanes; slice * lanes < own.end; ++slice)
+    {
+      own_slices.push_back(static_cast<std::uint32_t>(slice));
+      interactions += conduction.rows.interactions(slice);
     }
   }
 
@@ -188,9 +221,25 @@ namespace meltfront::particles
 
   Extremes HeatFlow::temperatures(std::span<const double> enthalpy) const
   {
-    const Extremes w
+    Extremes w
         = variable.mapped() ? extremes : find_extremes(enthalpy.first(n), thread_count);
+    if(own.shared())
+    {
+      std::array<double, 3> most{-w.lowest, w.highest, w.finite ? 0. : 1.};
+      own.take_largest(most);
+      w = {-most[0], most[1], most[2] == 0};
+    }
     return {variable.temperature(w.lowest), variable.temperature(w.highest), w.finite};
+  }
+
+  void HeatFlow::conduct(std::span<const double> w, std::span<double> flow) const
+  {
+    if(!own.shared())
+      return conduction.rows.apply(w, flow, thread_count);
+    const double *value = w.data();
+    conduction.rows.apply_to_slices(
+        own_slices, [value](std::size_t a, std::size_t b) { return value[b] - value[a]; },
+        flow);
   }
 
   double HeatFlow::wall_flow(FrontState state, double fraction, std::span<double> flow)
@@ -214,7 +263,7 @@ namespace meltfront::particles
   {
     const std::span<const double> w = conduction_variable(enthalpy);
     const FrontState state{w.data(), enthalpy.data()};
-    conduction.rows.apply(w, flow, thread_count);
+    conduct(w, flow);
     ++evaluations;
     if(front_exchange)
       front_exchange->apply(conduction.rows, state, flow);
@@ -266,7 +315,7 @@ namespace meltfront::particles
   {
     std::vector<cases::Parameter> result{
         {"interactions per particle",
-         fmt::format("{:.4g}", double(conduction.rows.interactions()) / n), "1"},
+         fmt::format("{:.4g}", own.total(double(interactions)) / double(own.all)), "1"},
         {"second moment divided out", fmt::format("{:.10g}", conduction.second_moment),
          "1"}};
     if(front_exchange)
@@ -289,7 +338,7 @@ namespace meltfront::particles
 
   long HeatFlow::work() const
   {
-    std::size_t per_evaluation = conduction.rows.interactions();
+    std::size_t per_evaluation = interactions;
     if(wall_temperature)
       per_evaluation += wall_temperature->size();
     if(wall_flux)

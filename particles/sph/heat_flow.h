@@ -20,6 +20,11 @@
 
 namespace meltfront::particles
 {
+  /** The rule asked for, or the best that can be had.
+   * @throws cases::Refusal for a rule that the scene or the particles do not allow */
+  FrontRule resolve_front_rule(const Discretisation &discretisation,
+                               const SphParameters &parameters);
+
   /**
    * The heat flow into each particle, composed once from the passes of the effects at
    * hand: an effect that is absent has no pass and no array.
@@ -72,7 +77,8 @@ namespace meltfront::particles
     /** Follow a change of the enthalpy; needed before evaluate(). */
     void follow(std::span<const double> enthalpy);
 
-    /** Lowest and highest temperature of the enthalpy followed last. */
+    /** Lowest and highest temperature of the enthalpy followed last, over all processes.
+     */
     Extremes temperatures(std::span<const double> enthalpy) const;
 
     /**
@@ -124,10 +130,17 @@ namespace meltfront::particles
       return conduction.rows.padded_rows();
     }
 
+    /** Along a line, how far apart the numbers of particles are that exchange heat, if
+     * that is a few; else 0. */
+    std::size_t half_bandwidth() const
+    {
+      return bandwidth;
+    }
+
     /** What the report prints of the operator. */
     std::vector<cases::Parameter> describe() const;
 
-    /** Interactions and wall links touched so far. */
+    /** Interactions and wall links touched so far by this process. */
     long work() const;
 
     std::vector<cases::EffectCost> effect_costs() const;
@@ -153,6 +166,8 @@ namespace meltfront::particles
       return variable.mapped() ? std::span<const double>(mapped) : enthalpy;
     }
 
+    void find_own_slices();
+    void conduct(std::span<const double> w, std::span<double> flow) const;
     void follow_end(std::uint32_t previous);
     void correct_end_change(std::span<const double> change,
                             std::span<double> flow_change);
@@ -164,9 +179,14 @@ namespace meltfront::particles
     const cases::EffectSet &effects;
     const cases::Scene &scene;
     const cases::Material &material;
-    std::size_t n; ///< particles
+    const OwnParticles &own;
+    std::size_t n; ///< particles at hand
     int thread_count;
+    std::size_t bandwidth = 0; ///< see half_bandwidth()
     ConductionRows conduction;
+    /** Those of own particles, where processes share a run; else empty: all. */
+    std::vector<std::uint32_t> own_slices;
+    std::size_t interactions = 0; ///< of rows that are computed
     ConductionVariable variable;
     FrontRule front_rule;
     cases::Effect exchange_effect; ///< the effect that calls for the exchange at fronts

@@ -38,7 +38,7 @@ namespace meltfront::particles
           sum += weight;
         }
       }
-      if(sum == 0)
+      if(dis.own.largest(sum) == 0)
         throw cases::Refusal(fmt::format(
             "no particle lies within the kernel's support of source {}", s + 1));
       for(std::size_t i = first; i < weights.size(); ++i)

@@ -128,20 +128,29 @@ namespace meltfront::particles
                  {"plane", FrontRule::plane},
                  {"partner", FrontRule::partner},
                  {"liquid", FrontRule::liquid}});
-    options.add("time_scheme", values.time_scheme,
-                "Explicit Euler steps, Runge-Kutta-Legendre super steps of second order, "
-                "or implicit steps of first or second order.",
-                cases::in_order<TimeScheme>(time_scheme_names()));
-    options.add("stages", values.stages, "Most stages of a super step.", 3, 64);
+    cases::Words<TimeScheme> schemes = cases::in_order<TimeScheme>(time_scheme_names());
+    schemes.emplace_back("automatic", TimeScheme::automatic);
+    options.add(
+        "time_scheme", values.time_scheme,
+        "Explicit Euler steps, Runge-Kutta-Legendre super steps of second order, "
+        "implicit steps of first or second order; automatic: along a line steps as "
+        "long as an error allows, by super steps or two implicit stages, whichever "
+        "costs less, elsewhere equal super steps.",
+        schemes);
+    options.add("stages", values.stages,
+                "Most stages of a super step, where steps are equal.", 3, 64);
     options.add("step_factor", values.step_factor,
                 "Time step over the largest that keeps the maximum principle; 0: as the "
                 "paper, 0.15 c rho h^2/k. More than 1 is for implicit steps only.",
                 0, 1e6);
     bind_step_limit(values, options);
-    options.add("step_error", values.step_error,
-                "Wanted relative error of each implicit step, which sets its length; 0: "
-                "steps of equal length by step_factor.",
-                0, 1);
+    options.add(
+        "step_error", values.step_error,
+        "Wanted relative error of each implicit step, which sets its length; of "
+        "automatic the share of a particle by which a front may be elsewhere after "
+        "a step of first order; 0: steps of equal length by step_factor, of "
+        "automatic 0.01.",
+        0, 1);
     options.add("refine", refines_time,
                 "What n is the number of: particles along the side, or equal steps in "
                 "time.",
@@ -209,10 +218,11 @@ namespace meltfront::particles
     p.columns = policy.as_published ? p.n : 0;
     if(p.smoothing_length == 0)
       p.smoothing_length = scene.symmetry == cases::Symmetry::planar ? 1.2 : 1.3;
-    if(p.step_error > 0 && !is_implicit(p.time_scheme))
+    if(p.step_error > 0 && !is_implicit(p.time_scheme)
+       && p.time_scheme != TimeScheme::automatic)
       throw cases::Refusal(fmt::format(
           "{} chooses steps by a wanted error (step_error) for the implicit schemes "
-          "backward-euler and crank-nicolson only",
+          "backward-euler and crank-nicolson, and for automatic, only",
           policy.name));
     if(p.step_error > 0 && in_time)
       throw cases::Refusal(fmt::format(

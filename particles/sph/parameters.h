@@ -45,7 +45,8 @@ namespace meltfront::particles
     euler,
     rkl2,
     backward_euler,
-    crank_nicolson
+    crank_nicolson,
+    automatic ///< steps as long as an error allows, by the cheaper scheme
   };
 
   /** What step_factor is a multiple of. */
@@ -57,7 +58,8 @@ namespace meltfront::particles
               ///< no guard
   };
 
-  /** The words for the schemes, in the order of the enumeration. */
+  /** The words for the schemes that one may choose between, in the order of the
+   * enumeration. */
   const std::vector<std::string> &time_scheme_names();
 
   /** The words for kernels that smooth, and for layouts. */

@@ -47,7 +47,7 @@ namespace meltfront::particles
     cases::RunDescription description
         = describe_particles(dis, parameters, plan.step, unknowns);
     std::vector<cases::Parameter> &list = description.parameters;
-    list.push_back({"particles", fmt::format("{}", dis.particles.size()), "1"});
+    list.push_back({"particles", fmt::format("{}", dis.own.all), "1"});
     list.insert(list.end(), of_flow.begin(), of_flow.end());
     list.push_back(
         {"time scheme", describe_scheme(parameters.time_scheme, plan.stages), ""});
@@ -68,6 +68,8 @@ namespace meltfront::particles
     {
     case TimeScheme::backward_euler:
       return "backward Euler";
+    case TimeScheme::automatic:
+      return "RKL2 or two implicit stages";
     case TimeScheme::crank_nicolson:
       return "Crank-Nicolson after two steps of backward Euler";
     default:
@@ -84,10 +86,11 @@ namespace meltfront::particles
     snapshot.time = time;
     snapshot.dimension = dis.dimension;
     for(int d = 0; d < dis.dimension; ++d)
-      snapshot.positions[d] = dis.particles.position[d];
-    snapshot.weights = dis.weights;
-    snapshot.temperature = temperature;
-    snapshot.solid_fraction = solid_fraction;
+      snapshot.positions[d]
+          = dis.own.part(std::span<const double>(dis.particles.position[d]));
+    snapshot.weights = dis.own.part(std::span<const double>(dis.weights));
+    snapshot.temperature = dis.own.part(temperature);
+    snapshot.solid_fraction = dis.own.part(solid_fraction);
     return snapshot;
   }
 } // namespace meltfront::particles

@@ -1,6 +1,8 @@
 #include <cases/scene.h>
+#include <cases/shared_run.h>
 #include <particles/sph/demand.h>
 #include <particles/sph/mass_coordinates.h>
+#include <particles/sph/ranks/share_among_ranks.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/sph_run.h>
 
@@ -135,13 +137,43 @@ namespace meltfront::particles
         return make_sph_run(policy, scene, effects, resolution);
       }
 
+    protected:
       const SphPolicy &policy;
+    };
+
+    class SharedSph : public SphMethod, public cases::SharedMethod
+    {
+    public:
+      using SphMethod::SphMethod;
+
+      cases::Capabilities capabilities_on_ranks() const override
+      {
+        return particles::capabilities_on_ranks();
+      }
+
+      cases::Demand demand_on_ranks(const cases::Scene &scene,
+                                    const cases::EffectSet &effects,
+                                    const cases::Resolution &resolution,
+                                    int ranks) const override
+      {
+        cases::Demand result = demand(scene, effects, resolution);
+        result.bytes += bytes_of_ranks(resolve_parameters(policy, scene, resolution),
+                                       scene, ranks);
+        return result;
+      }
+
+      std::unique_ptr<cases::SharedRun>
+      set_up_on_ranks(const cases::Scene &scene, const cases::EffectSet &effects,
+                      const cases::Resolution &resolution, int ranks) const override
+      {
+        return make_shared_sph_run(policy, scene, effects, resolution, ranks);
+      }
     };
   } // namespace
 
   std::unique_ptr<cases::Method> make_sph()
   {
-    return std::make_unique<SphMethod>(corrected_policy());
+    return std::make_unique<SharedSph>(corrected_policy());
   }
 
   std::unique_ptr<cases::Method> make_sph_2005()

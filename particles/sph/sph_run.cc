@@ -1,8 +1,8 @@
-#include <cases/compensated_sum.h>
 #include <cases/scene.h>
 #include <particles/sph/conductivity_contrast.h>
 #include <particles/sph/heat_flow.h>
 #include <particles/sph/initial_state.h>
+#include <particles/sph/ranks/share_among_ranks.h>
 #include <particles/sph/run_report.h>
 #include <particles/sph/sph_run.h>
 #include <particles/sph/time/stepper.h>
@@ -11,17 +11,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace meltfront::particles
 {
   namespace
   {
-    class SphRun : public cases::Run
+    class SphRun : public cases::SharedRun
     {
     public:
       SphRun(const SphPolicy &policy, const cases::Scene &in_space,
-             const cases::EffectSet &effects, const cases::Resolution &resolution)
+             const cases::EffectSet &effects, const cases::Resolution &resolution,
+             int ranks)
         : parameters(resolve_parameters(policy, in_space, resolution))
         , mass_coordinates(in_mass_coordinates(in_space, effects, parameters))
         , liquid_balance(balance_of_liquid(in_space, effects, parameters))
@@ -29,13 +31,9 @@ namespace meltfront::particles
                 : liquid_balance ? liquid_balance->at_rest
                                  : in_space)
         , dis(scene, parameters)
-        , n(dis.particles.size())
+        , n(share(ranks, effects))
         , heat_flow(dis, effects, parameters, mass_coordinates.get())
-        , plan(plan_steps(
-              parameters, scene,
-              heat_flow.step_limits(dis.particle_volume * scene.material.solid.density,
-                                    parameters.step_limit, dis.dirichlet),
-              dis.kernel.smoothing_length()))
+        , plan(make_plan(effects))
         , stepper(make_stepper(parameters, heat_flow, dis, plan, start(), policy.name))
         , temperature(n)
         , solid_fraction(n)
@@ -45,6 +43,8 @@ namespace meltfront::particles
         if(liquid_balance)
           heat_flow.let_liquid_flow(*liquid_balance, dis, stepper->enthalpies(),
                                     longest_euler_step(plan));
+        for(std::size_t i = 0; dis.own.shared() && i < dis.own.size(); ++i)
+          numbers.push_back(dis.own.first_number + i);
         weigh();
         initial_heat = heat_content();
         initial_mass = mass();
@@ -52,7 +52,11 @@ namespace meltfront::particles
 
       cases::RunDescription describe() const override
       {
-        return describe_run(dis, parameters, plan, unknowns(), heat_flow.describe());
+        cases::RunDescription description
+            = describe_run(dis, parameters, plan, unknowns(), heat_flow.describe());
+        if(!why_these_steps.empty())
+          description.parameters.push_back({"steps", why_these_steps, ""});
+        return description;
       }
 
       cases::Cost cost() const override
@@ -61,15 +65,51 @@ namespace meltfront::particles
         const StepCounts counts = stepper->counts();
         result.steps = steps;
         result.unknowns = unknowns();
-        result.work = heat_flow.work();
+        result.work = std::lround(dis.own.total(double(heat_flow.work())));
         result.solver_iterations = counts.linear_iterations;
         result.most_iterations = counts.most_iterations;
         result.capped_steps = counts.repeated;
         result.effects = heat_flow.effect_costs();
+        if(dis.own.shared())
+          add_up(result);
         return result;
       }
 
+      cases::RankPart part() const override
+      {
+        return {dis.own.size(), numbers};
+      }
+
     private:
+      /** Bytes and seconds of all ranks, calls of one; what they told each other. */
+      void add_up(cases::Cost &cost) const
+      {
+        const OwnParticles &own = dis.own;
+        const auto per_step
+            = [this](long count) { return double(count) / double(std::max(steps, 1L)); };
+        cost.evidence = {{"ranks", own.exchange->ranks()},
+                         {"exchanges per step", per_step(own.exchange->exchanges())},
+                         {"reductions per step", per_step(own.exchange->reductions())}};
+        for(cases::EffectCost &effect : cost.effects)
+        {
+          effect.bytes = std::lround(own.total(double(effect.bytes)));
+          effect.seconds = own.total(effect.seconds);
+        }
+        cost.evidence["bytes sent per step"]
+            = cost.evidence["exchanges per step"]
+              * own.total(double(own.exchange->sent() * sizeof(double)));
+        cost.evidence["particles that several ranks hold"]
+            = own.total(double(n)) - double(own.all);
+      }
+
+      /** Share the particles out. @return those at hand */
+      std::size_t share(int ranks, const cases::EffectSet &effects)
+      {
+        if(ranks > 0)
+          share_among_ranks(dis, parameters, effects, ranks);
+        return dis.particles.size();
+      }
+
       void take_steps() override
       {
         double time = scene.start_time;
@@ -82,6 +122,20 @@ namespace meltfront::particles
         if(parameters.step_error > 0)
           note(scene.end_time, fmt::format("{} steps were accepted and {} rejected",
                                            steps, stepper->counts().repeated));
+      }
+
+      /** Settles the time scheme, too. */
+      StepPlan make_plan(const cases::EffectSet &effects)
+      {
+        const StepLimits limits
+            = heat_flow.step_limits(dis.particle_volume * scene.material.solid.density,
+                                    parameters.step_limit, dis.dirichlet);
+        why_these_steps = settle_time_scheme(
+            parameters,
+            {scene.end_time - scene.start_time, parameters.step_factor * limits.monotone,
+             heat_flow.half_bandwidth(), effects.contains(cases::Effect::liquid_motion),
+             effects.contains(cases::Effect::moving_source)});
+        return plan_steps(parameters, scene, limits, dis.kernel.smoothing_length());
       }
 
       static std::unique_ptr<const MassCoordinates>
@@ -132,8 +186,8 @@ namespace meltfront::particles
         const cases::Material &m = scene.material;
         if(m.curves)
           return heat_by_curves(*m.curves);
-        cases::CompensatedSum stored, latent;
-        for(std::size_t a = 0; a < n; ++a)
+        ExactSum stored, latent;
+        for(std::size_t a = dis.own.begin; a < dis.own.end; ++a)
         {
           const double mass = dis.weights[a] * m.solid.density;
           latent.add(mass * std::clamp(enthalpy[a], 0., m.latent_heat));
@@ -142,8 +196,9 @@ namespace meltfront::particles
               * (std::min(enthalpy[a], 0.) + std::max(enthalpy[a] - m.latent_heat, 0.)));
         }
         cases::HeatBudget heat;
-        heat.stored = stored.value();
-        heat.latent = latent.value() * (liquid_balance ? liquid_balance->in_space() : 1.);
+        heat.stored = dis.own.total(stored);
+        heat.latent
+            = dis.own.total(latent) * (liquid_balance ? liquid_balance->in_space() : 1.);
         heat.initial = heat.stored + heat.latent;
         return heat;
       }
@@ -153,8 +208,8 @@ namespace meltfront::particles
       {
         const std::span<const double> enthalpy = stepper->enthalpies();
         const double latent_heat = scene.material.latent_heat;
-        cases::CompensatedSum stored, latent;
-        for(std::size_t a = 0; a < n; ++a)
+        ExactSum stored, latent;
+        for(std::size_t a = dis.own.begin; a < dis.own.end; ++a)
         {
           const double mass = dis.weights[a] * scene.material.solid.density;
           const double molten
@@ -163,8 +218,8 @@ namespace meltfront::particles
           stored.add(mass * (enthalpy[a] - molten));
         }
         cases::HeatBudget heat;
-        heat.stored = stored.value();
-        heat.latent = latent.value();
+        heat.stored = dis.own.total(stored);
+        heat.latent = dis.own.total(latent);
         heat.initial = heat.stored + heat.latent;
         return heat;
       }
@@ -173,7 +228,7 @@ namespace meltfront::particles
       {
         const cases::Material &m = scene.material;
         const std::span<const double> enthalpy = stepper->enthalpies();
-        for(std::size_t a = 0; a < n; ++a)
+        for(std::size_t a = dis.own.begin; a < dis.own.end; ++a)
         {
           temperature[a] = m.temperature(enthalpy[a]);
           solid_fraction[a] = m.solid_fraction(enthalpy[a]);
@@ -215,7 +270,7 @@ namespace meltfront::particles
 
       long unknowns() const
       {
-        return static_cast<long>(n - dis.dirichlet.size());
+        return static_cast<long>(dis.own.all - dis.dirichlet.size());
       }
 
       SphParameters parameters;
@@ -225,8 +280,10 @@ namespace meltfront::particles
       std::unique_ptr<const LiquidBalance> liquid_balance;
       const cases::Scene &scene; ///< of the particles; at rest if liquid is displaced
       Discretisation dis;
-      std::size_t n; ///< particles
+      std::size_t n;                      ///< particles at hand
+      std::vector<std::uint64_t> numbers; ///< of own particles, where ranks share a run
       HeatFlow heat_flow;
+      std::string why_these_steps; ///< of automatic, for the record
       StepPlan plan;
       std::unique_ptr<Stepper> stepper;
       long steps = 0;                                  ///< made so far
@@ -242,6 +299,14 @@ namespace meltfront::particles
                                            const cases::EffectSet &effects,
                                            const cases::Resolution &resolution)
   {
-    return std::make_unique<SphRun>(policy, scene, effects, resolution);
+    return std::make_unique<SphRun>(policy, scene, effects, resolution, 0);
+  }
+
+  std::unique_ptr<cases::SharedRun>
+  make_shared_sph_run(const SphPolicy &policy, const cases::Scene &scene,
+                      const cases::EffectSet &effects,
+                      const cases::Resolution &resolution, int ranks)
+  {
+    return std::make_unique<SphRun>(policy, scene, effects, resolution, ranks);
   }
 } // namespace meltfront::particles

@@ -1,4 +1,3 @@
-#include <cases/compensated_sum.h>
 #include <particles/sph/volumetric_source.h>
 
 #include <algorithm>
@@ -22,12 +21,13 @@ namespace meltfront::particles
             power[a] = density(dis.particles.point(a), begin, end) * dis.particle_volume;
           for(const WallCell &cell : dis.wall_cells)
             power[cell.particle] *= cell.share;
-          cases::CompensatedSum sum;
-          for(const double heat : power)
-            sum.add(heat);
+          ExactSum own;
+          for(const double heat : dis.own.part(std::span<const double>(power)))
+            own.add(heat);
+          const double sum = dis.own.total(own);
           while(released.size() > 1 && released.back().time > begin)
             released.pop_back();
-          released.push_back({end, released.back().heat + (end - begin) * sum.value()});
+          released.push_back({end, released.back().heat + (end - begin) * sum});
         });
   }
 

@@ -18,7 +18,8 @@ namespace meltfront::particles
 
   WallExchange::WallExchange(const Discretisation &discretisation,
                              const ConductionRows &rows)
-    : material(discretisation.scene.material)
+    : own(discretisation.own)
+    , material(discretisation.scene.material)
     , sharp_latent_heat(material.curves ? material.curves->jump() : material.latent_heat)
     , spacing(discretisation.spacing)
     , links(rows.exchange_links)

@@ -38,7 +38,7 @@ namespace meltfront::particles
       return meter.measure(
           [&]
           {
-            double sum = 0;
+            ExactSum sum;
             visit(fraction,
                   [&](const WallLink &link, const cases::Boundary &wall, double ambient,
                       double depth)
@@ -47,9 +47,9 @@ namespace meltfront::particles
                                         * through(link.row, wall, ambient, depth)
                                         / flow_scale;
                     flow[link.row] += heat;
-                    sum += heat;
+                    sum.add(heat);
                   });
-            return sum;
+            return own.total(sum);
           });
     }
 
@@ -114,6 +114,7 @@ namespace meltfront::particles
     Layer layer(double depth, double enthalpy, double ambient) const;
     Layer melting_layer(double depth, double enthalpy, double ambient) const;
 
+    const OwnParticles &own;
     const cases::Material &material;
     double sharp_latent_heat; ///< exchanged at one temperature (J/kg)
     double spacing;

@@ -3,7 +3,8 @@
 namespace meltfront::particles
 {
   WallFlux::WallFlux(const Discretisation &discretisation, const ConductionRows &rows)
-    : links(rows.flux_links)
+    : own(discretisation.own)
+    , links(rows.flux_links)
     , values(discretisation.scene, rows.flux_points, links)
   {
   }
@@ -18,15 +19,15 @@ namespace meltfront::particles
     return meter.measure(
         [&]
         {
-          double sum = 0;
+          ExactSum sum;
           for(const WallLink &link : links)
           {
             const double heat
                 = link.strength * values.at(link.point, fraction) / flow_scale;
             flow[link.row] += heat;
-            sum += heat;
+            sum.add(heat);
           }
-          return sum;
+          return own.total(sum);
         });
   }
 

@@ -44,6 +44,7 @@ namespace meltfront::particles
     cases::EffectCost cost() const;
 
   private:
+    const OwnParticles &own;
     std::vector<WallLink> links;
     WallValues values;
     cases::EffectMeter meter;

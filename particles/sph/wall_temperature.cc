@@ -48,7 +48,8 @@ namespace meltfront::particles
 
   WallTemperature::WallTemperature(const Discretisation &dis, const ConductionRows &rows,
                                    const ConductionVariable &variable)
-    : variable(variable)
+    : own(dis.own)
+    , variable(variable)
     , material(dis.scene.material)
     , dirichlet(dis.dirichlet)
     , values(dis.scene, all_points(dis, rows, links), links)

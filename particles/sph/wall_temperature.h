@@ -37,20 +37,20 @@ namespace meltfront::particles
           {
             for(std::size_t p = 0; p < wall_variable.size(); ++p)
               wall_variable[p] = variable.of_temperature(values.at(p, fraction));
-            double sum = 0;
+            ExactSum sum;
             for(const WallLink &link : links)
             {
               const double heat
                   = link.strength * exchange(link.row, wall_variable[link.point]);
               flow[link.row] += heat;
-              sum += heat;
+              sum.add(heat);
             }
             for(const std::uint32_t row : dirichlet)
             {
-              sum -= flow[row];
+              sum.add(-flow[row]);
               flow[row] = 0;
             }
-            return sum;
+            return own.total(sum);
           });
     }
 
@@ -113,6 +113,7 @@ namespace meltfront::particles
     cases::EffectCost cost() const;
 
   private:
+    const OwnParticles &own;
     const ConductionVariable &variable;
     const cases::Material &material;
     std::vector<WallLink> links;

@@ -1,6 +1,7 @@
 #include <particles/sph/wall_values.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,8 +22,11 @@ namespace meltfront::particles
         return {point.boundary, place};
       if(point.boundary->exact && scene.symmetry != cases::Symmetry::none)
       {
-        place[0]
-            = std::llround(cases::coordinate(scene.symmetry, point.position) / grain);
+        // Of a wall that bends all coordinates are one, but for their rounding; on others
+        // a value must not depend on which of its points comes first.
+        const double coordinate = cases::coordinate(scene.symmetry, point.position);
+        place[0] = scene.domain.round() ? std::llround(coordinate / grain)
+                                        : std::bit_cast<std::int64_t>(coordinate);
         return {point.boundary, place};
       }
       // A slab has no more coordinates than one.

@@ -64,7 +64,7 @@ namespace meltfront::particles
   {
     const cases::PhaseDiagram &diagram = substance.diagram;
     double *p = depression.data();
-    const auto [first, second] = concentrations;
+    const std::span<const double> first = concentrations[0], second = concentrations[1];
     if(second.empty())
 #pragma omp parallel for schedule(static) num_threads(threads) if(threads > 1)
       for(std::size_t a = 0; a < n; ++a)

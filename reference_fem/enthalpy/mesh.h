@@ -107,7 +107,8 @@ namespace meltfront::reference_fem
   double cells_along(const cases::Scene &scene, int n);
 
   /**
-   * Mesh a scene with n cells along the domain's side.
+   * Mesh a scene with n cells along the domain's side. The mesh refers to the scene,
+   * which has to outlive it.
    *
    * Slab: an interval, or in 2D/3D a strip four cells wide, periodic across. Symmetric
    * ball in 1D: the radius. Box: a Cartesian mesh, cells as near to cubes as the sides

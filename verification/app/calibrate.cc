@@ -92,6 +92,8 @@ namespace meltfront::verification
   {
     std::string text = fmt::format("Pressure {:.4g}, {} seeds:\n",
                                    material.settings.pressure, material.members.size());
+    for(const FailedSeed &failed : material.failures)
+      text += fmt::format("  without seed {}: {}\n", failed.seed, failed.reason);
     text += line("melting temperature", material.melting_temperature);
     text += line("latent heat, per mass", material.latent_heat);
     text += phase_text("Solid", material.solid) + phase_text("Liquid", material.liquid);

@@ -81,7 +81,7 @@ namespace meltfront::verification
     [[noreturn]] void read_texts(const FileKind &kind, unsigned long first,
                                  unsigned long end, int seconds, Board &board)
     {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef MELTFRONT_SANITIZE
       limit_memory_of_reader();
 #endif
       for(unsigned long seed = first; seed < end; ++seed)

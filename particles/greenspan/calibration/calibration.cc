@@ -18,6 +18,9 @@ namespace meltfront::particles::greenspan
     /** A liquid is one below this lattice order, a solid above it. */
     constexpr double dividing_order = 0.37;
 
+    /** Bars of one seed, each longer than the one before, before it is given up. */
+    constexpr int most_bars = 3;
+
     /** Runs of one seed. */
     class Member
     {
@@ -139,10 +142,27 @@ namespace meltfront::particles::greenspan
         run.bar.seed = seed;
         run.guess = settings.melting_guess;
         run.duration = settings.coexistence_time;
-        const Coexistence balance = measure_coexistence(run);
+        const Coexistence balance = balance_in_longer_bars(run);
         result.substance.melting_temperature = balance.temperature;
         result.molten_share = balance.front;
         done(fmt::format("coexistence: T = {:.2f}", balance.temperature));
+      }
+
+      /** A bar that wholly melts or freezes is made half as long again: the front wanders
+       * by as much in either, the latent heat in between grows. */
+      static Coexistence balance_in_longer_bars(CoexistenceSettings run)
+      {
+        for(int bars = 1;; ++bars)
+          try
+          {
+            return measure_coexistence(run);
+          }
+          catch(const cases::NumericalError &)
+          {
+            if(bars == most_bars)
+              throw;
+            run.bar.columns += run.bar.columns / 2;
+          }
       }
 
       LinearProperty conduct(const std::vector<double> &excess, bool liquid,
@@ -209,11 +229,14 @@ namespace meltfront::particles::greenspan
               mean(&ContinuumPhase::heat_capacity, slope)};
     }
 
+    /** Members of all seeds; those that failed are in `failures` instead.
+     * @throws what the first of them did, where fewer than two are left of several */
     std::vector<CalibrationMember> run_members(const CalibrationSettings &settings,
-                                               const CalibrationProgress &progress)
+                                               const CalibrationProgress &progress,
+                                               std::vector<FailedSeed> &failures)
     {
       std::vector<CalibrationMember> members(settings.members);
-      std::vector<std::exception_ptr> failures(members.size());
+      std::vector<std::exception_ptr> thrown(members.size());
       const double runs = static_cast<double>(settings.members)
                           * static_cast<double>(settings.solid_excess.size()
                                                 + settings.liquid_excess.size() + 1
@@ -238,12 +261,26 @@ namespace meltfront::particles::greenspan
         }
         catch(...)
         {
-          failures[member] = std::current_exception();
+          thrown[member] = std::current_exception();
         }
-      for(const std::exception_ptr &failure : failures)
-        if(failure)
-          std::rethrow_exception(failure);
-      return members;
+      std::vector<CalibrationMember> finished;
+      std::exception_ptr first;
+      for(std::size_t member = 0; member < members.size(); ++member)
+        try
+        {
+          if(!thrown[member])
+            finished.push_back(members[member]);
+          else
+            std::rethrow_exception(thrown[member]);
+        }
+        catch(const cases::NumericalError &failure)
+        {
+          failures.push_back({settings.first_seed + member, failure.what()});
+          first = first ? first : thrown[member];
+        }
+      if(first && finished.size() < 2)
+        std::rethrow_exception(first);
+      return finished;
     }
   } // namespace
 
@@ -305,7 +342,7 @@ namespace meltfront::particles::greenspan
     settings.validate();
     ContinuumMaterial material;
     material.settings = settings;
-    material.members = run_members(settings, progress);
+    material.members = run_members(settings, progress, material.failures);
     const auto &members = material.members;
     material.melting_temperature = over(members, [](const auto &member)
                                         { return member.substance.melting_temperature; });

@@ -61,6 +61,13 @@ namespace meltfront::particles::greenspan
     double spacing = 0;           ///< of the crystal at the melting temperature
   };
 
+  /** A seed whose runs did not come to their end, which the means go without. */
+  struct FailedSeed
+  {
+    std::uint64_t seed;
+    std::string reason;
+  };
+
   struct MeasuredPhase
   {
     Measured density, density_slope;             ///< at the melting temperature
@@ -75,6 +82,7 @@ namespace meltfront::particles::greenspan
     Measured melting_temperature, latent_heat, spacing;
     MeasuredPhase solid, liquid;
     std::vector<CalibrationMember> members;
+    std::vector<FailedSeed> failures;
 
     /** Of the means. */
     Substance substance() const;
@@ -91,7 +99,8 @@ namespace meltfront::particles::greenspan
   /**
    * Properties of a particle solid: densities, heat capacities and the jump of enthalpy
    * from phases held at constant temperature and pressure, the melting temperature from
-   * bars of which half is molten, conductivities from slabs between two baths.
+   * bars of which half is molten, conductivities from slabs between two baths. A seed
+   * that fails is named and left out as long as two or more are left.
    * @throws cases::InputError, cases::NumericalError
    */
   ContinuumMaterial calibrate(const CalibrationSettings &settings,

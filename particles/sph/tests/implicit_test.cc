@@ -2,9 +2,11 @@
 #include <particles/sph/heat_flow.h>
 #include <particles/sph/sph.h>
 #include <particles/sph/tests/scenes.h>
+#include <particles/sph/time/banded_solver.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -260,6 +262,66 @@ namespace meltfront::particles::testing
         }
       EXPECT_THROW(in_time("euler", 20, "8"), cases::Refusal);
       EXPECT_THROW(in_time("rkl2", 5, "8"), cases::Refusal);
+    }
+
+    // Of little sensible heat: automatic makes many fewer evaluations than super steps,
+    // and its front ends within the wanted error, a hundredth of a particle, of theirs.
+    TEST(Automatic, TakesLongStepsAlongALine)
+    {
+      cases::Material material = unit_material();
+      material.latent_heat = 100;
+      const Problem problem = freezing_slab(material, -1, 0.1, 1, 15);
+      const auto by = [&](const char *scheme) {
+        return run(*method, problem, 40, {{"time_scheme", scheme}});
+      };
+      const Outcome super = by("rkl2"), chosen = by("automatic");
+      EXPECT_LT(chosen.cost.work, 0.25 * super.cost.work);
+      // A mean over all steps would tell of where most are: those of one are not equal.
+      EXPECT_NEAR(chosen.front_end, super.front_end, 0.01 / 40);
+      EXPECT_LT(chosen.largest_defect, 1e-12);
+    }
+
+    TEST(Automatic, IsEqualSuperStepsWhereThoseCostLess)
+    {
+      const auto by = [&](const char *scheme) {
+        return run(*method, plane_freezing(), 20, {{"time_scheme", scheme}});
+      };
+      EXPECT_EQ(by("automatic").temperature, by("rkl2").temperature);
+      EXPECT_THROW(run(*method, line_sink(), 20,
+                       {{"time_scheme", "automatic"}, {"step_error", "1e-3"}}),
+                   cases::Refusal);
+    }
+
+    TEST(Implicit, TheBandedSolver)
+    {
+      constexpr std::size_t n = 13, half = 2;
+      std::mt19937_64 generator(3);
+      std::uniform_real_distribution<double> uniform(-1, 1);
+      std::vector<std::vector<double>> matrix(n, std::vector<double>(n, 0.));
+      for(std::size_t i = 0; i < n; ++i)
+        for(std::size_t j = i - std::min(i, half); j <= std::min(i + half, n - 1); ++j)
+          matrix[i][j] = i == j ? 5. : uniform(generator);
+      const auto product = [&](std::span<const double> x, std::span<double> y)
+      {
+        for(std::size_t i = 0; i < n; ++i)
+        {
+          y[i] = 0;
+          for(std::size_t j = 0; j < n; ++j)
+            y[i] += matrix[i][j] * x[j];
+        }
+      };
+      std::vector<double> expected(n), found(n);
+      for(double &value : expected)
+        value = uniform(generator);
+      product(expected, found);
+      BandedSolver solver(n, half);
+      ASSERT_TRUE(solver.factorise(product));
+      solver.solve(found);
+      for(std::size_t i = 0; i < n; ++i)
+        EXPECT_NEAR(found[i], expected[i], 1e-14);
+      BandedSolver singular(n, half);
+      EXPECT_FALSE(singular.factorise([](std::span<const double>, std::span<double> y)
+                                      { std::ranges::fill(y, 0.); }));
     }
 
     // A source that is not a number from some time on ends the run at that step.

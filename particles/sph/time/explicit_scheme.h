@@ -33,6 +33,25 @@ namespace meltfront::particles
           array->resize(size);
     }
 
+    /** For super steps of any number of stages; see use_stages(). */
+    ExplicitScheme(std::size_t active, std::size_t size, int threads)
+      : super_step(3)
+      , active(active)
+      , threads(threads)
+      , flow(size)
+      , start(size)
+      , before(size)
+      , start_flow(size)
+    {
+    }
+
+    /** Of super steps from now on. */
+    void use_stages(int stages)
+    {
+      if(super_step.stages.size() + 1 != static_cast<std::size_t>(stages))
+        super_step = SuperStep(stages);
+    }
+
     /**
      * Equal Euler steps.
      * @param scale of the flows: evaluate() gives them over it

@@ -30,17 +30,17 @@ namespace meltfront::particles
   {
     heat_flow.prepare_step(begin, end);
     const bool super = plan.stages > 1 && step > plan.resolved_steps;
-    double wall_heat = super ? scheme.take_super_step(
-                           enthalpy, end - begin, heat_flow.scale(), mass(),
-                           [this] { heat_flow.follow(enthalpy); },
-                           [this](double fraction, std::vector<double> &flow)
-                           { return heat_flow.evaluate(enthalpy, fraction, flow); })
-                             : euler_steps(end - begin);
+    double wall_heat
+        = super ? scheme.take_super_step(
+              enthalpy, end - begin, heat_flow.scale(), mass(), [this] { follow(); },
+              [this](double fraction, std::vector<double> &flow)
+              { return heat_flow.evaluate(enthalpy, fraction, flow); })
+                : euler_steps(end - begin);
     double dirichlet_heat = finish();
     if(super && breaks_bounds())
     {
       scheme.restore(enthalpy);
-      heat_flow.follow(enthalpy);
+      follow();
       wall_heat = euler_steps(end - begin);
       dirichlet_heat = finish();
       ++repeated;
@@ -52,7 +52,7 @@ namespace meltfront::particles
   {
     return scheme.take_euler_steps(
         enthalpy, duration, plan.euler_substeps, heat_flow.scale(), mass(),
-        [this] { heat_flow.follow(enthalpy); },
+        [this] { follow(); },
         [this](double fraction, std::vector<double> &flow)
         { return heat_flow.evaluate(enthalpy, fraction, flow); });
   }

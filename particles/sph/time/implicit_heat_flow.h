@@ -48,6 +48,11 @@ namespace meltfront::particles
       return heat_flow.derivative_diagonal();
     }
 
+    std::size_t half_bandwidth() const override
+    {
+      return heat_flow.half_bandwidth();
+    }
+
     void correct(std::span<const double> correction,
                  std::span<double> enthalpy) const override;
     double largest_sensible_heat(std::span<const double> enthalpy) const override;

@@ -20,16 +20,37 @@ namespace meltfront::particles
 
   ImplicitSolver::ImplicitSolver(ImplicitFlow &heat_flow)
     : heat_flow(heat_flow)
-    , krylov(heat_flow.padded_size(),
-             [this](std::span<const double> change, std::span<double> result)
-             {
-               this->heat_flow.apply_derivative(change, result);
-               for(std::size_t a = 0; a < change.size(); ++a)
-                 result[a] = change[a] - factor * result[a];
-             })
   {
+    if(const std::size_t half = heat_flow.half_bandwidth(); half > 0)
+      banded.emplace(heat_flow.padded_size(), half);
+    else
+      krylov.emplace(heat_flow.padded_size(),
+                     [this](std::span<const double> change, std::span<double> result)
+                     { multiply(change, result); });
     for(auto *array : {&flow, &residual, &correction, &diagonal})
       array->resize(heat_flow.padded_size(), 0.);
+  }
+
+  void ImplicitSolver::multiply(std::span<const double> change, std::span<double> result)
+  {
+    heat_flow.apply_derivative(change, result);
+    for(std::size_t a = 0; a < change.size(); ++a)
+      result[a] = change[a] - factor * result[a];
+  }
+
+  int ImplicitSolver::find_correction()
+  {
+    if(krylov)
+      return krylov
+          ->solve(diagonal, residual, correction, linear_tolerance,
+                  most_linear_iterations)
+          .iterations;
+    if(!banded->factorise([this](std::span<const double> change, std::span<double> result)
+                          { multiply(change, result); }))
+      return 0;
+    correction = residual;
+    banded->solve(correction);
+    return 1;
   }
 
   double ImplicitSolver::evaluate(const ImplicitEquation &equation,
@@ -73,19 +94,21 @@ namespace meltfront::particles
     for(;;)
     {
       const double size = evaluate(equation, enthalpy);
-      heat_flow.linearise(enthalpy, equation.fraction);
-      const auto slopes = heat_flow.derivative_diagonal();
-      for(std::size_t a = 0; a < diagonal.size(); ++a)
-        diagonal[a] = 1 - factor * slopes[a];
-      outcome.converged = size <= tolerance(equation, enthalpy);
+      // The last diagonal tells how stiff the equations are, too.
+      outcome.converged = outcome.iterations > 0 && size <= tolerance(equation, enthalpy);
+      if(!outcome.converged)
+      {
+        heat_flow.linearise(enthalpy, equation.fraction);
+        const auto slopes = heat_flow.derivative_diagonal();
+        for(std::size_t a = 0; a < diagonal.size(); ++a)
+          diagonal[a] = 1 - factor * slopes[a];
+        outcome.converged = size <= tolerance(equation, enthalpy);
+      }
       if(outcome.converged || outcome.iterations == most_newton_iterations
          || !std::isfinite(size))
         break;
       ++outcome.iterations;
-      const int iterations = krylov
-                                 .solve(diagonal, residual, correction, linear_tolerance,
-                                        most_linear_iterations)
-                                 .iterations;
+      const int iterations = find_correction();
       if(iterations == 0)
         break;
       krylov_iterations += iterations;
@@ -95,6 +118,7 @@ namespace meltfront::particles
       enthalpy[a] = equation.base[a] + equation.factor * flow[a];
     outcome.through_walls = wall_flow;
     longest = std::max<long>(longest, outcome.iterations);
+    all_iterations += outcome.iterations;
     return outcome;
   }
 } // namespace meltfront::particles

@@ -1,8 +1,11 @@
 #ifndef meltfront_particles_sph_time_implicit_solver_h
 #define meltfront_particles_sph_time_implicit_solver_h
 
+#include <particles/sph/time/banded_solver.h>
 #include <particles/sph/time/krylov_solver.h>
 
+#include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,6 +48,13 @@ namespace meltfront::particles
     /** How each particle's flow follows its own enthalpy. */
     virtual std::span<const double> derivative_diagonal() const = 0;
 
+    /** How far apart the numbers of particles are at most that exchange heat, where that
+     * is a few, as along a line; else 0. */
+    virtual std::size_t half_bandwidth() const
+    {
+      return 0;
+    }
+
     /** Add a correction; a particle that would leave its branch of T(H) stops at the
      * first kink on its way, where the next branch begins. */
     virtual void correct(std::span<const double> correction,
@@ -76,7 +86,8 @@ namespace meltfront::particles
    * Columns of I - factor * (derivative of the flows) add up to one or more, for what a
    * particle loses others or walls gain; where its other entries are negative, as they
    * are unless conductivities follow the state, its inverse is never larger than one in
-   * the sum norm, whatever the step.
+   * the sum norm, whatever the step. Along a line they are solved for directly, else by a
+   * Krylov method.
    */
   class ImplicitSolver
   {
@@ -120,6 +131,57 @@ namespace meltfront::particles
       return outcome.converged;
     }
 
+    /**
+     * A step of the two-stage, second-order, L-stable diagonally implicit Runge-Kutta
+     * scheme (Alexander 1977), gamma = 1 - 1/sqrt(2):
+     *
+     *   H_1 = H_0 + gamma dt F(H_1),
+     *   H_2 = H_0 + (1 - gamma) dt F(H_1) + gamma dt F(H_2).
+     *
+     * @param hold hold(fraction, enthalpy) sets particles on walls to the temperature at
+     * a fraction of the step and returns the heat that this took
+     * @return whether the equations were solved; if not, the enthalpy is of no use.
+     */
+    template <typename Hold>
+    bool take_two_stage_step(std::span<double> enthalpy, double duration, double mass,
+                             const Hold &hold, WallHeat &heat)
+    {
+      const double gamma = 1 - std::sqrt(0.5);
+      const double weighted = gamma * duration * heat_flow.scale();
+      base.assign(enthalpy.begin(), enthalpy.end());
+      const std::size_t n = heat_flow.size();
+      start.assign(base.begin(), base.begin() + static_cast<std::ptrdiff_t>(n));
+      hold(gamma, std::span(base));
+      hold(gamma, enthalpy);
+      const Outcome first
+          = solve({std::span(base).first(n), weighted / mass, gamma}, enthalpy);
+      if(!first.converged)
+        return false;
+      for(std::size_t a = 0; a < n; ++a)
+        base[a] = start[a] + (1 - gamma) / gamma * (enthalpy[a] - start[a]);
+      heat.dirichlet += hold(1., std::span(start));
+      hold(1., std::span(base));
+      hold(1., enthalpy);
+      const Outcome second
+          = solve({std::span(base).first(n), weighted / mass, 1.}, enthalpy);
+      heat.through
+          += duration * heat_flow.scale()
+             * ((1 - gamma) * first.through_walls + gamma * second.through_walls);
+      return second.converged;
+    }
+
+    /** The flows at the last iterate, over ImplicitFlow::scale(). */
+    std::span<const double> last_flow() const
+    {
+      return flow;
+    }
+
+    /** Of Newton's method so far. */
+    long newton_iterations() const
+    {
+      return all_iterations;
+    }
+
     /** Newton's, of the solve with the most. */
     long most_iterations() const
     {
@@ -138,16 +200,24 @@ namespace meltfront::particles
     double tolerance(const ImplicitEquation &equation,
                      std::span<const double> enthalpy) const;
 
+    /** result = (I - factor * derivative of the flows) change */
+    void multiply(std::span<const double> change, std::span<double> result);
+
+    /** Solve for Newton's correction. @return iterations of the linear solver, 1 for a
+     * direct one; 0 if there is no solution. */
+    int find_correction();
+
     /** Add the flows at the start of a step to its base. @return flow through walls. */
     double add_flow(double change, std::span<const double> enthalpy);
 
     ImplicitFlow &heat_flow;
     double factor = 0;
-    KrylovSolver krylov;
-    std::vector<double> base, flow, residual, correction, diagonal;
+    std::optional<BandedSolver> banded; ///< along a line
+    std::optional<KrylovSolver> krylov; ///< elsewhere
+    std::vector<double> base, start, flow, residual, correction, diagonal;
     double wall_flow = 0;
     long krylov_iterations = 0;
-    long longest = 0;
+    long longest = 0, all_iterations = 0;
   };
 } // namespace meltfront::particles
 

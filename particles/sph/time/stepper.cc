@@ -1,5 +1,6 @@
 #include <cases/temperature_slack.h>
 #include <cases/time_integral.h>
+#include <particles/sph/time/adaptive_stepper.h>
 #include <particles/sph/time/explicit_stepper.h>
 #include <particles/sph/time/implicit_stepper.h>
 #include <particles/sph/time/stepper.h>
@@ -32,6 +33,12 @@ namespace meltfront::particles
         dis.scene.start_time,
         cases::end_of_piece(breakpoints, dis.scene.start_time, time_of(1)));
     heat_flow.hold_walls(0, enthalpy);
+    follow();
+  }
+
+  void Stepper::follow()
+  {
+    dis.own.refresh(std::span(enthalpy).first(n));
     heat_flow.follow(enthalpy);
   }
 
@@ -54,7 +61,7 @@ namespace meltfront::particles
   double Stepper::finish()
   {
     const double dirichlet = heat_flow.hold_walls(1, enthalpy);
-    heat_flow.follow(enthalpy);
+    follow();
     extremes = heat_flow.temperatures(enthalpy);
     return dirichlet;
   }
@@ -90,6 +97,9 @@ namespace meltfront::particles
   {
     if(is_implicit(parameters.time_scheme))
       return std::make_unique<ImplicitStepper>(parameters, heat_flow, discretisation,
+                                               plan, std::move(enthalpy), method);
+    if(parameters.time_scheme == TimeScheme::automatic)
+      return std::make_unique<AdaptiveStepper>(parameters, heat_flow, discretisation,
                                                plan, std::move(enthalpy), method);
     return std::make_unique<ExplicitStepper>(heat_flow, discretisation, plan,
                                              std::move(enthalpy), method);

@@ -66,6 +66,10 @@ namespace meltfront::particles
       return particle_mass;
     }
 
+    /** Let the heat flow follow the state, which other processes tell of their particles.
+     */
+    void follow();
+
     /** Hold the walls, follow the state and find its extremes. @return heat from the
      * walls that particles hold. */
     double finish();

@@ -10,8 +10,10 @@ namespace meltfront::particles
 {
   namespace
   {
-    /** Fewest steps of a run, so that fronts can be sampled at 100 times. */
-    constexpr long fewest_steps = 200;
+    bool guarded(const SphParameters &p)
+    {
+      return p.step_limit == StepLimit::monotone;
+    }
 
     /** Equal steps of at most some length. @throws cases::Refusal for too many. */
     long steps_within(double duration, double step)
@@ -79,6 +81,69 @@ namespace meltfront::particles
     return (double(stages) * stages + stages - 2) / 4;
   }
 
+  double work_of_newton_iteration(std::size_t half_bandwidth)
+  {
+    return 3 + (2. * half_bandwidth + 1);
+  }
+
+  namespace
+  {
+    /** Why steps cannot be chosen by an error; null if they can. */
+    const char *why_equal_steps(const SphParameters &p, const TimeSchemeDemand &demand)
+    {
+      if(p.steps > 0)
+        return "their number is given";
+      if(!guarded(p) || p.step_factor == 0)
+        return "their length is given";
+      if(demand.displaces_liquid)
+        return "liquid is displaced after each of them";
+      if(demand.moves_sources)
+        return "a source moves on with each of them";
+      if(demand.half_bandwidth == 0)
+        return "particles are not along a line";
+      return nullptr;
+    }
+
+    /** Share of a particle by which a front may be elsewhere after a step, if that were
+     * of first order. */
+    constexpr double usual_step_error = 0.01;
+  } // namespace
+
+  std::string settle_time_scheme(SphParameters &p, const TimeSchemeDemand &demand)
+  {
+    if(p.time_scheme != TimeScheme::automatic)
+      return "";
+    const char *reason = why_equal_steps(p, demand);
+    if(reason && p.step_error > 0)
+      throw cases::Refusal(fmt::format(
+          "steps cannot be chosen by an error (step_error) with time_scheme = automatic, "
+          "for {}; the implicit schemes may do so",
+          reason));
+    const double super_work
+        = demand.duration / demand.explicit_step * p.stages / super_step_reach(p.stages);
+    const double implicit_work = fewest_steps * usual_newton_iterations
+                                 * work_of_newton_iteration(demand.half_bandwidth);
+    if(!reason && p.step_error == 0 && super_work <= implicit_work)
+      reason = "implicit ones would cost more";
+    if(!reason)
+    {
+      if(p.step_error == 0)
+        p.step_error = usual_step_error;
+      return "as long as an error allows, by RKL2 or two implicit stages, whichever "
+             "costs "
+             "less";
+    }
+    p.time_scheme = TimeScheme::rkl2;
+    return fmt::format("equal, for {}", reason);
+  }
+
+  int stages_reaching(double reach)
+  {
+    // (s^2 + s - 2)/4 = reach
+    const double root = std::sqrt(2.25 + 4 * reach * (1 - 1e-12)) - 0.5;
+    return static_cast<int>(std::ceil(std::clamp(root, 3., 1e9)));
+  }
+
   double longest_euler_step(const StepPlan &plan)
   {
     return plan.stages > 1 ? std::max(plan.step / plan.euler_substeps,
@@ -88,24 +153,10 @@ namespace meltfront::particles
 
   namespace
   {
-    bool guarded(const SphParameters &p)
-    {
-      return p.step_limit == StepLimit::monotone;
-    }
-
     /** Steps that are to be too long are not made shorter for the sake of samples. */
     long steps_for(const SphParameters &p, double duration, double step)
     {
       return guarded(p) ? steps_for(duration, step) : steps_within(duration, step);
-    }
-
-    /** Fewest stages, at least three, with which a super step reaches so many times the
-     * step of explicit Euler. */
-    int stages_for(double reach)
-    {
-      // (s^2 + s - 2)/4 = reach
-      const double root = std::sqrt(2.25 + 4 * reach * (1 - 1e-12)) - 0.5;
-      return static_cast<int>(std::ceil(std::clamp(root, 3., 1e9)));
     }
 
     void refuse_unstable_step(double step, double monotone)
@@ -126,7 +177,7 @@ namespace meltfront::particles
         refuse_unstable_step(plan.step, limits.monotone);
       if(p.time_scheme == TimeScheme::rkl2)
       {
-        plan.stages = stages_for(plan.step / euler);
+        plan.stages = stages_reaching(plan.step / euler);
         if(plan.stages > p.stages)
           throw cases::Refusal(fmt::format(
               "a step of {:.6g} s needs super steps of {} stages, and at most {} are "
@@ -144,7 +195,7 @@ namespace meltfront::particles
       if(p.time_scheme != TimeScheme::rkl2)
         return plan;
       const long steps = steps_for(p, duration, euler * super_step_reach(p.stages));
-      const int stages = stages_for(duration / (euler * steps));
+      const int stages = stages_reaching(duration / (euler * steps));
       // Few stages gain nothing over as many explicit steps.
       if(stages * steps < plan.steps)
       {
@@ -163,6 +214,8 @@ namespace meltfront::particles
         = p.step_factor > 0
               ? p.step_factor * (guarded(p) ? limits.monotone : limits.stable)
               : published_step(scene.material, smoothing_length);
+    if(p.time_scheme == TimeScheme::automatic)
+      return {0, std::min(euler, duration / fewest_steps), 1, limits, 1, 0};
     if(is_implicit(p.time_scheme) && p.steps == 0)
     {
       const long steps = steps_within(duration, euler);

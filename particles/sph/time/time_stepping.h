@@ -4,6 +4,8 @@
 #include <particles/sph/conduction_rows.h>
 #include <particles/sph/parameters.h>
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace meltfront::particles
@@ -65,6 +67,41 @@ namespace meltfront::particles
    */
   StepPlan plan_steps(const SphParameters &parameters, const cases::Scene &scene,
                       const StepLimits &limits, double smoothing_length);
+
+  /** Fewest steps of a run, so that fronts can be sampled at 100 times. */
+  inline constexpr long fewest_steps = 200;
+
+  /** Iterations of Newton's method in both stages of an implicit step, usually. */
+  inline constexpr double usual_newton_iterations = 8;
+
+  /** What an iteration of Newton's method costs along a line, in evaluations of the
+   * flows: residual, derivative, elimination, and products that give the matrix. */
+  double work_of_newton_iteration(std::size_t half_bandwidth);
+
+  /** What `automatic` has to know of a run. */
+  struct TimeSchemeDemand
+  {
+    double duration;            ///< s
+    double explicit_step;       ///< the longest of Euler's that is certain (s)
+    std::size_t half_bandwidth; ///< HeatFlow::half_bandwidth()
+    bool displaces_liquid;
+    bool moves_sources;
+  };
+
+  /**
+   * Settle what `automatic` stands for in a run: steps as long as an error allows
+   * (AdaptiveStepper), or equal super steps where those are not for it or cost less:
+   * their whole number no more evaluations of the flows than the fewest steps of a run
+   * with two implicit stages each.
+   * @return why, for the record; empty for other schemes.
+   * @throws cases::Refusal where step_error is asked for and cannot be had.
+   */
+  std::string settle_time_scheme(SphParameters &parameters,
+                                 const TimeSchemeDemand &demand);
+
+  /** Fewest stages, at least three, with which a super step reaches so many times the
+   * step of explicit Euler. */
+  int stages_reaching(double reach);
 
   /** One stage of a super step; F is the rate of change. */
   struct SuperStage

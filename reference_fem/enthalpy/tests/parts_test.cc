@@ -210,7 +210,8 @@ namespace meltfront::reference_fem
 
     TEST(Mesh, SharesOfASourceReproduceItsPosition)
     {
-      const auto mesh = make_mesh(box(water(), 2, {-1, 0, 0}, {1, 1, 0}, 1, 1), 2, 8);
+      const cases::Scene scene = box(water(), 2, {-1, 0, 0}, {1, 1, 0}, 1, 1);
+      const auto mesh = make_mesh(scene, 2, 8);
       const Discretisation plain = mesh->discretise();
       for(const cases::Position point :
           {cases::Position{0.113, 0.771, 0}, {0, 0.5, 0}, {1, 1, 0}})

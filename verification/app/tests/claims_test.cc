@@ -119,13 +119,22 @@ namespace meltfront::verification::claims
       }
     };
 
+    bool has_option(const cases::Method &method, const std::string &key)
+    {
+      return std::ranges::any_of(method.option_declarations(),
+                                 [&key](const cases::OptionDeclaration &option)
+                                 { return option.key == key; });
+    }
+
     std::vector<Form> forms()
     {
       std::vector<Form> result;
       for(const auto &method : methods())
       {
         // By the engine of several ranks, on one: tests in ranks/ compare one with two.
-        if(const auto *shared = dynamic_cast<const cases::SharedMethod *>(method.get()))
+        // Where there is one engine for all, these hold the bits of one process.
+        if(const auto *shared = dynamic_cast<const cases::SharedMethod *>(method.get());
+           shared && has_option(*method, "engine"))
           result.push_back({method.get(), shared->capabilities_on_ranks()});
         for(const cases::Capabilities &capabilities : method->capabilities())
         {

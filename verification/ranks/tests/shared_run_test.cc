@@ -69,6 +69,40 @@ namespace meltfront::verification::tests
     EXPECT_NE(pvtu.find("temperature"), std::string::npos) << pvtu;
   }
 
+  TEST(SharedRun, OfParticlesIsThatOfOneProcessToTheBit)
+  {
+    const TemporaryDirectory shared, alone;
+    const std::string run = "run corner-freezing --method sph --n 40 --frames 2 --out ";
+    const Outcome outcome = run_on_two_ranks(run + shared.path().string());
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    ASSERT_EQ(run_program(run + alone.path().string()).status, 0);
+    const auto record = read_json(shared.path("run.json")),
+               serial = read_json(alone.path("run.json"));
+    for(const char *part : {"quantities", "series", "profile"})
+      EXPECT_EQ(record.at(part), serial.at(part)) << part;
+    EXPECT_LT(record["quantities"]["budget_defect"], 1e-12);
+    EXPECT_EQ(record["cost"]["steps"], serial["cost"]["steps"]);
+    EXPECT_EQ(record["cost"]["evidence"]["ranks"], 2);
+    EXPECT_EQ(record["label"], "sph[ranks=2]");
+    for(const char *file : {"fields.pvd", "fields-0002.pvtu", "fields-0002.0000.vtu",
+                            "fields-0002.0001.vtu", "front.csv", "picture.svg"})
+      EXPECT_TRUE(fs::exists(shared.path(file))) << file;
+  }
+
+  /** The first rank alone looks at the time. */
+  TEST(SharedRun, OfParticlesEndsWhereOneRankEndsIt)
+  {
+    const TemporaryDirectory directory;
+    const Outcome outcome
+        = run_on_two_ranks("run corner-freezing --method sph --n 400 --time-limit 0.5 "
+                           "--out "
+                           + directory.path().string());
+    EXPECT_EQ(outcome.status, 3) << outcome.output;
+    EXPECT_EQ(read_json(directory.path("run.json"))["status"], "failed");
+    EXPECT_EQ(times_in(outcome.output, "took longer than its time limit of 0.5 s"), 1u)
+        << outcome.output;
+  }
+
   TEST(SharedRun, RefusesOtherCommandsAndMethodsInOneSentence)
   {
     const Outcome list = run_on_two_ranks("list cases");
@@ -76,10 +110,19 @@ namespace meltfront::verification::tests
     EXPECT_EQ(times_in(list.output, "meltfront: 'run' is the one command"), 1u)
         << list.output;
     const TemporaryDirectory directory;
-    const Outcome sph = run_on_two_ranks("run line-sink --method sph --n 20 --out "
-                                         + directory.path().string());
-    EXPECT_EQ(sph.status, 2) << sph.output;
-    EXPECT_EQ(times_in(sph.output, "sph runs on one rank, not on 2"), 1u) << sph.output;
+    const auto expect_refused = [&](const std::string &run, const std::string &sentence)
+    {
+      const Outcome outcome
+          = run_on_two_ranks("run " + run + " --out " + directory.path().string());
+      EXPECT_EQ(outcome.status, 2) << outcome.output;
+      EXPECT_EQ(times_in(outcome.output, sentence), 1u) << outcome.output;
+    };
+    expect_refused("line-sink --method sph-2005 --n 20",
+                   "sph-2005 runs on one rank, not on 2");
+    expect_refused("line-sink-disk --method sph --n 20",
+                   "takes no domain of the shape 'ball'");
+    expect_refused("line-sink --method sph --n 20 --set sph.time_scheme=backward-euler",
+                   "sph on several ranks takes explicit steps");
     const Outcome shape = run_on_two_ranks("run plane-freezing --method fem-enthalpy "
                                            "--n 20 --out "
                                            + directory.path().string());

@@ -51,6 +51,8 @@ namespace meltfront::verification
       move_sources();
     if(problem == Problem::alloy)
       surround_alloy();
+    if(problem == Problem::pure)
+      displace_liquid();
     return draft;
   }
 

@@ -73,6 +73,12 @@ namespace meltfront::verification
     /** Let it melt over a range of temperatures. */
     void spread_melting();
 
+    // In random_motion.cc:
+
+    /** Let the densities differ: solid about the origin, or a wall there that is cold,
+     * and liquid beyond it, which leaves through the other wall. */
+    void displace_liquid();
+
     // In random_start.cc:
     void choose_start();
 
