@@ -65,8 +65,10 @@ namespace meltfront::particles::rkpm_tracked
     , given(scene)
     , nodes(nodes)
     , makers(settings.threads, StencilMaker(nodes, settings.order))
-    , other_makers(settings.threads, StencilMaker(nodes, other_order(settings.order)))
+    , other_maker(nodes, other_order(settings.order))
     , rows(nodes.size())
+    , holds_walls(
+          std::ranges::any_of(nodes.walls, [](const WallNode &w) { return w.dirichlet(); }))
   {
   }
 
@@ -114,8 +116,7 @@ namespace meltfront::particles::rkpm_tracked
                    [&](std::uint32_t, double) { rows[i].reach = 0; });
     for(StencilMaker &maker : makers)
       maker.nodes_moved();
-    for(StencilMaker &maker : other_makers)
-      maker.nodes_moved();
+    other_maker.nodes_moved();
   }
 
   void PlaneHeat::mark_active(PlaneFront &front) const
@@ -165,8 +166,8 @@ namespace meltfront::particles::rkpm_tracked
       }
     for(StencilMaker &maker : makers)
       maker.set_front(front, *index, state.phase);
-    for(StencilMaker &maker : other_makers)
-      maker.set_front(front, *index, state.phase);
+    if(!holds_walls)
+      other_maker.set_front(front, *index, state.phase);
   }
 
   std::vector<double> PlaneHeat::collocated(const PlaneStencil &stencil,
@@ -188,12 +189,6 @@ namespace meltfront::particles::rkpm_tracked
                    + outwards.y() * stencil.weights[d_y][e]
                    - area * (stencil.weights[d_xx][e] + stencil.weights[d_yy][e]);
     return weights;
-  }
-
-  bool PlaneHeat::is_held(std::size_t node) const
-  {
-    const std::int32_t wall = nodes.wall_of_node[node];
-    return wall >= 0 && nodes.walls[wall].dirichlet();
   }
 
   void PlaneHeat::make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,
@@ -226,14 +221,8 @@ namespace meltfront::particles::rkpm_tracked
       PlaneStencil stencil;
 #pragma omp for schedule(static)
       for(std::size_t k = 0; k < wanted.size(); ++k)
-      {
-        // The row of a held wall's node tells the wall's power only: the finer fit.
-        const int thread = omp_get_thread_num();
-        const bool finer
-            = is_held(wanted[k]) && other_makers[thread].basis_order() > settings.order;
-        make_row(finer ? other_makers[thread] : makers[thread], stencil,
-                 state.phase[wanted[k]], wanted[k]);
-      }
+        make_row(makers[omp_get_thread_num()], stencil, state.phase[wanted[k]],
+                 wanted[k]);
     }
   }
 

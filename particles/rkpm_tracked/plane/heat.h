@@ -38,14 +38,12 @@ namespace meltfront::particles::rkpm_tracked
 
   /** What a pass finds: of the nodes' temperatures, then of the ways of the front's
    * particles (in spacings), what they are without the multiplier and their change with
-   * it. */
+   * it; that is empty where walls hold their temperature. */
   struct PlaneSolution
   {
     std::vector<double> constant, slope;
     /** Heat that a unit of the multiplier gives in the step, about (J/m). */
     double heat = 0;
-    /** By which it lowers what held walls are found to give (W/m). */
-    double wall_power = 0;
 
     std::vector<double> at(double multiplier) const;
   };
@@ -78,10 +76,11 @@ namespace meltfront::particles::rkpm_tracked
    *                                = [k_s dT_s/dn - k_l dT_l/dn] at x_p + d_p n_p
    *                                  + mu s_p.
    *
-   * Collocation conserves no heat. The multiplier mu is the unknown that belongs to one
-   * more equation, the heat balance of the step (PlaneRun::balance). It enters the rows
-   * of the front, of the nodes beside it and the flux through held walls by what their
-   * fits may be off by; spread_multiplier() says why.
+   * Collocation conserves no heat. Where walls hold their temperature what they give is
+   * in no row: it is the reaction that the heat balance asks for, and mu is zero. Else mu
+   * is the unknown that belongs to one more equation, the heat balance of the step
+   * (PlaneRun::balance). It enters the rows of the front and of the nodes beside it by
+   * what their fits may be off by; spread_multiplier() says why.
    */
   class PlaneHeat
   {
@@ -121,6 +120,13 @@ namespace meltfront::particles::rkpm_tracked
      */
     std::vector<double> apply(const PlaneStep &step, const PlaneSolution &solution,
                               double multiplier, PlaneState &next);
+
+    /** Whether walls hold their temperature, so that the heat that they give is what the
+     * balance asks for. */
+    bool wall_heat_is_reaction() const
+    {
+      return holds_walls;
+    }
 
     /** Temperature of the front's particles (K), curvature of the state. */
     double front_temperature(double curvature) const;
@@ -179,7 +185,6 @@ namespace meltfront::particles::rkpm_tracked
 
     const cases::PhaseProperties &properties(NodePhase phase) const;
     std::vector<double> collocated(const PlaneStencil &stencil, std::size_t node) const;
-    bool is_held(std::size_t node) const;
     void make_rows(const PlaneState &state);
     void make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,
                   std::size_t node);
@@ -227,11 +232,11 @@ namespace meltfront::particles::rkpm_tracked
     GivenValues given;
     const PlaneNodes &nodes;
     std::vector<StencilMaker> makers; ///< one for each thread
-    /** Of another order, to tell what fits are off by. */
-    std::vector<StencilMaker> other_makers;
+    StencilMaker other_maker; ///< of another order, to tell what fits are off by
     std::unique_ptr<FrontIndex> index;
     PlaneBins front_bins;
     std::vector<Row> rows;
+    bool holds_walls;
     std::array<std::vector<PlaneStencil>, n_phases> front_stencils;
     std::array<std::vector<FrontValue>, n_phases> front_values;
     /** Areas that the balances of wall nodes are of (m^2): those of the nodes, none where
@@ -247,10 +252,9 @@ namespace meltfront::particles::rkpm_tracked
 
     CompressedRows matrix;
     std::vector<double> right_side;
-    /** What the heat through front particles, of nodes beside the front and, in all, held
-     * walls may be off by (W/m). */
+    /** What the heat through front particles and of nodes beside the front may be off by
+     * (W/m). */
     std::vector<double> front_errors, node_errors;
-    double wall_errors = 0;
     std::vector<double> wall_inflow;           ///< to front particles, at walls (W/m)
     double release_begin = 0, release_end = 0; ///< of the step last asked for (s)
     double released = 0;                       ///< in that (J/m)

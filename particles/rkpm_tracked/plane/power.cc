@@ -7,9 +7,9 @@
 
 namespace meltfront::particles::rkpm_tracked
 {
-  /** Where the temperature is held the power is what the balance of the wall node's area
-   * asks for: with the conduction away from the wall, what heats that area. A node on the
-   * front has no balance: what fluxes and ambients give it melts the front there. */
+  /** Where the temperature is held the power is what fits tell, by the balance of the wall
+   * node's area: with the conduction away from the wall, what heats that area. A node on
+   * the front has no balance: what fluxes and ambients give it melts the front there. */
   double PlaneHeat::wall_power(const PlaneStep &step, const PlaneState &state,
                                std::span<const double> solution) const
   {
@@ -64,10 +64,13 @@ namespace meltfront::particles::rkpm_tracked
    * by the formula of their derivative in time, so that what they conserve adds up. */
   void PlaneHeat::add_heat(const PlaneStep &step, double power, PlaneState &next)
   {
-    next.wall_heat = step.b * step.last.wall_heat + step.step * power;
-    if(step.older)
-      next.wall_heat -= step.c * step.older->wall_heat;
-    next.wall_heat /= step.a;
+    const auto advanced = [&](double PlaneState::*heat)
+    {
+      const double before = step.older ? step.c * step.older->*heat : 0;
+      return (step.b * step.last.*heat - before + step.step * power) / step.a;
+    };
+    next.wall_heat = advanced(&PlaneState::wall_heat);
+    next.fitted_heat = advanced(&PlaneState::fitted_heat);
     next.flux_heat = step.last.flux_heat + flux_heat(step);
     next.released_heat = step.last.released_heat + released_heat(step);
   }

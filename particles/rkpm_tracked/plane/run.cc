@@ -250,9 +250,16 @@ namespace meltfront::particles::rkpm_tracked
       heat.set_front(next, passes >= regrouping_passes);
       const std::optional<PlaneSolution> solution = heat.solve(times, next);
       ++passes;
-      if(!solution || !balance(times, *solution, next, response, largest))
+      if(!solution)
+        return failed;
+      const bool made = heat.wall_heat_is_reaction()
+                            ? !move(heat.apply(times, *solution, 0, next), next, largest)
+                            : balance(times, *solution, next, response, largest);
+      if(!made)
         return failed;
     }
+    if(heat.wall_heat_is_reaction())
+      next.wall_heat += lost_heat(next);
     most_passes = std::max(most_passes, passes);
     return largest;
   }
@@ -365,6 +372,7 @@ namespace meltfront::particles::rkpm_tracked
     restarted = false;
     ++step_number;
     largest_multiplier = std::max(largest_multiplier, std::abs(state.multiplier));
+    fits_differ = std::max(fits_differ, std::abs(state.wall_heat - state.fitted_heat));
     check_resolved();
     warn_of_ripples();
   }

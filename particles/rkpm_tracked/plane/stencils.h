@@ -71,11 +71,6 @@ namespace meltfront::particles::rkpm_tracked
     void set_front(const PlaneFront &front, const FrontIndex &index,
                    std::span<const NodePhase> phases);
 
-    int basis_order() const
-    {
-      return order;
-    }
-
     /** The nodes have moved: look at their places again. */
     void nodes_moved();
 

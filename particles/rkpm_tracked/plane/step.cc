@@ -223,17 +223,18 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   /**
-   * What a unit of the multiplier adds to the heat that fits tell: at the front, in the
-   * nodes beside it and on held walls. Of all changes that close the balance these are
-   * the least, each measured by what may be off there: the largest |change|/e is least
+   * What a unit of the multiplier adds to the heat that fits tell: at the front and in
+   * the nodes beside it. Of all changes that close the balance these are the least, each
+   * measured by what may be off there: the largest |change|/e is least
    * where all are alike, changes in proportion to e. They are scaled to sum up to what
    * flows to the front; where nothing flows all nodes are warmed alike.
    */
   void PlaneHeat::spread_multiplier(const PlaneStep &step, const PlaneState &next,
                                     PlaneSolution &solution)
   {
+    spread.assign(nodes.size() + next.front.size(), 0.);
     const double flow = flow_to_front(step, next);
-    double sum = wall_errors;
+    double sum = 0;
     for(const double error : node_errors)
       sum += error;
     for(const double error : front_errors)
@@ -247,7 +248,6 @@ namespace meltfront::particles::rkpm_tracked
         if(next.front.active[p])
           spread[nodes.size() + p]
               = flow / sum * front_errors[p] / particle_length(next.front, p);
-      solution.wall_power = flow / sum * wall_errors;
       solution.heat = flow * step.step / step.a;
       return;
     }
@@ -255,8 +255,7 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
       const std::int32_t wall = nodes.wall_of_node[i];
-      if(next.phase[i] == NodePhase::front
-         || (wall >= 0 && nodes.walls[wall].dirichlet()))
+      if(next.phase[i] == NodePhase::front)
         continue;
       const double capacity = properties(next.phase[i]).volumetric_heat_capacity();
       spread[i] = capacity * (wall >= 0 ? wall_areas[wall] : 1);
@@ -283,8 +282,7 @@ namespace meltfront::particles::rkpm_tracked
     return flow;
   }
 
-  /** Value of a column in a phase at the last state; what a wall holds may jump, and is
-   * that of the step's end. */
+  /** Value of a column in a phase at the last state. */
   double PlaneHeat::last_value(const PlaneStep &step, const PlaneState &next,
                                NodePhase phase, std::uint32_t column) const
   {
@@ -292,14 +290,7 @@ namespace meltfront::particles::rkpm_tracked
       return front_values[index_of(phase)][column - nodes.size()].constant;
     if(next.phase[column] == NodePhase::front)
       return front_temperature_near(column);
-    const PlanePoint &place = nodes.position[column];
-    const std::int32_t wall = nodes.wall_of_node[column];
-    const WallPiece *piece = wall >= 0 ? nodes.walls[wall].dirichlet() : nullptr;
-    if(!piece)
-      return step.last.extended(phase, column, place);
-    return cases::value_at_end(piece->boundary->value, position_of(place), step.last.time,
-                               step.time)
-           - (phase == NodePhase::solid ? sinks.value(place, step.time) : 0);
+    return step.last.extended(phase, column, nodes.position[column]);
   }
 
   /** Of a sum of weights times values of the last state. */
@@ -314,8 +305,8 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   /**
-   * Once in a step: what the heat through front and held walls may be off by, as fits of
-   * two orders to the last state differ; no less than of a profile that bends over the
+   * Once in a step: what the heat through the front may be off by, as fits of two orders
+   * to the last state differ; no less than of a profile that bends over the
    * domain's size D, (h/D)^2 of itself, and no more than itself.
    */
   void PlaneHeat::find_flux_errors(const PlaneStep &step, const PlaneState &next)
@@ -332,7 +323,7 @@ namespace meltfront::particles::rkpm_tracked
       if(next.front.active[p])
         for(const NodePhase phase : phases)
         {
-          other_makers[0].make(next.front.position[p], phase, other);
+          other_maker.make(next.front.position[p], phase, other);
           const auto slope = [&](const PlaneStencil &stencil)
           {
             const PlanePoint gradient(
@@ -350,24 +341,11 @@ namespace meltfront::particles::rkpm_tracked
       const NodePhase phase = next.phase[i];
       if(phase == NodePhase::front || nodes.wall_of_node[i] >= 0 || rows[i].reach > 0)
         continue;
-      other_makers[0].make(nodes.position[i], phase, other);
+      other_maker.make(nodes.position[i], phase, other);
       node_errors[i]
           = error(phase, nodes.weight[i],
                   applied(step, next, phase, rows[i].columns, rows[i].weights),
                   applied(step, next, phase, other.columns, collocated(other, i)));
-    }
-    wall_errors = 0;
-    for(const WallNode &wall : nodes.walls)
-    {
-      const NodePhase phase = next.phase[wall.node];
-      if(phase == NodePhase::front || !wall.dirichlet())
-        continue;
-      const bool finer = other_makers[0].basis_order() > settings.order;
-      (finer ? makers : other_makers)[0].make(nodes.position[wall.node], phase, other);
-      const Row &row = rows[wall.node];
-      wall_errors += error(
-          phase, 1, applied(step, next, phase, row.columns, row.weights),
-          applied(step, next, phase, other.columns, collocated(other, wall.node)));
     }
   }
 
@@ -383,7 +361,6 @@ namespace meltfront::particles::rkpm_tracked
         });
     matrix = CompressedRows();
     right_side.clear();
-    spread.assign(nodes.size() + next.front.size(), 0.);
     for(std::size_t i = 0; i < nodes.size(); ++i)
       add_node(step, next, i);
     meters.front.measure(
@@ -396,14 +373,17 @@ namespace meltfront::particles::rkpm_tracked
     LinearSolverParameters parameters;
     parameters.method = LinearMethod::direct;
     LinearSolver solver(matrix, parameters);
-    if(next.unknown.empty())
-      find_flux_errors(step, next);
     PlaneSolution solution;
-    spread_multiplier(step, next, solution);
     solution.constant.resize(matrix.rows());
-    solution.slope.resize(matrix.rows());
-    const bool solved = solver.solve(right_side, solution.constant).converged
-                        && solver.solve(spread, solution.slope).converged;
+    bool solved = solver.solve(right_side, solution.constant).converged;
+    if(!wall_heat_is_reaction())
+    {
+      if(next.unknown.empty())
+        find_flux_errors(step, next);
+      spread_multiplier(step, next, solution);
+      solution.slope.resize(matrix.rows());
+      solved = solved && solver.solve(spread, solution.slope).converged;
+    }
     ++solves;
     entries += static_cast<long>(matrix.size());
     most_unknowns = std::max(most_unknowns, matrix.rows());
@@ -418,7 +398,7 @@ namespace meltfront::particles::rkpm_tracked
   std::vector<double> PlaneSolution::at(double multiplier) const
   {
     std::vector<double> result(constant);
-    for(std::size_t i = 0; i < result.size(); ++i)
+    for(std::size_t i = 0; i < slope.size(); ++i)
       result[i] += multiplier * slope[i];
     return result;
   }
@@ -433,8 +413,7 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t p = 0; p < displacement.size(); ++p)
       displacement[p] = nodes.spacing * solution[nodes.size() + p];
     meters.front.measure([&] { update_expansions(next, solution); });
-    add_heat(step, wall_power(step, next, solution) - multiplier * found.wall_power,
-             next);
+    add_heat(step, wall_power(step, next, solution), next);
     return displacement;
   }
 
