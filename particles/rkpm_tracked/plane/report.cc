@@ -64,8 +64,10 @@ namespace meltfront::particles::rkpm_tracked
     initial_heat = measured.sensible + measured.latent;
     reached(0, scene.start_time);
     if(seeded)
+    {
       state = *std::move(seeded);
-    unbooked_heat = lost_heat(state);
+      balance_seed();
+    }
   }
 
   cases::Snapshot PlaneRun::snapshot(long step, double time)

@@ -131,6 +131,30 @@ namespace meltfront::particles::rkpm_tracked
     check(state);
   }
 
+  /** The similarity solution gives a seed its shape and temperatures; its front stands
+   * where it holds the heat that there is. What nodes that change their phase leave of
+   * that stays out of the book. */
+  void PlaneRun::balance_seed()
+  {
+    const double latent = scene.material.solid.density * scene.material.latent_heat;
+    PlaneFront &front = state.front;
+    double missing = lost_heat(state);
+    for(int trial = 0; trial < most_trials; ++trial)
+    {
+      double length = 0;
+      for(std::size_t c = 0; c < front.curves(); ++c)
+        length += curve_length(front, c);
+      for(std::size_t p = 0; p < front.size(); ++p)
+        front.position[p] += missing / (latent * length) * front.normal[p];
+      update_geometry(front);
+      settle_nodes();
+      heat.expand(state);
+      missing = lost_heat(state);
+    }
+    unbooked_heat = missing;
+    marked.seed(front, heat.settings.solid_beyond);
+  }
+
   void PlaneRun::take_steps()
   {
     report_initial();
@@ -259,7 +283,7 @@ namespace meltfront::particles::rkpm_tracked
         return failed;
     }
     if(heat.wall_heat_is_reaction())
-      next.wall_heat += lost_heat(next);
+      next.wall_heat -= lost_heat(next);
     most_passes = std::max(most_passes, passes);
     return largest;
   }

@@ -36,6 +36,7 @@ namespace meltfront::particles::rkpm_tracked
     void take_steps() override;
     cases::Snapshot snapshot(long step, double time) override; // in plane_report.cc
     void start();
+    void balance_seed();
     void step();
     double next_stop() const;
     double next_step() const;

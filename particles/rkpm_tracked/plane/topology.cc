@@ -378,8 +378,6 @@ namespace meltfront::particles::rkpm_tracked
       return wanted - found.sensible - found.latent;
     };
     const double energy = missing();
-    if(places.empty())
-      return energy;
     const PlaneBins bins(places, nodes.spacing);
     const FrontIndex index(state.front, heat.settings.solid_beyond, nodes.spacing);
     const double melting = scene.material.melting_temperature,
@@ -389,7 +387,7 @@ namespace meltfront::particles::rkpm_tracked
       double distance, excess, capacity;
       std::uint32_t node;
     };
-    std::vector<Store> stores;
+    std::vector<Store> stores, others;
     for(std::size_t i = 0; i < nodes.size(); ++i)
     {
       const PlanePoint &place = nodes.position[i];
@@ -397,13 +395,13 @@ namespace meltfront::particles::rkpm_tracked
          || std::abs(index.signed_distance(place, beside_front)) < beside_front)
         continue;
       const double excess = heat.temperature(state, i) - melting;
-      if(excess * energy >= 0)
-        continue;
       const auto &phase = state.phase[i] == NodePhase::solid ? scene.material.solid
                                                              : scene.material.liquid;
-      stores.push_back({(place - places[bins.nearest(place)]).norm(), excess,
-                        phase.volumetric_heat_capacity() * nodes.weight[i],
-                        static_cast<std::uint32_t>(i)});
+      const long nearest = bins.nearest(place);
+      (excess * energy < 0 ? stores : others)
+          .push_back({nearest < 0 ? 0 : (place - places[nearest]).norm(), excess,
+                      phase.volumetric_heat_capacity() * nodes.weight[i],
+                      static_cast<std::uint32_t>(i)});
     }
     std::ranges::sort(stores,
                       [](const Store &a, const Store &b) {
@@ -412,25 +410,47 @@ namespace meltfront::particles::rkpm_tracked
                       });
     double room = 0;
     std::size_t count = 0;
-    while(count < stores.size() && largest_share * room < std::abs(energy))
+    while(count < stores.size()
+          && (places.empty() || largest_share * room < std::abs(energy)))
     {
       room += std::abs(stores[count].excess) * stores[count].capacity;
       ++count;
     }
-    if(room == 0)
-      return energy;
-    const auto approach = [&](double share)
+    double left = energy;
+    // Heat depends on temperatures linearly: the second change is exact.
+    const auto book = [&](double amount, const auto &change)
     {
-      for(std::size_t i = 0; i < count; ++i)
-        state.unknown[stores[i].node] -= share * stores[i].excess;
+      change(amount);
+      const double after = missing();
+      if(after != left)
+        change(amount * after / (left - after));
+      left = missing();
     };
-    // Heat depends on these temperatures linearly: the second share is exact.
-    const double share = std::min(largest_share, std::abs(energy) / room);
-    approach(share);
-    const double left = missing();
-    if(share == largest_share)
-      return left;
-    approach(share * left / (energy - left));
-    return missing();
+    if(room > 0)
+    {
+      const auto approach = [&](double share)
+      {
+        for(std::size_t i = 0; i < count; ++i)
+          state.unknown[stores[i].node] -= share * stores[i].excess;
+      };
+      if(std::abs(energy) < largest_share * room)
+        book(std::abs(energy) / room, approach);
+      else
+      {
+        approach(largest_share);
+        left = missing();
+      }
+    }
+    double capacity = 0;
+    for(const Store &store : others)
+      capacity += store.capacity;
+    if(std::abs(energy) >= largest_share * room && capacity > 0)
+      book(left / capacity,
+           [&](double warming)
+           {
+             for(const Store &store : others)
+               state.unknown[store.node] += warming;
+           });
+    return left;
   }
 } // namespace meltfront::particles::rkpm_tracked

@@ -60,11 +60,13 @@ namespace meltfront::particles::rkpm_tracked
    * Take the heat by which areas that changed their phase by decree changed that of a
    * state out of the nodes about them: their temperatures approach the melting
    * temperature, the nearest nodes', and those of no more nodes than it takes, so that
-   * none is changed by more than half its distance from it. Nodes whose area the front
-   * may cut are left out: there the expansions about the front tell the heat.
-   * @param places where it was
+   * none is changed by more than half its distance from it. What these have not all
+   * others take alike, which go farther from the melting temperature by it. Nodes whose
+   * area the front may cut are left out: there the expansions about the front tell the
+   * heat.
+   * @param places where it was; none: all nodes approach by the same share
    * @param wanted heat of the state, as measure() finds it (J/m)
-   * @return the heat that is missing afterwards, round-off where nodes had enough (J/m)
+   * @return the heat that is missing afterwards, round-off unless no node is left (J/m)
    */
   double book_heat(PlaneState &state, const cases::Scene &scene, const PlaneNodes &nodes,
                    PlaneHeat &heat, const std::vector<PlanePoint> &places, double wanted);

@@ -412,10 +412,23 @@ namespace
       }
     }
     EXPECT_NEAR(sum, -1e-3, 1e-14);
-    // Nothing there that could freeze.
+    // Nothing is below the melting temperature that could give way: all get warmer.
     const double now = stored();
-    EXPECT_NEAR(book_heat(state, scene, nodes, heat, {middle}, now + 1e-3), 1e-3, 1e-14);
-    EXPECT_NEAR(book_heat(state, scene, nodes, heat, {}, now - 1e-3), -1e-3, 1e-14);
-    EXPECT_EQ(stored(), now);
+    const std::vector<double> known = state.unknown;
+    EXPECT_NEAR(book_heat(state, scene, nodes, heat, {middle}, now + 1e-3), 0, 1e-14);
+    EXPECT_NEAR(stored() - now, 1e-3, 1e-14);
+    const auto farther = [&](std::size_t i) { return state.unknown[i] - known[i]; };
+    double least = 1, most = 0;
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      if(nodes.wall_of_node[i] < 0 && nodes.position[i].norm() > 3 * nodes.spacing)
+      {
+        least = std::min(least, farther(i));
+        most = std::max(most, farther(i));
+      }
+    EXPECT_GT(least, 0);
+    EXPECT_NEAR(most, least, 1e-12);
+    // Nor is a place known: all come nearer, by the same share.
+    EXPECT_NEAR(book_heat(state, scene, nodes, heat, {}, now), 0, 1e-14);
+    EXPECT_NEAR(stored(), now, 1e-14);
   }
 } // namespace

@@ -34,6 +34,8 @@ namespace
         EXPECT_LE(record.cost.most_iterations, 6);
       }
       EXPECT_EQ(record.cost.capped_steps, 0);
+      for(const PlaneRecord::Frame &frame : record.frames)
+        EXPECT_LT(frame.defect, 1e-13);
     }
     // Least squares in the logarithms.
     double x = 0, y = 0, xx = 0, xy = 0;
@@ -350,9 +352,10 @@ namespace
       const double phi = 2 * std::numbers::pi * k / angles;
       exact += 2 * std::numbers::pi / angles * integral(6, 0.4, radius(phi));
     }
+    // Areas are sums over samples within the outline: these alone make 4.7e-3 and 2.5e-3.
     for(const int n : {20, 34})
       EXPECT_NEAR(run_plane(scene, n, {{"steps", "1"}}).frames[0].sensible, exact,
-                  (n == 20 ? 5e-3 : 2e-3) * exact)
+                  (n == 20 ? 5e-3 : 3e-3) * exact)
           << n;
   }
 
