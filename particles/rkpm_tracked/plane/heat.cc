@@ -67,8 +67,8 @@ namespace meltfront::particles::rkpm_tracked
     , makers(settings.threads, StencilMaker(nodes, settings.order))
     , other_maker(nodes, other_order(settings.order))
     , rows(nodes.size())
-    , holds_walls(
-          std::ranges::any_of(nodes.walls, [](const WallNode &w) { return w.dirichlet(); }))
+    , holds_walls(std::ranges::any_of(nodes.walls,
+                                      [](const WallNode &w) { return w.dirichlet(); }))
   {
   }
 

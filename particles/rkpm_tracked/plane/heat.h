@@ -232,7 +232,7 @@ namespace meltfront::particles::rkpm_tracked
     GivenValues given;
     const PlaneNodes &nodes;
     std::vector<StencilMaker> makers; ///< one for each thread
-    StencilMaker other_maker; ///< of another order, to tell what fits are off by
+    StencilMaker other_maker;         ///< of another order, to tell what fits are off by
     std::unique_ptr<FrontIndex> index;
     PlaneBins front_bins;
     std::vector<Row> rows;

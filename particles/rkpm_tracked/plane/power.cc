@@ -7,9 +7,10 @@
 
 namespace meltfront::particles::rkpm_tracked
 {
-  /** Where the temperature is held the power is what fits tell, by the balance of the wall
-   * node's area: with the conduction away from the wall, what heats that area. A node on
-   * the front has no balance: what fluxes and ambients give it melts the front there. */
+  /** Where the temperature is held the power is what fits tell, by the balance of the
+   * wall node's area: with the conduction away from the wall, what heats that area. A
+   * node on the front has no balance: what fluxes and ambients give it melts the front
+   * there. */
   double PlaneHeat::wall_power(const PlaneStep &step, const PlaneState &state,
                                std::span<const double> solution) const
   {

@@ -22,12 +22,12 @@ namespace
     return distance < 0 ? 0. : 1.5 * (1 - std::exp(-4 * distance));
   }
 
-  void expect_all_molten(const PlaneRecord &record, double defect)
+  void expect_all_molten(const PlaneRecord &record)
   {
     for(std::size_t i = 1; i < record.frames.size(); ++i)
     {
       EXPECT_LE(record.frames[i].solid_area, record.frames[i - 1].solid_area + 1e-12);
-      EXPECT_LT(record.frames[i].defect, defect) << record.frames[i].time;
+      EXPECT_LT(record.frames[i].defect, 1e-10) << record.frames[i].time;
     }
     const PlaneRecord::Frame &end = record.frames.back();
     EXPECT_EQ(end.solid_area, 0);
@@ -41,7 +41,7 @@ namespace
         {1, 1, 0}, [](const auto &p) { return around(p) - 0.5; },
         [](const auto &p) { return warmth(around(p) - 0.5); }, 0.3);
     const PlaneRecord record = run_plane(scene, 20);
-    expect_all_molten(record, 1.5e-3);
+    expect_all_molten(record);
     ASSERT_EQ(record.notes.size(), 1u);
     EXPECT_NE(record.notes[0].find("vanished"), std::string::npos);
   }
@@ -53,7 +53,7 @@ namespace
     const cases::Scene scene = insulated_box(
         {1, 1, 0}, front, [=](const auto &p) { return warmth(front(p)); }, 0.3);
     const PlaneRecord record = run_plane(scene, 24);
-    expect_all_molten(record, 2e-3);
+    expect_all_molten(record);
     EXPECT_GE(record.notes.size(), 1u);
   }
 
@@ -70,7 +70,7 @@ namespace
     const cases::Scene scene = insulated_box(
         {1, 0.6, 0}, front, [=](const auto &p) { return warmth(front(p)); }, 0.15);
     const PlaneRecord record = run_plane(scene, 40);
-    expect_all_molten(record, 2e-3);
+    expect_all_molten(record);
     ASSERT_GE(record.notes.size(), 2u);
     EXPECT_NE(record.notes[0].find("fronts met"), std::string::npos);
     EXPECT_NE(record.notes[0].find("1 curves became 2"), std::string::npos);
@@ -99,7 +99,7 @@ namespace
     for(std::size_t i = 1; i < record.frames.size(); ++i)
     {
       EXPECT_GE(record.frames[i].solid_area, record.frames[i - 1].solid_area - 1e-9);
-      EXPECT_LT(record.frames[i].defect, 2e-3) << record.frames[i].time;
+      EXPECT_LT(record.frames[i].defect, 1e-10) << record.frames[i].time;
     }
     EXPECT_NEAR(record.frames.back().solid_area, 1.44, 1e-12);
     EXPECT_EQ(record.frames.back().front_points, 0u);
@@ -122,7 +122,7 @@ namespace
     const PlaneRecord::Frame &end = record.frames.back();
     EXPECT_EQ(end.front_points, 0u);
     EXPECT_NEAR(end.solid_area / (std::numbers::pi * (1 - 0.29 * 0.29)), 1, 1e-12);
-    EXPECT_LT(end.defect, 5e-2);
+    EXPECT_LT(end.defect, 1e-10);
     EXPECT_LT(end.hottest, 0);
     ASSERT_FALSE(record.notes.empty());
     EXPECT_NE(record.notes.back().find("all is solid"), std::string::npos);
@@ -152,7 +152,7 @@ namespace
     // fem-enthalpy, n = 256.
     EXPECT_NEAR(record.frames.back().solid_area, 1.2188, 0.01 * 1.2188);
     for(const PlaneRecord::Frame &frame : record.frames)
-      EXPECT_LT(frame.defect, 1e-3);
+      EXPECT_LT(frame.defect, 1e-10);
     EXPECT_FALSE(record.notes.empty());
   }
 } // namespace

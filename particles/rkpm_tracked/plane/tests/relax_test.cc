@@ -256,7 +256,7 @@ namespace
         0.4);
     const PlaneRecord record = run_plane(scene, 20, {{"relax", "1"}});
     EXPECT_EQ(record.frames.back().solid_area, 0);
-    EXPECT_LT(record.frames.back().defect, 0.02);
+    EXPECT_LT(record.frames.back().defect, 1e-10);
     EXPECT_FALSE(record.notes.empty());
   }
 } // namespace
