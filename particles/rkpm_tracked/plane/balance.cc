@@ -66,26 +66,33 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   /** The similarity solution gives a seed its shape and temperatures; its front stands
-   * where it holds the heat that there is. What nodes that change their phase leave of
-   * that stays out of the book. */
+   * where it holds the heat that there is, by the secant method. What nodes that change
+   * their phase leave of that all nodes share. */
   void PlaneRun::balance_seed()
   {
     const double latent = scene.material.solid.density * scene.material.latent_heat;
     PlaneFront &front = state.front;
-    double missing = lost_heat(state);
+    double missing = lost_heat(state), response = latent;
     for(int trial = 0; trial < most_trials; ++trial)
     {
       double length = 0;
       for(std::size_t c = 0; c < front.curves(); ++c)
         length += curve_length(front, c);
+      const double way = missing / (response * length);
       for(std::size_t p = 0; p < front.size(); ++p)
-        front.position[p] += missing / (latent * length) * front.normal[p];
+        front.position[p] += way * front.normal[p];
       update_geometry(front);
       settle_nodes();
       heat.expand(state);
-      missing = lost_heat(state);
+      const double left = lost_heat(state);
+      if(std::abs(left) <= balanced * latent * nodes.area)
+        break;
+      response = std::max((missing - left) / (way * length), latent / 2);
+      missing = left;
     }
-    unbooked_heat = missing;
+    const PlaneMeasure found = measure(scene, nodes, heat, state);
+    unbooked_heat = book_heat(state, scene, nodes, heat, {},
+                              found.sensible + found.latent + lost_heat(state));
     marked.seed(front, heat.settings.solid_beyond);
   }
 } // namespace meltfront::particles::rkpm_tracked
