@@ -28,12 +28,13 @@ namespace meltfront::particles::rkpm_tracked
    * @param next is what the pass has found, its front moved
    * @param response of the heat found, over what the multiplier puts in: nothing yet, or
    * that of the pass before
+   * @param last_pass of those allowed: it may be kept with some way left
    * @param largest way that was left, in spacings
    * @return whether particles stay within their limits and the balance holds
    */
   bool PlaneRun::balance(const PlaneStep &times, const PlaneSolution &solution,
                          PlaneState &next, std::optional<double> &response,
-                         double &largest)
+                         bool last_pass, double &largest)
   {
     const PlaneFront front = next.front;
     const auto take = [&](double multiplier)
@@ -55,7 +56,7 @@ namespace meltfront::particles::rkpm_tracked
       const double change = lost / (response.value_or(1) * solution.heat);
       if(!std::isfinite(change) || !take(multiplier + change))
         return false;
-      if(largest > done && response)
+      if(largest > done && response && !last_pass)
         return true;
       const double left = lost_heat(next);
       response = (lost - left) / (change * solution.heat);

@@ -20,13 +20,6 @@ namespace meltfront::particles::rkpm_tracked
      * distance, so that none goes to and fro beside a front at rest. */
     constexpr double kept_longer = 1.3;
 
-    /** Of the fits that those of the basis are compared with. */
-    int other_order(int order)
-    {
-      constexpr int highest = 4;
-      return order < highest ? order + 1 : order - 1;
-    }
-
     /** Curvature of the circle through three points (1/m), positive if it is gone round
      * counter-clockwise. */
     double curvature_of_three(const PlanePoint &a, const PlanePoint &b,
@@ -65,7 +58,6 @@ namespace meltfront::particles::rkpm_tracked
     , given(scene)
     , nodes(nodes)
     , makers(settings.threads, StencilMaker(nodes, settings.order))
-    , other_maker(nodes, other_order(settings.order))
     , rows(nodes.size())
     , holds_walls(std::ranges::any_of(nodes.walls,
                                       [](const WallNode &w) { return w.dirichlet(); }))
@@ -116,7 +108,6 @@ namespace meltfront::particles::rkpm_tracked
                    [&](std::uint32_t, double) { rows[i].reach = 0; });
     for(StencilMaker &maker : makers)
       maker.nodes_moved();
-    other_maker.nodes_moved();
   }
 
   void PlaneHeat::mark_active(PlaneFront &front) const
@@ -166,14 +157,16 @@ namespace meltfront::particles::rkpm_tracked
       }
     for(StencilMaker &maker : makers)
       maker.set_front(front, *index, state.phase);
-    if(!holds_walls)
-      other_maker.set_front(front, *index, state.phase);
   }
 
-  std::vector<double> PlaneHeat::collocated(const PlaneStencil &stencil,
-                                            std::size_t node) const
+  void PlaneHeat::make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,
+                           std::size_t node)
   {
-    std::vector<double> weights(stencil.columns.size());
+    Row &row = rows[node];
+    maker.make(nodes.position[node], phase, stencil);
+    row.columns = stencil.columns;
+    row.weights.resize(stencil.columns.size());
+    row.reach = stencil.pure ? stencil.dilation + nodes.spacing : 0;
     const std::int32_t wall = nodes.wall_of_node[node];
     PlanePoint outwards(0, 0);
     double area = -1; // of the Laplacian
@@ -184,21 +177,10 @@ namespace meltfront::particles::rkpm_tracked
         outwards += on_wall.pieces[i].length * on_wall.pieces[i].normal;
       area = wall_areas[wall];
     }
-    for(std::size_t e = 0; e < weights.size(); ++e)
-      weights[e] = outwards.x() * stencil.weights[d_x][e]
-                   + outwards.y() * stencil.weights[d_y][e]
-                   - area * (stencil.weights[d_xx][e] + stencil.weights[d_yy][e]);
-    return weights;
-  }
-
-  void PlaneHeat::make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,
-                           std::size_t node)
-  {
-    Row &row = rows[node];
-    maker.make(nodes.position[node], phase, stencil);
-    row.columns = stencil.columns;
-    row.weights = collocated(stencil, node);
-    row.reach = stencil.pure ? stencil.dilation + nodes.spacing : 0;
+    for(std::size_t e = 0; e < row.columns.size(); ++e)
+      row.weights[e] = outwards.x() * stencil.weights[d_x][e]
+                       + outwards.y() * stencil.weights[d_y][e]
+                       - area * (stencil.weights[d_xx][e] + stencil.weights[d_yy][e]);
   }
 
   /** Rows that the front does not touch are kept from pass to pass. */

@@ -79,8 +79,8 @@ namespace meltfront::particles::rkpm_tracked
    * Collocation conserves no heat. Where walls hold their temperature what they give is
    * in no row: it is the reaction that the heat balance asks for, and mu is zero. Else mu
    * is the unknown that belongs to one more equation, the heat balance of the step
-   * (PlaneRun::balance). It enters the rows of the front and of the nodes beside it by
-   * what their fits may be off by; spread_multiplier() says why.
+   * (PlaneRun::balance). It is the share by which all that flows to the front
+   * is off.
    */
   class PlaneHeat
   {
@@ -184,7 +184,6 @@ namespace meltfront::particles::rkpm_tracked
     };
 
     const cases::PhaseProperties &properties(NodePhase phase) const;
-    std::vector<double> collocated(const PlaneStencil &stencil, std::size_t node) const;
     void make_rows(const PlaneState &state);
     void make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,
                   std::size_t node);
@@ -207,13 +206,8 @@ namespace meltfront::particles::rkpm_tracked
     double particle_length(const PlaneFront &front, std::size_t particle) const;
     void spread_multiplier(const PlaneStep &step, const PlaneState &next,
                            PlaneSolution &solution);
-    double flow_to_front(const PlaneStep &step, const PlaneState &next);
-    void find_flux_errors(const PlaneStep &step, const PlaneState &next);
-    double applied(const PlaneStep &step, const PlaneState &next, NodePhase phase,
-                   std::span<const std::uint32_t> columns,
-                   std::span<const double> weights) const;
-    double last_value(const PlaneStep &step, const PlaneState &next, NodePhase phase,
-                      std::uint32_t column) const;
+    double flow_to_front(const PlaneStep &step, const PlaneState &next,
+                         std::size_t particle) const;
     cases::HeatTransfer transfer_through(const WallPiece &piece, double value,
                                          const PlaneState &latest, std::uint32_t node);
     void add(NodePhase phase, std::uint32_t column, double weight);
@@ -232,7 +226,6 @@ namespace meltfront::particles::rkpm_tracked
     GivenValues given;
     const PlaneNodes &nodes;
     std::vector<StencilMaker> makers; ///< one for each thread
-    StencilMaker other_maker;         ///< of another order, to tell what fits are off by
     std::unique_ptr<FrontIndex> index;
     PlaneBins front_bins;
     std::vector<Row> rows;
@@ -252,9 +245,6 @@ namespace meltfront::particles::rkpm_tracked
 
     CompressedRows matrix;
     std::vector<double> right_side;
-    /** What the heat through front particles and of nodes beside the front may be off by
-     * (W/m). */
-    std::vector<double> front_errors, node_errors;
     std::vector<double> wall_inflow;           ///< to front particles, at walls (W/m)
     double release_begin = 0, release_end = 0; ///< of the step last asked for (s)
     double released = 0;                       ///< in that (J/m)

@@ -250,7 +250,8 @@ namespace meltfront::particles::rkpm_tracked
         return failed;
       const bool made = heat.wall_heat_is_reaction()
                             ? !move(heat.apply(times, *solution, 0, next), next, largest)
-                            : balance(times, *solution, next, response, largest);
+                            : balance(times, *solution, next, response,
+                                      passes == passes_allowed, largest);
       if(!made)
         return failed;
     }

@@ -47,7 +47,7 @@ namespace meltfront::particles::rkpm_tracked
     void accept(PlaneState next);
     void relax_nodes();
     bool balance(const PlaneStep &times, const PlaneSolution &solution, PlaneState &next,
-                 std::optional<double> &response, double &largest);
+                 std::optional<double> &response, bool last_pass, double &largest);
     double lost_heat(const PlaneState &of) const;
     void prepare();
     void follow_level_set();

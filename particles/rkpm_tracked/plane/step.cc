@@ -251,8 +251,6 @@ namespace meltfront::particles::rkpm_tracked
     bool solved = solver.solve(right_side, solution.constant).converged;
     if(!wall_heat_is_reaction())
     {
-      if(next.unknown.empty())
-        find_flux_errors(step, next);
       spread_multiplier(step, next, solution);
       solution.slope.resize(matrix.rows());
       solved = solved && solver.solve(spread, solution.slope).converged;
