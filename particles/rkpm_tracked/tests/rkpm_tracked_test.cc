@@ -217,14 +217,17 @@ namespace meltfront::particles::rkpm_tracked
       // melting temperature, and no second front begins in it.
       cases::Scene scene = slab({}, 0, 0.4);
       scene.symmetry = cases::Symmetry::cylindrical;
-      scene.domain.lower[0] = 0.5;
-      scene.domain.upper[0] = 1.5;
+      scene.domain.shape = cases::DomainShape::shell;
+      scene.domain.dimension = 2;
+      scene.domain.inner_radius = 0.5;
+      scene.domain.radius = 1.5;
       scene.material.latent_heat = 1;
       scene.material.melting_temperature = 0;
       scene.material.solid = {2, 1, 0.9};
       scene.material.liquid = {1, 1, 1};
       scene.initial.temperature = cases::Field::uniform(0.3);
-      set_boundary(scene, Side::x_min, fixed_wall(-1));
+      set_boundary(scene, Side::inner, fixed_wall(-1));
+      set_boundary(scene, Side::outer, {});
       const double finest = run(scene, 160).front_points[0].at(0);
       for(const int n : {20, 30, 40, 50, 60, 80})
         EXPECT_NEAR(run(scene, n).front_points[0].at(0), finest, 8. / (n * n)) << n;
