@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <numeric>
 
 namespace meltfront::particles::rkpm_tracked
@@ -209,6 +210,40 @@ namespace meltfront::particles::rkpm_tracked
                                           return p[0] > 0.4 && p[0] < 0.6 ? 440. : 400.;
                                         }};
       EXPECT_THROW(run(two_fronts, 20), cases::Refusal);
+    }
+
+    TEST(RkpmTracked, AWallWithoutAFrontHasItsLayerFromTheFirstMomentOn)
+    {
+      // Far from the front the liquid is a half-space before the other wall.
+      const double end = 0.05, jump = 0.5, flux = 1, distance = 0.2,
+                   width = 2 * std::sqrt(end), x = distance / width;
+      const double by_jump
+          = jump * std::erfc(x),
+          by_flux = flux * width
+                    * (std::exp(-x * x) / std::sqrt(std::numbers::pi) - x * std::erfc(x));
+      for(const bool held : {true, false})
+      {
+        cases::Scene scene
+            = test_support::slab(unit_material(), 4, 0.5, end, fixed_wall(-1),
+                                 held ? fixed_wall(0.5 + jump) : flux_wall(flux));
+        std::vector<double> errors;
+        for(const int n : {40, 80, 160, 320})
+        {
+          const Course course = run(scene, n);
+          double nearest = 1, temperature = 0;
+          for(std::size_t i = 0; i < course.temperature.size(); ++i)
+            if(const double off = std::abs(course.place(i)[0] - (4 - distance));
+               off < nearest)
+            {
+              nearest = off;
+              temperature = course.temperature[i];
+            }
+          ASSERT_LE(nearest, 1e-12);
+          errors.push_back(temperature - 0.5 - (held ? by_jump : by_flux));
+        }
+        EXPECT_GE(fitted_order(errors), 1.6) << held;
+        EXPECT_LE(std::abs(errors[3]), 1e-4) << held;
+      }
     }
 
     TEST(RkpmTracked, TheLastLiquidAtAnInsulatedWallStaysLiquid)
