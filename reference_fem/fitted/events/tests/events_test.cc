@@ -271,6 +271,19 @@ namespace meltfront::reference_fem::fitted
       EXPECT_LE(record.worst_budget_defect(), 1e-12);
     }
 
+    // Less beyond the melting temperature than elements may overshoot, and yet no
+    // overshoot.
+    TEST(HeatReleased, ThatMeltsSolidAwayFromTheFrontIsRefused)
+    {
+      cases::Scene scene = slab(unit_material(), 1, 0, 0, 1);
+      scene.initial.temperature
+          = field_of([](const cases::Position &p) { return std::min(p[0] - 0.7, 0.); });
+      scene.initial.front = field_of([](const cases::Position &p) { return p[0] - 0.7; });
+      scene.volumetric_source = cases::Field::uniform(1);
+      for(const int n : {16, 32})
+        EXPECT_THROW(run(scene, n), cases::Refusal) << n;
+    }
+
     TEST(Vanishing, LiquidFreezesToTheLastDropAndTheRestCools)
     {
       cases::Scene scene = slab(unit_material(), 1, 0.3, 0, 7);
