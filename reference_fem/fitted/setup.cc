@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace meltfront::reference_fem::fitted
 {
@@ -26,6 +27,10 @@ namespace meltfront::reference_fem::fitted
 
     /** Nearer to the melting temperature, of the largest |T - T_m|, is at it. */
     constexpr double round_off = 1e-12;
+
+    /** Temperatures are told to no less than this share of what latent heat would heat.
+     */
+    constexpr double least_scale = 1e-6;
 
     /** Smallest cell of a phase, of the phase's length: places on the ray are known to
      * 1e-16 of it, and a cell's width is to be known to six digits. */
@@ -150,16 +155,25 @@ namespace meltfront::reference_fem::fitted
       physics.power = scene.sources[0].power;
     }
 
+    /** Of what the scene gives: how far the initial state, held walls and surroundings
+     * are from the melting temperature, whatever fluxes and sources may add to it; not so
+     * little that latent heat's rounding is more. */
     double temperature_scale(const cases::Scene &scene)
     {
-      const cases::TemperatureBounds bounds = cases::temperature_bounds(scene);
+      cases::Scene given = scene;
+      given.sources.clear();
+      given.volumetric_source.reset();
+      for(std::optional<cases::Boundary> &boundary : given.boundaries)
+        if(boundary && boundary->kind == BoundaryKind::flux)
+          boundary = cases::Boundary{};
+      const cases::TemperatureBounds bounds = cases::temperature_bounds(given);
+      const double by_latent_heat
+          = scene.material.latent_heat / scene.material.solid.specific_heat_capacity;
       double scale = 0;
       for(const double bound : {bounds.lower, bounds.upper})
         if(std::isfinite(bound))
           scale = std::max(scale, std::abs(bound - scene.material.melting_temperature));
-      return scale > 0 ? scale
-                       : scene.material.latent_heat
-                             / scene.material.solid.specific_heat_capacity;
+      return scale > 0 ? std::max(scale, least_scale * by_latent_heat) : by_latent_heat;
     }
 
     Clock clock_of(const cases::Scene &scene, const std::string &word)

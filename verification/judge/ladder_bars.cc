@@ -169,6 +169,8 @@ namespace meltfront::verification
         add("solid_volume", &RunSeries::solid_volume, constants.volume,
             finest.solid_volume_exact, bars);
         add("heat", &RunSeries::heat, constants.heat, finest.heat_exact, bars);
+        if(!bars.empty() && bars.back().quantity == "heat")
+          bars.back().bar.bar = std::max(bars.back().bar.bar, heat_missing(finest));
         return bars;
       }
 
@@ -178,6 +180,18 @@ namespace meltfront::verification
       {
         const auto &probes = levels.back()->probes;
         return probes.empty() || !probes.front().coordinate.empty();
+      }
+
+      /** What the budget of a run lacks or has too much at its end (J/m^2, J/m or J): an
+       * error that it tells itself, of whatever levels do not. */
+      static double heat_missing(const RunRecord &run)
+      {
+        const Values &heat = run.series.heat, &defect = run.series.budget_defect;
+        if(heat.empty() || defect.empty())
+          return 0;
+        const double size = std::max({std::abs(heat.front()), std::abs(heat.back()),
+                                      std::abs(heat.back() - heat.front())});
+        return size * std::abs(defect.back());
       }
 
       static double end_of(const RunRecord &run, Values RunSeries::*quantity)

@@ -1,6 +1,7 @@
 #include <particles/rkpm_tracked/line/events.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace meltfront::particles::rkpm_tracked
 {
@@ -63,6 +64,12 @@ namespace meltfront::particles::rkpm_tracked
 
   double wall_excess(const LineProblem &problem, const LineState &state, std::size_t side)
   {
+    // Where no heat is released, an insulated wall passes the melting temperature by the
+    // scheme's error alone, as the last of a phase beside it may.
+    if((side == 0 && problem.axis)
+       || (problem.walls[side].kind == cases::BoundaryKind::insulated
+           && !problem.volumetric_source))
+      return -std::numeric_limits<double>::infinity();
     const double wall = side == 0 ? state.temperature.front() : state.temperature.back();
     const double excess = wall - problem.material.melting_temperature;
     return state.solid(side == 0 ? 0 : state.n_intervals() - 1) ? excess : -excess;
@@ -71,8 +78,7 @@ namespace meltfront::particles::rkpm_tracked
   LineHeat heat_before_layers(const LineProblem &problem, LineState state)
   {
     for(const std::size_t side : {0, 1})
-      if(!problem.metastable && !(side == 0 && problem.axis)
-         && wall_excess(problem, state, side) > 0)
+      if(!problem.metastable && wall_excess(problem, state, side) > 0)
         (side == 0 ? state.temperature.front() : state.temperature.back())
             = problem.material.melting_temperature;
     return heat_of(problem, state);

@@ -32,7 +32,9 @@ namespace meltfront::particles::rkpm_tracked
                            std::size_t number);
 
   /** How far the temperature at a wall (0: lower, 1: upper) is beyond the melting
-   * temperature for the phase there (K); negative where that phase is stable. */
+   * temperature for the phase there (K); negative where that phase is stable, minus
+   * infinity where no other can begin: at an axis, and at an insulated wall without heat
+   * released throughout. */
   double wall_excess(const LineProblem &problem, const LineState &state,
                      std::size_t side);
 

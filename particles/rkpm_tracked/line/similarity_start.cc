@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace meltfront::particles::rkpm_tracked
 {
@@ -65,6 +66,60 @@ namespace meltfront::particles::rkpm_tracked
     const bool at_rest = problem.displacement(!initial.solid_first) == 0;
     if(walls == 1 && at_rest && uniform_but_for(initial, side, far, std::abs(wall - far)))
       solution = std::make_shared<cases::PlanarNeumann>(problem.material, wall, far);
+    if(!solution)
+      return;
+    const LineWall &other = other_wall();
+    if(other.kind == cases::BoundaryKind::flux)
+      gradient
+          = other.value_after(begin) / problem.phase(initial.solid_first).conductivity;
+    else if(other.fixed())
+      jump = other.value_after(begin) - far;
+    if(std::abs(jump) <= far_tolerance * std::abs(wall - far))
+      jump = 0;
+  }
+
+  const LineWall &SimilarityStart::other_wall() const
+  {
+    return problem.walls[1 - side];
+  }
+
+  double SimilarityStart::other_width(double since) const
+  {
+    return 2
+           * std::sqrt(problem.phase(!solution->solid_at_origin()).diffusivity() * since);
+  }
+
+  double SimilarityStart::other_layer(double distance, double since) const
+  {
+    const double width = other_width(since), x = distance / width;
+    return jump * std::erfc(x)
+           + gradient * width
+                 * (std::exp(-x * x) / std::sqrt(std::numbers::pi) - x * std::erfc(x));
+  }
+
+  bool SimilarityStart::other_holds(double since) const
+  {
+    const LineWall &other = other_wall();
+    const double span = std::abs(wall - far);
+    if(other.kind == cases::BoundaryKind::insulated)
+      return true;
+    const bool as_the_phase = !(other.kind == cases::BoundaryKind::flux);
+    const double expected = as_the_phase ? far + jump : other.value_after(begin);
+    for(const double t : {since / 2, since})
+      if(std::abs(other.value(begin + t) - expected)
+         > (as_the_phase ? far_tolerance * span
+                         : equal_temperatures * std::abs(expected)))
+        return false;
+    if(jump == 0 && gradient == 0)
+      return true;
+    // It neither reaches the other layer nor what would start a front.
+    const double half = (problem.nodes.back() - problem.nodes.front()) / 2;
+    const double sign = solution->solid_at_origin() ? -1 : 1;
+    const bool rests = problem.displacement(!solution->solid_at_origin()) == 0;
+    return rests && std::abs(other_layer(half, since)) <= far_tolerance * span
+           && std::abs(solution->temperature(half, since) - far) <= far_tolerance * span
+           && (far + other_layer(0, since) - problem.material.melting_temperature) * sign
+                  <= 0;
   }
 
   double SimilarityStart::time_of(double thickness) const
@@ -82,14 +137,20 @@ namespace meltfront::particles::rkpm_tracked
          > equal_temperatures * span)
         return false;
     return since <= longest_start * duration
-           && std::abs(solution->temperature(length, since) - far)
-                  <= far_tolerance * span;
+           && std::abs(solution->temperature(length, since) - far) <= far_tolerance * span
+           && other_holds(since);
   }
 
   LineState SimilarityStart::state(double since) const
   {
     LineState result = exact_state(*solution, problem, since, side == 1);
     result.time = begin + since;
+    if(jump != 0 || gradient != 0)
+      for(std::size_t i = 0; i < problem.nodes.size(); ++i)
+        result.temperature[i] += other_layer(
+            std::abs(problem.nodes[i]
+                     - (side == 0 ? problem.nodes.back() : problem.nodes.front())),
+            since);
     return result;
   }
 } // namespace meltfront::particles::rkpm_tracked

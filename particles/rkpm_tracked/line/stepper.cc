@@ -118,8 +118,7 @@ namespace meltfront::particles::rkpm_tracked
   void LineStepper::insert_where_called_for()
   {
     for(std::size_t side = 0; side < 2 && !problem.metastable; ++side)
-      if(!(side == 0 && problem.axis)
-         && wall_excess(problem, state(), side) > wanted[side])
+      if(wall_excess(problem, state(), side) > wanted[side])
         insert(side);
   }
 
@@ -242,7 +241,7 @@ namespace meltfront::particles::rkpm_tracked
     if(problem.metastable)
       return false;
     const double tolerance = event_tolerance * rules.temperature_span;
-    for(std::size_t side = problem.axis ? 1 : 0; side < 2; ++side)
+    for(const std::size_t side : {0, 1})
     {
       const double now = wall_excess(problem, state(), side) - wanted[side];
       if(now <= 0)

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <numeric>
 
 namespace meltfront::particles::rkpm_tracked
@@ -209,6 +210,62 @@ namespace meltfront::particles::rkpm_tracked
                                           return p[0] > 0.4 && p[0] < 0.6 ? 440. : 400.;
                                         }};
       EXPECT_THROW(run(two_fronts, 20), cases::Refusal);
+    }
+
+    TEST(RkpmTracked, AWallWithoutAFrontHasItsLayerFromTheFirstMomentOn)
+    {
+      // Far from the front the liquid is a half-space before the other wall.
+      const double end = 0.05, jump = 0.5, flux = 1, distance = 0.2,
+                   width = 2 * std::sqrt(end), x = distance / width;
+      const double by_jump
+          = jump * std::erfc(x),
+          by_flux = flux * width
+                    * (std::exp(-x * x) / std::sqrt(std::numbers::pi) - x * std::erfc(x));
+      for(const bool held : {true, false})
+      {
+        cases::Scene scene
+            = test_support::slab(unit_material(), 4, 0.5, end, fixed_wall(-1),
+                                 held ? fixed_wall(0.5 + jump) : flux_wall(flux));
+        std::vector<double> errors;
+        for(const int n : {40, 80, 160, 320})
+        {
+          const Course course = run(scene, n);
+          double nearest = 1, temperature = 0;
+          for(std::size_t i = 0; i < course.temperature.size(); ++i)
+            if(const double off = std::abs(course.place(i)[0] - (4 - distance));
+               off < nearest)
+            {
+              nearest = off;
+              temperature = course.temperature[i];
+            }
+          ASSERT_LE(nearest, 1e-12);
+          errors.push_back(temperature - 0.5 - (held ? by_jump : by_flux));
+        }
+        EXPECT_GE(fitted_order(errors), 1.6) << held;
+        EXPECT_LE(std::abs(errors[3]), 1e-4) << held;
+      }
+    }
+
+    TEST(RkpmTracked, TheLastLiquidAtAnInsulatedWallStaysLiquid)
+    {
+      // A pipe freezes from inside and drives liquid out; what is left is nearly at the
+      // melting temperature, and no second front begins in it.
+      cases::Scene scene = slab({}, 0, 0.4);
+      scene.symmetry = cases::Symmetry::cylindrical;
+      scene.domain.shape = cases::DomainShape::shell;
+      scene.domain.dimension = 2;
+      scene.domain.inner_radius = 0.5;
+      scene.domain.radius = 1.5;
+      scene.material.latent_heat = 1;
+      scene.material.melting_temperature = 0;
+      scene.material.solid = {2, 1, 0.9};
+      scene.material.liquid = {1, 1, 1};
+      scene.initial.temperature = cases::Field::uniform(0.3);
+      set_boundary(scene, Side::inner, fixed_wall(-1));
+      set_boundary(scene, Side::outer, {});
+      const double finest = run(scene, 160).front_points[0].at(0);
+      for(const int n : {20, 30, 40, 50, 60, 80})
+        EXPECT_NEAR(run(scene, n).front_points[0].at(0), finest, 8. / (n * n)) << n;
     }
 
     TEST(RkpmTracked, WhatGivesWayMustNotLieAtTheCentre)

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numbers>
 
 namespace meltfront::reference_fem::fitted
 {
@@ -37,6 +39,11 @@ namespace meltfront::reference_fem::fitted
 
     /** A wall this close to the melting temperature is at it. */
     constexpr double rounding = 1e-13;
+
+    /** A seed is made before a wall of given flux or heat transfer has gone more than
+     * this share of the time that takes it to the melting temperature; unless it gets
+     * there within this share of the time of the seed, that is, at once. */
+    constexpr double before_passing = 0.25, at_once = 1e-6;
 
     /** The front constant for which a sink of the given kind removes @p heat. */
     template <typename Sink, typename Strength>
@@ -88,17 +95,6 @@ namespace meltfront::reference_fem::fitted
       return sink_that_removes<cases::PointSink>(drawn(early), scene.material, far,
                                                  [&](const cases::PointSink &sink)
                                                  { return sink.strength(early); });
-    }
-
-    std::string text_of(const std::vector<SuddenStart> &starts,
-                        const std::vector<NewLayer> &layers)
-    {
-      std::string result;
-      for(std::size_t k = 0; k < starts.size(); ++k)
-        result += fmt::format("{}a front starts at {}, {:.3g} m away at first, from the "
-                              "similarity solution",
-                              k > 0 ? "; " : "", starts[k].cause, layers[k].width);
-      return result;
     }
 
     /** Since the start (s). */
@@ -156,6 +152,119 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
+  namespace
+  {
+    /** A new phase at an end of the ray, at the time of the seed. */
+    struct Seed
+    {
+      NewLayer place;
+      /** Temperature in it, and the change of that of the old phase; by the distance from
+       * its end of the ray. */
+      std::function<double(double distance)> temperature, change;
+      std::string cause;
+    };
+
+    Seed seed_of(const SuddenStart &start, const double since,
+                 const cases::Material &material, const double before)
+    {
+      const double width = start.local->front(since);
+      const cases::PhaseProperties &old
+          = start.local->solid_at_origin() ? material.liquid : material.solid;
+      const double thermal_layer = 2 * std::sqrt(old.diffusivity() * since);
+      const auto local = [solution = start.local, since](const double distance)
+      { return solution->temperature(distance, since); };
+      // The state need not be uniform farther away.
+      const auto change = [local, before, reach = width + far_in_layers * thermal_layer](
+                              const double distance)
+      { return distance <= reach ? local(distance) - before : 0.; };
+      // The old phase's thermal layer or the new phase, whichever is thinner.
+      return {{start.at_inner_end, width, std::min(width, thermal_layer)},
+              local,
+              change,
+              start.cause + ", from the similarity solution"};
+    }
+
+    /** A wall of given flux or heat transfer that leads the phase beside it towards and
+     * beyond the melting temperature. */
+    struct LeadingWall
+    {
+      bool inner;
+      double flux;     ///< into the body at the melting temperature (W/m^2)
+      double released; ///< by the new phase: what the old one does not conduct (W/m^2)
+      double excess;   ///< of the melting temperature over the wall's (K)
+      double passing;  ///< time until the wall is at the melting temperature (s)
+    };
+
+    std::optional<LeadingWall> leading_wall(const EventScene &setting,
+                                            const LayeredState &state, const bool inner,
+                                            const WallLayer &form)
+    {
+      const cases::Material &material = setting.scene.material;
+      const bool solid = state.solid_at(inner);
+      if(form.slope == 0 || (form.slope > 0) != solid)
+        return std::nullopt;
+      const RayScene &rays = setting.rays;
+      const double end = inner ? rays.inner : rays.outer;
+      const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
+      const double melting = material.melting_temperature;
+      const cases::PhaseProperties &old = solid ? material.solid : material.liquid;
+      const double excess = melting - state.temperature(end), room = excess / form.slope;
+      return LeadingWall{
+          inner,
+          cases::heat_through(setting.scene.boundary(side_at(setting.scene, inner)),
+                              geometry.position(0, end), state.time, melting)
+              .flux,
+          old.conductivity * std::abs(form.slope), excess,
+          room > 0 ? std::numbers::pi / 4 * room * room / old.diffusivity() : 0};
+    }
+
+    /** Where the wall is at the melting temperature at once: the front takes up what the
+     * old phase does not conduct. What little that phase is beyond it is drawn to it. */
+    Seed seed_of(const LeadingWall &wall, const double since, const EventScene &setting,
+                 const bool from_solid)
+    {
+      const cases::Material &material = setting.scene.material;
+      const cases::PhaseProperties &grown = from_solid ? material.liquid : material.solid;
+      const cases::PhaseProperties &old = from_solid ? material.solid : material.liquid;
+      const double thermal_layer = 2 * std::sqrt(old.diffusivity() * since);
+      const double width = wall.released * since / (grown.density * material.latent_heat);
+      const std::string cause
+          = fmt::format("the wall {}", to_string(side_at(setting.scene, wall.inner)));
+      if(!(width > thinnest_seed * (setting.rays.outer - setting.rays.inner)))
+        throw cases::Refusal(fmt::format(
+            "fem-fitted cannot start a front at {} beside the one that starts at the "
+            "other end: by the time of its seed it is not to be told from its wall",
+            cause));
+      return {{wall.inner, width, std::min(width, thermal_layer)},
+              [=, melting = material.melting_temperature,
+               gradient = -wall.flux / grown.conductivity](const double distance)
+              { return melting + gradient * (distance - width); },
+              [=, excess = wall.excess](const double distance)
+              {
+                const double x = (distance - width) / thermal_layer;
+                return x < far_in_layers ? excess * std::erfc(x) : 0.;
+              },
+              cause + ", which leads more heat than is conducted to it"};
+    }
+
+    std::string text_of(const std::vector<Seed> &seeds)
+    {
+      std::string result;
+      for(const Seed &seed : seeds)
+        result += fmt::format("{}a front starts at {}, {:.3g} m away at first",
+                              result.empty() ? "" : "; ", seed.cause, seed.place.width);
+      return result;
+    }
+
+    std::vector<NewLayer> places_of(const std::vector<Seed> &seeds)
+    {
+      std::vector<NewLayer> result;
+      for(const Seed &seed : seeds)
+        result.push_back(seed.place);
+      return result;
+    }
+  } // namespace
+
   RunSegment seeded_stretch(const EventScene &setting,
                             const std::vector<SuddenStart> &starts,
                             const LayeredState &state)
@@ -169,22 +278,29 @@ namespace meltfront::reference_fem::fitted
     for(const SuddenStart &start : starts)
       since = std::min(since, seed_time(setting, start, state,
                                         starts.size() > 1 && state.fronts.empty()));
-
-    std::vector<NewLayer> layers;
-    std::vector<double> thermal_layers;
-    for(const SuddenStart &start : starts)
-    {
-      // The old phase's thermal layer or the new phase, whichever is thinner.
-      const double width = start.local->front(since);
-      const cases::PhaseProperties &old
-          = start.local->solid_at_origin() ? scene.material.liquid : scene.material.solid;
-      thermal_layers.push_back(2 * std::sqrt(old.diffusivity() * since));
-      layers.push_back(
-          {start.at_inner_end, width, std::min(width, thermal_layers.back())});
-    }
     std::array<WallLayer, 2> forms = layers_at_walls(setting, state);
     for(const SuddenStart &start : starts)
       forms[start.at_inner_end ? 0 : 1] = {};
+    std::vector<LeadingWall> leading;
+    for(const bool inner : {true, false})
+      if(const auto wall = leading_wall(setting, state, inner, forms[inner ? 0 : 1]))
+      {
+        if(wall->passing > at_once * since)
+        {
+          since = std::min(since, before_passing * wall->passing);
+          continue;
+        }
+        leading.push_back(*wall);
+        forms[inner ? 0 : 1] = {};
+      }
+
+    std::vector<Seed> seeds;
+    for(const SuddenStart &start : starts)
+      seeds.push_back(seed_of(start, since, scene.material,
+                              temperature_at_end(setting, state, start.at_inner_end)));
+    for(const LeadingWall &wall : leading)
+      seeds.push_back(seed_of(wall, since, setting, state.solid_at(wall.inner)));
+    const std::vector<NewLayer> layers = places_of(seeds);
     std::array<double, 2> thickness{};
     for(const bool inner : {true, false})
       if(forms[inner ? 0 : 1].forms())
@@ -209,16 +325,12 @@ namespace meltfront::reference_fem::fitted
           double sum = state.temperature(r)
                        + forms[0].temperature(r - rays.inner, thickness[0])
                        + forms[1].temperature(rays.outer - r, thickness[1]);
-          // The state need not be uniform farther away.
-          for(std::size_t k = 0; k < starts.size(); ++k)
+          for(const Seed &seed : seeds)
           {
-            const SuddenStart &start = starts[k];
-            const double distance = start.at_inner_end ? r - rays.inner : rays.outer - r;
-            if(distance < layers[k].width)
-              return start.local->temperature(distance, since);
-            if(distance <= layers[k].width + far_in_layers * thermal_layers[k])
-              sum += start.local->temperature(distance, since)
-                     - temperature_at_end(setting, state, start.at_inner_end);
+            const double distance = seed.place.inner ? r - rays.inner : rays.outer - r;
+            if(distance < seed.place.width)
+              return seed.temperature(distance);
+            sum += seed.change(distance);
           }
           return sum;
         });
@@ -231,7 +343,7 @@ namespace meltfront::reference_fem::fitted
     result.steps = lengthening_steps(
         clock.clock(result.time), clock.clock(scene.end_time),
         steps_for(setting, state.time), clock.root ? lengthening : 2 * lengthening);
-    result.event = {state.time, text_of(starts, layers)};
+    result.event = {state.time, text_of(seeds)};
     return result;
   }
 } // namespace meltfront::reference_fem::fitted

@@ -25,9 +25,9 @@ namespace meltfront::reference_fem::fitted
      * temperature is a ramp. */
     constexpr double ramp_share = 1e-2;
 
-    /** A seed is so wide at least, of the ray, lest it be lost in rounding; if the time
-     * is too short for that, it is made longer, up to this share of what is left. */
-    constexpr double thinnest_seed = 1e-11, latest_share = 1e-3;
+    /** If the time is too short for a seed that is not lost in rounding, it is made
+     * longer, up to this share of what is left. */
+    constexpr double latest_share = 1e-3;
     constexpr double longer = 4;
 
     /** A wall at the melting temperature starts a front at once if this share of its flux

@@ -49,6 +49,10 @@ namespace meltfront::reference_fem::fitted
   /** Distance from a wall to the first front, or to the other wall (m). */
   double room_at_wall(const EventScene &setting, const LayeredState &state, bool inner);
 
+  /** A phase that appears is so wide at least, of the ray, lest it be lost in rounding.
+   */
+  inline constexpr double thinnest_seed = 1e-11;
+
   /** A phase that appears at a wall or a sink, with the thickness of the layer in which
    * the heat of the old phase changes. */
   struct NewLayer

@@ -28,6 +28,10 @@ namespace meltfront::reference_fem::fitted
      * melting temperature, and what Newton's method leaves, of the scale. */
     constexpr double margin_of_melting = 1e-9, margin_of_scale = 1e-9;
 
+    /** Where released heat leads a phase beyond the melting temperature, so much, of the
+     * scale, is no overshoot of elements. */
+    constexpr double led_beyond = 1e-3;
+
     /** A source of less than this share of its largest strength is none. */
     constexpr double no_source = 1e-9;
 
@@ -198,7 +202,12 @@ namespace meltfront::reference_fem::fitted
           continue;
         const double excess
             = u[mesh.node(ray, level)] + problem.source(interval, time).value(r);
-        if(!(beyond(solid, excess) > overshoot() * physics.temperature_scale))
+        const bool led
+            = physics.volumetric_source.value
+              && beyond(solid, physics.volumetric_source(mesh.position(ray, r), time))
+                     > 0;
+        const double allowed = led ? std::min(led_beyond, overshoot()) : overshoot();
+        if(!(beyond(solid, excess) > allowed * physics.temperature_scale))
           continue;
         if(step == 0)
           throw cases::Refusal(fmt::format(

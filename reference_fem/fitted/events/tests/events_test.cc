@@ -111,6 +111,29 @@ namespace meltfront::reference_fem::fitted
       }
     }
 
+    // Liquid at its melting temperature conducts nothing: what freezes at each wall is
+    // what would without the other.
+    TEST(ColdStart, AWallAtTheOtherEndMayLeadHeatFromLiquidAboutToFreeze)
+    {
+      const double end = 0.05;
+      const cases::PlanarNeumann exact(unit_material(), -1, 0);
+      for(const double warmer : {0., 1e-8, 1e-5})
+        for(const bool mirrored : {false, true})
+        {
+          const Side held = mirrored ? Side::x_max : Side::x_min,
+                     other = mirrored ? Side::x_min : Side::x_max;
+          cases::Scene alone = slab(unit_material(), 2, 0, 0, end);
+          set_boundary(alone, other, flux_wall(-2));
+          const double by_flux = run(alone, 32).solid.back();
+          cases::Scene scene = slab(unit_material(), 2, warmer, 0, end);
+          set_boundary(scene, held, fixed_wall(-1));
+          set_boundary(scene, other, flux_wall(-2));
+          const Course record = run(scene, 32);
+          EXPECT_NEAR(record.solid.back(), exact.front(end) + by_flux, 2e-8 + 2 * warmer);
+          EXPECT_LE(record.worst_budget_defect(), 1e-12);
+        }
+    }
+
     // What a jump leaves in the first cell is not resolved, and must not be taken for
     // liquid below its melting point.
     TEST(Jump, OfAWallHeatsLiquidAtItsMeltingPoint)
@@ -246,6 +269,19 @@ namespace meltfront::reference_fem::fitted
       EXPECT_NEAR(record.solid.back(), run(*enthalpy, ramp, 256).solid.back(), 1e-3);
       EXPECT_NEAR(record.solid.back(), run(ramp, 32).solid.back(), 1e-5);
       EXPECT_LE(record.worst_budget_defect(), 1e-12);
+    }
+
+    // Less beyond the melting temperature than elements may overshoot, and yet no
+    // overshoot.
+    TEST(HeatReleased, ThatMeltsSolidAwayFromTheFrontIsRefused)
+    {
+      cases::Scene scene = slab(unit_material(), 1, 0, 0, 1);
+      scene.initial.temperature
+          = field_of([](const cases::Position &p) { return std::min(p[0] - 0.7, 0.); });
+      scene.initial.front = field_of([](const cases::Position &p) { return p[0] - 0.7; });
+      scene.volumetric_source = cases::Field::uniform(1);
+      for(const int n : {16, 32})
+        EXPECT_THROW(run(scene, n), cases::Refusal) << n;
     }
 
     TEST(Vanishing, LiquidFreezesToTheLastDropAndTheRestCools)
