@@ -13,6 +13,9 @@ namespace meltfront::cases
 {
   namespace
   {
+    /** Of a front, in a run: bodies merge and part in each. */
+    constexpr int most_periods = 10000;
+
     constexpr const char *own_keys[]
         = {"family", "period", "length scale", "base flux", "flux rounding", "contact"};
     constexpr const char *foreign_keys[] = {
@@ -44,6 +47,12 @@ namespace meltfront::cases
                                     "about the axis",
                                     fmt::join(turned_families, ", ")));
       parameters.period = prm.get_number(exact_keys, "period");
+      if(const double shortest = (scene.end_time - scene.start_time) / most_periods;
+         parameters.period < shortest)
+        throw prm.error(exact_keys, "period",
+                        fmt::format("must be at least {:g} s: the run lasts no more than "
+                                    "{} of them",
+                                    shortest, most_periods));
       parameters.length_scale = prm.get_number(exact_keys, "length scale");
       parameters.power = static_cast<int>(prm.get_integer(exact_keys, "contact"));
       const double base_flux = prm.get_number(exact_keys, "base flux");

@@ -13,7 +13,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <limits>
 
 namespace meltfront::cases
 {
@@ -366,9 +369,21 @@ namespace meltfront::cases
     return handler->get(key);
   }
 
+  double PrmFile::number_in(const std::string &text, const std::string &subsection,
+                            const std::string &key) const
+  {
+    const double number = std::strtod(text.c_str(), nullptr);
+    if(number != 0 && std::abs(number) < std::numeric_limits<double>::min())
+      throw error(
+          subsection, key,
+          fmt::format("is {}, nearer to zero than what can be computed with ({:g})", text,
+                      std::numeric_limits<double>::min()));
+    return number;
+  }
+
   double PrmFile::get_number(const std::string &subsection, const std::string &key) const
   {
-    return dealii::Utilities::string_to_double(value(subsection, key));
+    return number_in(value(subsection, key), subsection, key);
   }
 
   long PrmFile::get_integer(const std::string &subsection, const std::string &key) const
@@ -390,7 +405,10 @@ namespace meltfront::cases
   std::vector<double> PrmFile::get_numbers(const std::string &subsection,
                                            const std::string &key) const
   {
-    return dealii::Utilities::string_to_double(split_list(value(subsection, key), ','));
+    std::vector<double> numbers;
+    for(const std::string &text : split_list(value(subsection, key), ','))
+      numbers.push_back(number_in(text, subsection, key));
+    return numbers;
   }
 
   std::vector<int> PrmFile::given_numbers(const std::string &subsection,

@@ -183,6 +183,11 @@ namespace meltfront::cases
       int count;
     };
 
+    /** The number that a value, or one of a list, is.
+     * @throws InputError for those too small to be computed with */
+    double number_in(const std::string &text, const std::string &subsection,
+                     const std::string &key) const;
+
     void declare_opened();
     void read_constants();
     void put_constants_in(const PrmEntry &entry, PrmAssignment &assignment);

@@ -9,6 +9,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 
@@ -85,7 +86,7 @@ namespace meltfront::cases
           return value;
         try
         {
-          return std::stod(in_units_of(cell + " " + of.unit, unit).text);
+          return std::strtod(in_units_of(cell + " " + of.unit, unit).text.c_str(), nullptr);
         }
         catch(const InputError &problem)
         {

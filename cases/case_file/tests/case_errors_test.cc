@@ -43,6 +43,15 @@ TEST(BadCase, PropertiesThatCannotBe)
             "needs a number greater than 0 (kg/m^3)");
 }
 
+TEST(BadCase, NumbersThatAreNoNormalOnes)
+{
+  for(const char *text : {"1e-320", "-1e-320"})
+    EXPECT_EQ(about_slab("set end time = 100", std::string("set start time = ") + text
+                                                   + "\n  set end time = 100"),
+              std::string("a.prm:4: key 'start time' in subsection 'Scene' is ") + text
+                  + ", nearer to zero than what can be computed with (2.22507e-308)");
+}
+
 TEST(BadCase, TimesAndDomains)
 {
   EXPECT_EQ(

@@ -197,3 +197,11 @@ TEST(ManufacturedCase, RefusesWhatCannotBeExact)
       "end time = 100", "end time = 90");
   EXPECT_NE(complaint(neumann).find("exact"), std::string::npos);
 }
+
+TEST(ManufacturedCase, EndsWithinSoManyPeriods)
+{
+  EXPECT_NE(about(two_disks, "set end time = 6", "set end time = 2147483648")
+                .find("key 'period' in subsection 'Exact solution' must be at least "
+                      "214748 s: the run lasts no more than 10000 of them"),
+            std::string::npos);
+}
