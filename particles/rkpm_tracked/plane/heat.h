@@ -121,9 +121,9 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<double> apply(const PlaneStep &step, const PlaneSolution &solution,
                               double multiplier, PlaneState &next);
 
-    /** Whether walls hold their temperature, so that the heat that they give is what the
-     * balance asks for. */
-    bool wall_heat_is_reaction() const
+    /** Whether walls hold their temperature: the heat that these give is told by fits,
+     * whose errors the front must not make up for. */
+    bool walls_hold_temperature() const
     {
       return holds_walls;
     }

@@ -71,7 +71,6 @@ namespace meltfront::particles::rkpm_tracked
       return (step.b * step.last.*heat - before + step.step * power) / step.a;
     };
     next.wall_heat = advanced(&PlaneState::wall_heat);
-    next.fitted_heat = advanced(&PlaneState::fitted_heat);
     next.flux_heat = step.last.flux_heat + flux_heat(step);
     next.released_heat = step.last.released_heat + released_heat(step);
   }

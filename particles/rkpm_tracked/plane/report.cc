@@ -118,8 +118,6 @@ namespace meltfront::particles::rkpm_tracked
             {"steps taken with 1e-4 to 1e-2 spacings left to move", double(capped_steps)},
             {"largest heat that the balance adds, of what flows to the front",
              largest_multiplier},
-            {"most by which fits at held walls tell other heat than the balance (J/m)",
-             fits_differ},
             {"heat that start and events leave out of the balance (J/m)", unbooked_heat},
             {"latent heat of areas that changed phase by decree (J/m)", decreed_heat},
             {"largest distance of level set and front particles, in spacings", mismatch}};

@@ -248,15 +248,13 @@ namespace meltfront::particles::rkpm_tracked
       ++passes;
       if(!solution)
         return failed;
-      const bool made = heat.wall_heat_is_reaction()
+      const bool made = heat.walls_hold_temperature()
                             ? !move(heat.apply(times, *solution, 0, next), next, largest)
                             : balance(times, *solution, next, response,
                                       passes == passes_allowed, largest);
       if(!made)
         return failed;
     }
-    if(heat.wall_heat_is_reaction())
-      next.wall_heat -= lost_heat(next);
     most_passes = std::max(most_passes, passes);
     return largest;
   }
@@ -317,7 +315,6 @@ namespace meltfront::particles::rkpm_tracked
     restarted = false;
     ++step_number;
     largest_multiplier = std::max(largest_multiplier, std::abs(state.multiplier));
-    fits_differ = std::max(fits_differ, std::abs(state.wall_heat - state.fitted_heat));
     check_resolved();
     warn_of_ripples();
   }

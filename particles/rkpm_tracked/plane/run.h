@@ -95,7 +95,6 @@ namespace meltfront::particles::rkpm_tracked
     double initial_heat = 0, condition = 0;
     double unbooked_heat = 0; ///< by which start and events are off in the book (J/m)
     double largest_multiplier = 0;
-    double fits_differ = 0;  ///< of what held walls give, from the balance (J/m)
     double decreed_heat = 0; ///< latent, of areas that changed phase by decree (J/m)
     double mismatch = 0;     ///< largest of level set and particles, in spacings
     std::vector<std::pair<double, std::string>> events; ///< not yet told

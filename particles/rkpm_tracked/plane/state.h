@@ -69,7 +69,6 @@ namespace meltfront::particles::rkpm_tracked
     /** Heat that has come in through walls, without that of fluxes that vary: by the
      * formula in time that the temperatures have (J/m). */
     double wall_heat = 0;
-    double fitted_heat = 0;   ///< the same, of held walls as fits there tell it (J/m)
     double flux_heat = 0;     ///< of fluxes that vary (J/m)
     double released_heat = 0; ///< throughout the domain (J/m)
     double multiplier = 0;    ///< of the heat balance in the last step

@@ -249,7 +249,7 @@ namespace meltfront::particles::rkpm_tracked
     PlaneSolution solution;
     solution.constant.resize(matrix.rows());
     bool solved = solver.solve(right_side, solution.constant).converged;
-    if(!wall_heat_is_reaction())
+    if(!walls_hold_temperature())
     {
       spread_multiplier(step, next, solution);
       solution.slope.resize(matrix.rows());
