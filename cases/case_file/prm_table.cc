@@ -86,7 +86,8 @@ namespace meltfront::cases
           return value;
         try
         {
-          return std::strtod(in_units_of(cell + " " + of.unit, unit).text.c_str(), nullptr);
+          return std::strtod(in_units_of(cell + " " + of.unit, unit).text.c_str(),
+                             nullptr);
         }
         catch(const InputError &problem)
         {
