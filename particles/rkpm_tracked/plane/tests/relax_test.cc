@@ -52,23 +52,6 @@ namespace
     return least;
   }
 
-  /** Exponent of the spacing in errors, by least squares in the logarithms. */
-  double fitted_order(const std::vector<double> &levels,
-                      const std::vector<double> &errors)
-  {
-    const auto count = static_cast<double>(levels.size());
-    double x = 0, y = 0, xx = 0, xy = 0;
-    for(std::size_t i = 0; i < levels.size(); ++i)
-    {
-      const double a = std::log(1 / levels[i]), b = std::log(errors[i]);
-      x += a / count;
-      y += b / count;
-      xx += a * a / count;
-      xy += a * b / count;
-    }
-    return (xy - x * y) / (xx - x * x);
-  }
-
   TEST(PlaneRelaxation, NodesKeepPhaseAndDistanceAsAFrontPasses)
   {
     for(const double way : {0.06, -0.06, 0.25})
@@ -165,7 +148,7 @@ namespace
       errors.push_back(resampling_error(
           n, [=](double r2) { return std::sin(3 * (r2 - melted)); },
           [=](double r2) { return std::exp(r2 - melted) - 1; }));
-    EXPECT_GT(fitted_order({16, 24, 36, 54}, errors), 2.8);
+    EXPECT_GT(test_support::fitted_order(std::vector<int>{16, 24, 36, 54}, errors), 2.8);
     EXPECT_LT(errors.back(), 2e-5);
   }
 
@@ -228,10 +211,10 @@ namespace
   {
     const cases::Scene scene = line_sink_annulus();
     std::vector<double> errors;
-    const std::vector<double> levels{14, 20, 28, 40};
-    for(const double n : levels)
+    const std::vector<int> levels{14, 20, 28, 40};
+    for(const int n : levels)
     {
-      const PlaneRecord record = run_plane(scene, static_cast<int>(n), {{"relax", "1"}});
+      const PlaneRecord record = run_plane(scene, n, {{"relax", "1"}});
       const PlaneRecord::Frame &end = record.frames.back();
       EXPECT_EQ(end.time, scene.end_time);
       errors.push_back(std::abs(end.mean_radius - 0.6));
@@ -241,7 +224,7 @@ namespace
         EXPECT_LE(end.roundness, 7e-4);
       }
     }
-    EXPECT_GT(fitted_order(levels, errors), 1.7);
+    EXPECT_GT(test_support::fitted_order(levels, errors), 1.7);
   }
 
   TEST(PlaneRelaxation, BodiesThatVanishAreSurvived)

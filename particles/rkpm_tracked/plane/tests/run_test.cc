@@ -16,22 +16,6 @@ using namespace meltfront::particles::rkpm_tracked;
 
 namespace
 {
-  /** Least squares in the logarithms. */
-  double order_of(const std::vector<double> &levels, const std::vector<double> &errors)
-  {
-    const double count = static_cast<double>(levels.size());
-    double x = 0, y = 0, xx = 0, xy = 0;
-    for(std::size_t i = 0; i < levels.size(); ++i)
-    {
-      const double a = std::log(1 / levels[i]), b = std::log(errors[i]);
-      x += a / count;
-      y += b / count;
-      xx += a * a / count;
-      xy += a * b / count;
-    }
-    return (xy - x * y) / (xx - x * x);
-  }
-
   // What fits at the held rims tell of their heat converges, too (order 1.8).
   TEST(PlaneRun, LineSinkConvergesStaysRoundAndKeepsItsHeat)
   {
@@ -41,11 +25,11 @@ namespace
     const cases::LineSink exact(material, 0.4206, 0.5);
     const double given = exact.heat_content(0.2, 1, scene.end_time)
                          - exact.heat_content(0.2, 1, scene.start_time);
-    const std::vector<double> levels{20, 28, 40, 56};
+    const std::vector<int> levels{20, 28, 40, 56};
     std::vector<double> errors, heat_errors;
-    for(const double n : levels)
+    for(const int n : levels)
     {
-      const PlaneRecord record = run_plane(scene, static_cast<int>(n));
+      const PlaneRecord record = run_plane(scene, n);
       const PlaneRecord::Frame &end = record.frames.back();
       EXPECT_EQ(end.time, scene.end_time);
       errors.push_back(std::abs(end.mean_radius - 0.6));
@@ -59,8 +43,8 @@ namespace
       }
       EXPECT_EQ(record.cost.capped_steps, 0);
     }
-    EXPECT_GT(order_of(levels, errors), 1.9);
-    EXPECT_GT(order_of(levels, heat_errors), 1.5);
+    EXPECT_GT(test_support::fitted_order(levels, errors), 1.9);
+    EXPECT_GT(test_support::fitted_order(levels, heat_errors), 1.5);
   }
 
   TEST(PlaneRun, SecondOrderInTime)
