@@ -169,8 +169,13 @@ namespace meltfront::verification
         add("solid_volume", &RunSeries::solid_volume, constants.volume,
             finest.solid_volume_exact, bars);
         add("heat", &RunSeries::heat, constants.heat, finest.heat_exact, bars);
-        if(!bars.empty() && bars.back().quantity == "heat")
-          bars.back().bar.bar = std::max(bars.back().bar.bar, heat_missing(finest));
+        for(QuantityBar &bar : bars)
+        {
+          if(const double unseen = finest.quantity(bar.quantity + "_unseen"); unseen > 0)
+            add_unseen(unseen, bar.bar);
+          if(bar.quantity == "heat")
+            bar.bar.bar = std::max(bar.bar.bar, heat_missing(finest));
+        }
         return bars;
       }
 
@@ -180,6 +185,16 @@ namespace meltfront::verification
       {
         const auto &probes = levels.back()->probes;
         return probes.empty() || !probes.front().coordinate.empty();
+      }
+
+      /** Levels that all miss a layer at a wall agree without being right. */
+      static void add_unseen(double unseen, ErrorBar &bar)
+      {
+        if(!(bar.bar < unseen))
+          return;
+        bar.bar = unseen;
+        bar.remark += bar.remark.empty() ? "" : "; ";
+        bar.remark += "a layer at a wall may be thinner than any site shows";
       }
 
       /** What the budget of a run lacks or has too much at its end (J/m^2, J/m or J): an

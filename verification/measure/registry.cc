@@ -11,7 +11,7 @@ namespace meltfront::verification
   MeasureKind run_size(), front_error(), tracked_points(), solid_volume_over_time(),
       front_square(), front_mode(), front_backsteps(), front_row(), timed_events(),
       mirror_asymmetry(), advected_interface(), particle_solid(), temperature(), mush(),
-      budgets(), entropy_fall(), run_cost();
+      budgets(), entropy_fall(), unseen_layers(), run_cost();
 
   const std::vector<MeasureKind> &measures()
   {
@@ -31,6 +31,7 @@ namespace meltfront::verification
                                               mush(),
                                               budgets(),
                                               entropy_fall(),
+                                              unseen_layers(),
                                               run_cost()};
     return all;
   }

@@ -3,6 +3,7 @@
 #include <cases/exact/planar_neumann.h>
 #include <cases/exact/point_sink.h>
 #include <cases/exact/tests/materials.h>
+#include <cases/exact/wall_layer.h>
 
 #include <gtest/gtest.h>
 
@@ -145,5 +146,22 @@ namespace meltfront::cases
           FrankGrowth(Material{}, Symmetry::spherical, -row[0]).growth_constant(), row[3],
           round_off);
     }
+  }
+
+  /** erfc(1/2) and ierfc(1/2) with fifteen digits (Carslaw & Jaeger 1959, appendix II).
+   */
+  TEST(WallLayer, IndependentValuesSlopeAndFarAway)
+  {
+    const double thickness = 0.4;
+    const WallLayer jumps{3, 0}, draws{0, 2}, both{3, 2};
+    expect_relative(jumps.temperature(0.2, thickness), 3 * 0.479500122186953, round_off);
+    expect_relative(draws.temperature(0.2, thickness), 2 * thickness * 0.1996412283742457,
+                    round_off);
+    EXPECT_EQ(both.temperature(0, thickness), 3 + draws.temperature(0, thickness));
+    const double step = 1e-7;
+    EXPECT_NEAR((draws.temperature(0, thickness) - draws.temperature(step, thickness))
+                    / step,
+                2, 1e-6);
+    EXPECT_EQ(both.temperature(100, thickness), 0);
   }
 } // namespace meltfront::cases

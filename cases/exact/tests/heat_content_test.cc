@@ -66,18 +66,22 @@ namespace meltfront::cases
         if(from >= to)
           return 0.;
         const PhaseProperties &phase = solid ? material.solid : material.liquid;
-        return rule.integrate(
-            [&](double r)
-            {
-              if(r < 1e-100)
-                return 0.; // the limit; the rule goes on until r^2 vanishes
-              const double sensible = phase.specific_heat_capacity
-                                      * (solution.temperature(r, problem.time)
-                                         - material.melting_temperature);
-              return measure(solution.symmetry(), r) * phase.density
-                     * (sensible + (solid ? 0 : material.latent_heat));
-            },
-            from, to);
+        // Over the unit interval: the rule asserts that an interval is no thinner than
+        // the spacing of numbers at its ends lets it be.
+        return (to - from)
+               * rule.integrate(
+                   [&](double share)
+                   {
+                     const double r = from + (to - from) * share;
+                     if(r < 1e-100)
+                       return 0.; // the limit; the rule goes on until r^2 vanishes
+                     const double sensible = phase.specific_heat_capacity
+                                             * (solution.temperature(r, problem.time)
+                                                - material.melting_temperature);
+                     return measure(solution.symmetry(), r) * phase.density
+                            * (sensible + (solid ? 0 : material.latent_heat));
+                   },
+                   0, 1);
       };
       const double split = std::clamp(solution.front(problem.time), lower, upper);
       const bool solid = solution.solid_at_origin();

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace meltfront::particles::rkpm_tracked
 {
@@ -68,14 +67,14 @@ namespace meltfront::particles::rkpm_tracked
       solution = std::make_shared<cases::PlanarNeumann>(problem.material, wall, far);
     if(!solution)
       return;
-    const LineWall &other = other_wall();
-    if(other.kind == cases::BoundaryKind::flux)
-      gradient
-          = other.value_after(begin) / problem.phase(initial.solid_first).conductivity;
-    else if(other.fixed())
-      jump = other.value_after(begin) - far;
-    if(std::abs(jump) <= far_tolerance * std::abs(wall - far))
-      jump = 0;
+    const LineWall &at_other = other_wall();
+    if(at_other.kind == cases::BoundaryKind::flux)
+      other.slope
+          = at_other.value_after(begin) / problem.phase(initial.solid_first).conductivity;
+    else if(at_other.fixed())
+      other.jump = at_other.value_after(begin) - far;
+    if(std::abs(other.jump) <= far_tolerance * std::abs(wall - far))
+      other.jump = 0;
   }
 
   const LineWall &SimilarityStart::other_wall() const
@@ -83,34 +82,26 @@ namespace meltfront::particles::rkpm_tracked
     return problem.walls[1 - side];
   }
 
-  double SimilarityStart::other_width(double since) const
-  {
-    return 2
-           * std::sqrt(problem.phase(!solution->solid_at_origin()).diffusivity() * since);
-  }
-
   double SimilarityStart::other_layer(double distance, double since) const
   {
-    const double width = other_width(since), x = distance / width;
-    return jump * std::erfc(x)
-           + gradient * width
-                 * (std::exp(-x * x) / std::sqrt(std::numbers::pi) - x * std::erfc(x));
+    const double diffusivity = problem.phase(!solution->solid_at_origin()).diffusivity();
+    return other.temperature(distance, 2 * std::sqrt(diffusivity * since));
   }
 
   bool SimilarityStart::other_holds(double since) const
   {
-    const LineWall &other = other_wall();
+    const LineWall &at_other = other_wall();
     const double span = std::abs(wall - far);
-    if(other.kind == cases::BoundaryKind::insulated)
+    if(at_other.kind == cases::BoundaryKind::insulated)
       return true;
-    const bool as_the_phase = !(other.kind == cases::BoundaryKind::flux);
-    const double expected = as_the_phase ? far + jump : other.value_after(begin);
+    const bool as_the_phase = !(at_other.kind == cases::BoundaryKind::flux);
+    const double expected = as_the_phase ? far + other.jump : at_other.value_after(begin);
     for(const double t : {since / 2, since})
-      if(std::abs(other.value(begin + t) - expected)
+      if(std::abs(at_other.value(begin + t) - expected)
          > (as_the_phase ? far_tolerance * span
                          : equal_temperatures * std::abs(expected)))
         return false;
-    if(jump == 0 && gradient == 0)
+    if(!other.forms())
       return true;
     // It neither reaches the other layer nor what would start a front.
     const double half = (problem.nodes.back() - problem.nodes.front()) / 2;
@@ -145,7 +136,7 @@ namespace meltfront::particles::rkpm_tracked
   {
     LineState result = exact_state(*solution, problem, since, side == 1);
     result.time = begin + since;
-    if(jump != 0 || gradient != 0)
+    if(other.forms())
       for(std::size_t i = 0; i < problem.nodes.size(); ++i)
         result.temperature[i] += other_layer(
             std::abs(problem.nodes[i]

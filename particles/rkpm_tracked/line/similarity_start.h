@@ -1,6 +1,7 @@
 #ifndef meltfront_particles_rkpm_tracked_line_similarity_start_h
 #define meltfront_particles_rkpm_tracked_line_similarity_start_h
 
+#include <cases/exact/wall_layer.h>
 #include <cases/exact_solution.h>
 #include <particles/rkpm_tracked/line/problem.h>
 
@@ -16,11 +17,8 @@ namespace meltfront::particles::rkpm_tracked
    * Neumann's solution of the one wall that calls for a phase: where a uniform phase
    * meets a wall that is held at a temperature beyond the melting point, it is exact
    * until it reaches the other wall. One that is held elsewhere than the phase from the
-   * start on, or gives it a flux, has a layer of its own there, in the distance x from it
-   *
-   *   T - T_far = jump erfc(x/l) + flux/k l ierfc(x/l),  l = 2 sqrt(a t)
-   *
-   * (Carslaw & Jaeger 1959, sections 2.5 and 2.9), as long as the two are apart.
+   * start on, or gives it a flux, has a layer of its own there (WallLayer), as long as
+   * the two are apart.
    */
   class SimilarityStart
   {
@@ -47,8 +45,7 @@ namespace meltfront::particles::rkpm_tracked
   private:
     const LineWall &other_wall() const;
 
-    /** Width of the layer at the other wall (m), and what it adds there. */
-    double other_width(double since) const;
+    /** What the layer at the other wall adds in a distance from it (K). */
     double other_layer(double distance, double since) const;
 
     /** Whether the other wall leaves the phase as it is, or does what other_layer()
@@ -57,10 +54,9 @@ namespace meltfront::particles::rkpm_tracked
 
     const LineProblem &problem;
     double begin, duration;
-    double far, wall = 0; ///< temperatures
-    double jump = 0;      ///< of the other wall (K)
-    double gradient = 0;  ///< that the other wall's flux asks for (K/m)
-    std::size_t side = 0; ///< of the wall
+    double far, wall = 0;   ///< temperatures
+    cases::WallLayer other; ///< at the other wall
+    std::size_t side = 0;   ///< of the wall
     std::shared_ptr<const cases::ExactSolution> solution;
   };
 } // namespace meltfront::particles::rkpm_tracked

@@ -197,7 +197,7 @@ namespace meltfront::reference_fem::fitted
 
     std::optional<LeadingWall> leading_wall(const EventScene &setting,
                                             const LayeredState &state, const bool inner,
-                                            const WallLayer &form)
+                                            const cases::WallLayer &form)
     {
       const cases::Material &material = setting.scene.material;
       const bool solid = state.solid_at(inner);
@@ -278,7 +278,7 @@ namespace meltfront::reference_fem::fitted
     for(const SuddenStart &start : starts)
       since = std::min(since, seed_time(setting, start, state,
                                         starts.size() > 1 && state.fronts.empty()));
-    std::array<WallLayer, 2> forms = layers_at_walls(setting, state);
+    std::array<cases::WallLayer, 2> forms = layers_at_walls(setting, state);
     for(const SuddenStart &start : starts)
       forms[start.at_inner_end ? 0 : 1] = {};
     std::vector<LeadingWall> leading;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 namespace meltfront::reference_fem::fitted
@@ -14,10 +13,6 @@ namespace meltfront::reference_fem::fitted
   namespace
   {
     using cases::BoundaryKind;
-
-    /** Beyond so many widths of its thermal layer the old phase is as it was: erfc(20) is
-     * 5e-176, and what is left of it is no number. */
-    constexpr double layers_until_nothing = 20;
 
     /** Of the temperature scale: a wall is held elsewhere than what lies at it, or its
      * flux makes a difference of that much over the ray. */
@@ -126,24 +121,14 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
-  double WallLayer::temperature(const double distance, const double thickness) const
-  {
-    const double x = distance / thickness;
-    if(!forms() || x > layers_until_nothing)
-      return 0;
-    return jump * std::erfc(x)
-           + slope * thickness
-                 * (std::exp(-x * x) / std::sqrt(std::numbers::pi) - x * std::erfc(x));
-  }
-
-  std::array<WallLayer, 2> layers_at_walls(const EventScene &setting,
-                                           const LayeredState &state)
+  std::array<cases::WallLayer, 2> layers_at_walls(const EventScene &setting,
+                                                  const LayeredState &state)
   {
     const cases::Scene &scene = setting.scene;
     const RayScene &rays = setting.rays;
     const RayMesh geometry(rays.surface, rays.inner, rays.outer, {0, 1});
     const Physics physics = physics_between(setting, true, 0);
-    std::array<WallLayer, 2> result;
+    std::array<cases::WallLayer, 2> result;
     for(const bool inner : {true, false})
     {
       if(inner && geometry.has_centre())

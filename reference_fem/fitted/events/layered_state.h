@@ -1,6 +1,7 @@
 #ifndef meltfront_reference_fem_fitted_events_layered_state_h
 #define meltfront_reference_fem_fitted_events_layered_state_h
 
+#include <cases/exact/wall_layer.h>
 #include <reference_fem/fitted/events/segment.h>
 #include <reference_fem/fitted/setup.h>
 
@@ -61,28 +62,9 @@ namespace meltfront::reference_fem::fitted
     double width = 0, layer = 0; ///< m
   };
 
-  /**
-   * The layer of heat that forms at a wall from a moment on: its temperature jumps, or
-   * its flux is not what is conducted there. In the distance x from it, in a half-space,
-   *
-   *   T - T_before = jump erfc(x/l) + slope l ierfc(x/l),  l = 2 sqrt(a t).
-   */
-  struct WallLayer
-  {
-    double jump = 0;  ///< K
-    double slope = 0; ///< K/m
-
-    bool forms() const
-    {
-      return jump != 0 || slope != 0;
-    }
-
-    double temperature(double distance, double thickness) const;
-  };
-
   /** At the inner and the outer wall, as of a state. */
-  std::array<WallLayer, 2> layers_at_walls(const EventScene &setting,
-                                           const LayeredState &state);
+  std::array<cases::WallLayer, 2> layers_at_walls(const EventScene &setting,
+                                                  const LayeredState &state);
 
   /**
    * The problem with further phases at one end of the ray or both, each of equal cells;

@@ -38,7 +38,7 @@ namespace meltfront::reference_fem::fitted
       for(const bool inner : {true, false})
         if(auto start = start_at_wall(setting, state, inner))
           starts.push_back(*start);
-    const std::array<WallLayer, 2> forms = layers_at_walls(setting, state);
+    const std::array<cases::WallLayer, 2> forms = layers_at_walls(setting, state);
     std::erase_if(starts,
                   [&](const SuddenStart &start)
                   {

@@ -230,7 +230,7 @@ namespace meltfront::reference_fem::fitted
   } // namespace
 
   RunSegment drawn_to_walls(const EventScene &setting, const RunSegment &segment,
-                            const std::array<WallLayer, 2> &forms)
+                            const std::array<cases::WallLayer, 2> &forms)
   {
     Clock clock = segment.problem->physics().clock;
     if(setting.options.clock != "t")

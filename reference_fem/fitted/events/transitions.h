@@ -20,7 +20,7 @@ namespace meltfront::reference_fem::fitted
   /** A segment anew from its state on cells that are halved towards walls where layers of
    * heat form at that moment, with steps that are equal in the root of time. */
   RunSegment drawn_to_walls(const EventScene &setting, const RunSegment &segment,
-                            const std::array<WallLayer, 2> &forms);
+                            const std::array<cases::WallLayer, 2> &forms);
 
   /**
    * The run from the moment at which an interval is so thin that it is dropped: at an end

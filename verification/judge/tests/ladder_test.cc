@@ -60,6 +60,17 @@ namespace
   }
 } // namespace
 
+TEST(Ladder, OfLevelsThatMayAllMissALayerTellsNoLess)
+{
+  MatrixResult result = made_result({10, 20, 40}, 0);
+  result.runs.back().quantities = {{"solid_volume_unseen", 0.0125}, {"front_unseen", 0}};
+  const auto bars = bars_of(ladders_of(result).front());
+  const ErrorBar &volume = bar_named(bars, "solid_volume").bar;
+  EXPECT_EQ(volume.bar, 0.0125);
+  EXPECT_NE(volume.remark.find("a layer at a wall"), std::string::npos);
+  EXPECT_LT(bar_named(bars, "front").bar.bar, 1e-9);
+}
+
 TEST(Ladder, SecondOrderGivesTheFactorTimesTheError)
 {
   const MatrixResult result = made_result({10, 20, 40});
