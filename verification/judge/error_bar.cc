@@ -167,9 +167,9 @@ namespace meltfront::verification
       constants.temperature = {1, 1, true};
       if(has_plane_fronts(run))
       {
-        constants.front = constants.volume = {2, 1.5, true};
+        constants.front = constants.volume = {1.5, 1.5, true};
         constants.heat = {1.5, 1.25, true};
-        constants.temperature = {1.5, 1, true};
+        constants.temperature = {1.5, 1.25, true};
       }
       return constants;
     }

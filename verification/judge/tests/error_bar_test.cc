@@ -238,7 +238,8 @@ TEST(ErrorBar, TrustsWhatTheFrontsOfARunAre)
   run.description.parameters.push_back(
       {"exchange at fronts", "front as a line or a plane through the particles about it",
        ""});
-  EXPECT_EQ(bar_constants(run).front.order, 2);
-  run.description.dimension = 1;
   EXPECT_EQ(bar_constants(run).front.order, 1.5);
+  EXPECT_EQ(bar_constants(run).heat.factor, 1.25);
+  run.description.dimension = 1;
+  EXPECT_EQ(bar_constants(run).heat.factor, 2);
 }
