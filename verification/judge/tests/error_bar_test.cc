@@ -210,7 +210,7 @@ TEST(ErrorBar, KnowsTheSchemeOfARun)
   EXPECT_EQ(bar_constants(run).front.order, 1.5);
   run.description.dimension = 2;
   EXPECT_EQ(bar_constants(run).order_in_time, 1);
-  EXPECT_EQ(bar_constants(run).front.order, 2);
+  EXPECT_EQ(bar_constants(run).front.factor, 1.5);
   run.method = "a method of tomorrow";
   EXPECT_EQ(bar_constants(run).front.factor, 2.5);
 }
