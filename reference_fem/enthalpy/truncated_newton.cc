@@ -101,6 +101,11 @@ namespace meltfront::reference_fem
           return (u > 0) == (recovered > 0) && (u < 0) == (recovered < 0);
       }
 
+      bool has_coarser_meshes() const
+      {
+        return n_levels(problem.levels) > 1;
+      }
+
       /** Of the heat that walls take over a step, by Kirchhoff's variable. */
       double exchange_slope(std::size_t i, double c, double u) const
       {

@@ -93,8 +93,8 @@ namespace meltfront::reference_fem
       solid_fraction[i] = scene.material.solid_fraction(specific);
     }
     const Traffic of_steps = traffic;
-    ghosts->update(temperature);
-    ghosts->update(solid_fraction);
+    levels.front().exchange(temperature, traffic);
+    levels.front().exchange(solid_fraction, traffic);
     site_temperature.resize(n_sites);
     site_solid_fraction.resize(n_sites);
     for(std::size_t site = 0; site < n_sites; ++site)
