@@ -19,6 +19,10 @@ namespace meltfront::reference_fem
     {
     }
 
+    void update(std::vector<double> &) const
+    {
+    }
+
     bool anywhere(bool here) const
     {
       return here;
@@ -82,6 +86,7 @@ namespace meltfront::reference_fem
       // A front within a cell or two of its place gets there by itself, and exactly.
       constexpr int by_itself = 2;
       StepOutcome outcome;
+      direction.resize(u.size());
       processes.update(u);
       for(;; ++outcome.iterations)
       {

@@ -1,6 +1,7 @@
 #ifndef meltfront_reference_fem_enthalpy_distributed_rank_correction_h
 #define meltfront_reference_fem_enthalpy_distributed_rank_correction_h
 
+#include <reference_fem/enthalpy/coarse_correction.h>
 #include <reference_fem/enthalpy/distributed/rank_level.h>
 #include <reference_fem/enthalpy/distributed/shared_search.h>
 
@@ -19,7 +20,7 @@ namespace meltfront::reference_fem
    * On coarse levels heats are over c, the factor of the step.
    */
   template <class Graph>
-  class RankCorrection
+  class RankCorrection : public FrontMover
   {
   public:
     RankCorrection(const std::vector<RankLevel> &levels,
@@ -41,15 +42,10 @@ namespace meltfront::reference_fem
         restrict_to(l, l == 1 ? states[0].work : states[l - 1].volume, states[l].volume);
     }
 
-    /**
-     * @param on_graph by own node: the heat V H that lies on the graph at u (J)
-     * @param heat by own node: that which the balance asks for (J)
-     * @param transfer by own node, to the surroundings (W/K); null: none
-     * @param correction P (v - u_c) at the own nodes
-     */
-    void correct(double c, const std::vector<double> &on_graph,
+    /** Of the own nodes. */
+    void correct(double c, const std::vector<char> &, const std::vector<double> &on_graph,
                  const std::vector<double> &heat, const std::vector<double> *transfer,
-                 std::vector<double> &correction)
+                 std::vector<double> &correction) override
     {
       factor = c;
       State &finest = states.front();
@@ -64,7 +60,7 @@ namespace meltfront::reference_fem
       take(on_graph, finest.work);
       take(heat, finest.heat);
       solve_below(0, finest.work, finest.heat, 1 / c);
-      interpolate(0, correction);
+      interpolate(0, [&](std::size_t i, double change) { correction[i] += change; });
     }
 
   private:
@@ -94,13 +90,14 @@ namespace meltfront::reference_fem
                                     { result[i] = levels[l].free[i] ? sum : 0; });
     }
 
-    /** result = P (v - u_c), from the level below l. */
-    void interpolate(std::size_t l, std::vector<double> &result)
+    /** use(i, P (v - u_c)_i), from the level below l. */
+    template <typename Use>
+    void interpolate(std::size_t l, const Use &use)
     {
       exchange(l + 1, states[l + 1].start);
       levels[l + 1].to_finer.multiply(states[l + 1].start.data(),
                                       [&](std::size_t i, double sum)
-                                      { result[i] = levels[l].free[i] ? sum : 0; });
+                                      { use(i, levels[l].free[i] ? sum : 0); });
     }
 
     /** use(i, -(K u)_i) of a level; ghosts are up to date. */
@@ -193,7 +190,7 @@ namespace meltfront::reference_fem
                                     : 0;
              });
       solve_below(l, state.work, state.heat, 1);
-      interpolate(l, state.work);
+      interpolate(l, [&](std::size_t i, double change) { state.work[i] = change; });
       const double length = search(l);
       for(std::size_t i = 0; i < levels[l].n_own(); ++i)
         state.u[i] += length * state.work[i];

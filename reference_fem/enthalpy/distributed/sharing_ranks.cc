@@ -2,19 +2,20 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace meltfront::reference_fem
 {
-  SharingRanks::SharingRanks(const RankLevel &finest, const ConductionMatrix &conduction,
-                             Traffic &traffic)
-    : level(finest)
+  SharingRanks::SharingRanks(const std::vector<RankLevel> &levels,
+                             const ConductionMatrix &conduction, Traffic &traffic)
+    : levels(levels)
     , traffic(traffic)
-    , beside(finest.n_with_ghosts() - finest.n_own())
-    , marks(finest.n_with_ghosts())
+    , beside(levels.front().n_with_ghosts() - levels.front().n_own())
+    , marks(levels.front().n_with_ghosts())
   {
-    const auto n_own = static_cast<unsigned int>(finest.n_own());
+    const auto n_own = static_cast<unsigned int>(levels.front().n_own());
     for(unsigned int i = 0; i < n_own; ++i)
       for(std::size_t k = conduction.row_start[i]; k < conduction.row_start[i + 1]; ++k)
         if(const unsigned int j = conduction.column[k]; j >= n_own)
@@ -28,7 +29,7 @@ namespace meltfront::reference_fem
   bool SharingRanks::anywhere(bool here) const
   {
     ++traffic.reductions;
-    return dealii::Utilities::MPI::max(here ? 1 : 0, level.communicator) > 0;
+    return dealii::Utilities::MPI::max(here ? 1 : 0, levels.front().communicator) > 0;
   }
 
   void SharingRanks::agree(double &distance, double &largest, bool &settled) const
@@ -37,20 +38,22 @@ namespace meltfront::reference_fem
         std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance,
         largest, settled ? 0. : 1.};
     const dealii::ArrayView<double> view(most.data(), most.size());
-    dealii::Utilities::MPI::max(dealii::ArrayView<const double>(view), level.communicator,
-                                view);
+    dealii::Utilities::MPI::max(dealii::ArrayView<const double>(view),
+                                levels.front().communicator, view);
     ++traffic.reductions;
     distance = most[0];
     largest = most[1];
     settled = most[2] == 0;
   }
 
-  std::array<double, 2> SharingRanks::sum(std::array<double, 2> own) const
+  void SharingRanks::add_up(double &one, double &other) const
   {
-    const dealii::ArrayView<double> view(own.data(), own.size());
-    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(view), level.communicator,
-                                view);
+    std::array<double, 2> sums{one, other};
+    const dealii::ArrayView<double> view(sums.data(), sums.size());
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(view),
+                                levels.front().communicator, view);
     ++traffic.reductions;
-    return own;
+    one = sums[0];
+    other = sums[1];
   }
 } // namespace meltfront::reference_fem

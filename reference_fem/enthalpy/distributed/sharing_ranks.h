@@ -3,25 +3,26 @@
 
 #include <reference_fem/enthalpy/compensated_vector.h>
 #include <reference_fem/enthalpy/conduction_matrix.h>
-#include <reference_fem/enthalpy/distributed/rank_level.h>
+#include <reference_fem/enthalpy/distributed/rank_correction.h>
 
-#include <array>
+#include <memory>
 #include <vector>
 
 namespace meltfront::reference_fem
 {
-  /** What StepNewton asks of the processes that share a mesh: ghosts brought up to date,
-   * and sums and maxima over all ranks, so that all ranks decide alike. */
+  /** What StepNewton and TruncatedNewton ask of the processes that share a mesh: ghosts
+   * brought up to date, and sums and maxima over all ranks, so that all ranks decide
+   * alike. */
   class SharingRanks
   {
   public:
     /** @param conduction of the finest mesh, ghosts in its columns */
-    SharingRanks(const RankLevel &finest, const ConductionMatrix &conduction,
+    SharingRanks(const std::vector<RankLevel> &levels, const ConductionMatrix &conduction,
                  Traffic &traffic);
 
     void update(std::vector<double> &values) const
     {
-      level.exchange(values, traffic);
+      levels.front().exchange(values, traffic);
     }
 
     void update(CompensatedVector &values) const
@@ -35,14 +36,32 @@ namespace meltfront::reference_fem
     /** A distance that is not a number on one rank is infinite on all. */
     void agree(double &distance, double &largest, bool &settled) const;
 
-    std::array<double, 2> sum(std::array<double, 2> own) const;
+    void add_up(double &one, double &other) const;
+
+    double lowest(KinkedDerivative &own) const
+    {
+      return lowest_of_all(own, levels.front().communicator, traffic);
+    }
+
+    bool has_coarser_meshes(const StepProblem &) const
+    {
+      return levels.size() > 1;
+    }
+
+    template <class Graph>
+    std::unique_ptr<FrontMover> front_mover(const StepProblem &problem,
+                                            const Graph &graph) const
+    {
+      return std::make_unique<RankCorrection<Graph>>(levels, problem.volume, graph,
+                                                     traffic);
+    }
 
     /** See StepNewton. */
     template <typename Visit>
     void update_marks(std::vector<char> &marked, const Visit &mark_around);
 
   private:
-    const RankLevel &level;
+    const std::vector<RankLevel> &levels;
     Traffic &traffic;
     std::vector<unsigned int> border;              ///< own nodes beside ghosts
     std::vector<std::vector<unsigned int>> beside; ///< of each ghost, own nodes
@@ -56,7 +75,7 @@ namespace meltfront::reference_fem
       marks[i] = marked[i];
     update(marks);
     for(std::size_t ghost = 0; ghost < beside.size(); ++ghost)
-      if(const std::size_t i = level.n_own() + ghost; marks[i] > 0 && !marked[i])
+      if(const std::size_t i = levels.front().n_own() + ghost; marks[i] > 0 && !marked[i])
       {
         marked[i] = 1;
         for(const unsigned int neighbour : beside[ghost])

@@ -257,3 +257,10 @@ namespace meltfront::reference_fem::tests
     }
   }
 } // namespace meltfront::reference_fem::tests
+
+int main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
