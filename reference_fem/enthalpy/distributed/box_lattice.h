@@ -72,8 +72,8 @@ namespace meltfront::reference_fem
       return node[direction] == cells[direction];
     }
 
-    /** The share of a cell that is nearest to a node on each of whose sides there may be
-     * one: halved for every side that the node is on, but those of one direction. */
+    /** The part of a cell's volume, area or length that goes with a node: half of it for
+     * every side of the box that the node is on, sides across one direction left out. */
     double share_of_cell(const Place &node, int without = -1) const
     {
       double share = 1;

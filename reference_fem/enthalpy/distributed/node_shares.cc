@@ -3,6 +3,7 @@
 #include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_generator.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -12,7 +13,7 @@ namespace meltfront::reference_fem
   {
     using NodeNumber = dealii::types::global_dof_index;
 
-    /** How often the cells of blocks are joined by 2 a side. */
+    /** The blocks of cells that are shared out as a whole. */
     struct Blocks
     {
       /** Ranks differ by a block: by one in a hundred, where there are cells enough. */

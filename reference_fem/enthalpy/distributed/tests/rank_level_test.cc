@@ -81,7 +81,7 @@ namespace meltfront::reference_fem::tests
       }
   }
 
-  // As many cells as the smallest has, and one block of two hundred more.
+  // Ranks differ by a block of a hundred or more, and by a side's nodes.
   TEST(RankLevel, SharesAreEven)
   {
     const auto n_ranks
