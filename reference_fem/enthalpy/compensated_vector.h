@@ -3,6 +3,7 @@
 
 #include <cases/compensated_sum.h>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -42,17 +43,10 @@ namespace meltfront::reference_fem
       remainder[i] = 0;
     }
 
-    /** What the rounded value leaves. */
-    double remainder_of(std::size_t i) const
+    /** The rounded values and what they leave, which processes exchange. */
+    std::array<std::vector<double> *, 2> parts()
     {
-      return remainder[i];
-    }
-
-    /** Set both parts: a value that another process holds. */
-    void set(std::size_t i, double rounded, double rest)
-    {
-      leading[i] = rounded;
-      remainder[i] = rest;
+      return {&leading, &remainder};
     }
 
     /** Add with the rounding error kept (Knuth 1969, TwoSum). */

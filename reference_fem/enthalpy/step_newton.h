@@ -6,10 +6,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace meltfront::reference_fem
 {
+  /** What is to be done between the parts of a mesh that several processes share: nothing
+   * where one has all of it. */
+  struct OneProcess
+  {
+    void update(CompensatedVector &) const
+    {
+    }
+
+    void update(std::vector<double> &) const
+    {
+    }
+
+    bool anywhere(bool here) const
+    {
+      return here;
+    }
+
+    void agree(double &, double &, bool &) const
+    {
+    }
+
+    template <typename Visit>
+    void update_marks(std::vector<char> &, const Visit &) const
+    {
+    }
+  };
+
   /**
    * What truncated Newton methods have in common whatever the graph: the outer iteration,
    * the sweeps, and how far a state is off the graph.
@@ -19,20 +47,30 @@ namespace meltfront::reference_fem
    * `excess_at_enthalpy(i, H)`, the same by a node's enthalpy per volume (J/m^3);
    * `latent_temperature()`, L/c (K); `same_side(i, u, t)`, whether an unknown is in the
    * region of its graph that a temperature excess tells; `moves_fronts`, whether there
-   * are `correct_coarsely(c, u, heat)`, `add_slope_of_jump(u, heat)` and
-   * `descend_over_jumps(c, u, heat)`, which move fronts far; `relax(i, c, rhs,
+   * are `has_coarser_meshes()`, `correct_coarsely(c, u, heat)`, `add_slope_of_jump(u,
+   * heat)` and `descend_over_jumps(c, u, heat)`, which move fronts far; `relax(i, c, rhs,
    * u)`, which solves one node's inclusion and tells whether it moved to another region;
    * `linearise(c, u, heat)`, which fills heat_capacity, active and residual and returns
    * the heat that changes a typical active node by one kelvin (J); `descend(c, u, heat)`,
    * which goes along the direction.
+   *
+   * Where processes share the mesh, the problem's nodes are this one's own; u has ghosts
+   * after them, nodes of others, which stand still in half a sweep.
+   * @tparam Processes `update(u)` brings the ghosts up to date; `anywhere(here)`, whether
+   * something holds on any process; `agree(distance, largest, settled)` takes the two
+   * numbers' maxima and whether all are settled; `update_marks(marked, mark_around)`
+   * brings marks of the ghosts up to date and calls mark_around(neighbour) of the own
+   * neighbours of those newly marked
    */
-  template <class Solver>
+  template <class Solver, class Processes = OneProcess>
   class StepNewton
   {
   protected:
-    StepNewton(const StepProblem &problem, LinearSolver &linear_solver)
+    StepNewton(const StepProblem &problem, LinearSolver &linear_solver,
+               Processes processes = {})
       : problem(problem)
       , linear_solver(linear_solver)
+      , processes(std::move(processes))
       , active(problem.free)
       , heat_capacity(problem.free.size())
       , residual(problem.free.size())
@@ -48,6 +86,8 @@ namespace meltfront::reference_fem
       // A front within a cell or two of its place gets there by itself, and exactly.
       constexpr int by_itself = 2;
       StepOutcome outcome;
+      direction.resize(u.size());
+      processes.update(u);
       for(;; ++outcome.iterations)
       {
         if constexpr(Solver::exchanges)
@@ -67,7 +107,7 @@ namespace meltfront::reference_fem
             const cases::ScopedTimer timer(cost.seconds);
             move_nodes(c, rhs, u, heat);
             if constexpr(Solver::moves_fronts)
-              if(n_levels(problem.levels) > 1 && outcome.iterations >= by_itself)
+              if(solver().has_coarser_meshes() && outcome.iterations >= by_itself)
               {
                 solver().correct_coarsely(c, u, heat);
                 recover_heat(c, rhs, u, heat);
@@ -99,8 +139,14 @@ namespace meltfront::reference_fem
       return outcome;
     }
 
+    std::size_t n_own() const
+    {
+      return problem.free.size();
+    }
+
     StepProblem problem;
     LinearSolver &linear_solver;
+    Processes processes;
     std::vector<char> active;
     std::vector<double> heat_capacity, residual, direction;
     double scale = 0; ///< largest |T - T_m| of the steps solved so far
@@ -131,7 +177,7 @@ namespace meltfront::reference_fem
     void recover_heat(double c, const std::vector<double> &rhs,
                       const CompensatedVector &u, std::vector<double> &heat)
     {
-      for(std::size_t i = 0; i < u.size(); ++i)
+      for(std::size_t i = 0; i < n_own(); ++i)
         recover_heat_of(i, c, rhs, u, heat);
       if constexpr(Solver::exchanges)
         problem.exchange->visit([&](std::size_t i) { exchange_heat_of(i, c, u, heat); });
@@ -153,11 +199,11 @@ namespace meltfront::reference_fem
                     - problem.exchange->transfer[i] * solver().excess(u[i]));
     }
 
-    Consistency compare(const CompensatedVector &u, const std::vector<double> &heat) const
+    Consistency compare(const CompensatedVector &u, const std::vector<double> &heat)
     {
       double distance = 0, largest = 0;
       bool settled = true;
-      for(std::size_t i = 0; i < u.size(); ++i)
+      for(std::size_t i = 0; i < n_own(); ++i)
       {
         const double excess = solver().excess(u[i]);
         largest = std::max(largest, std::abs(excess));
@@ -170,6 +216,7 @@ namespace meltfront::reference_fem
           distance = off;
         settled = settled && solver().same_side(i, u[i], recovered);
       }
+      processes.agree(distance, largest, settled);
       largest
           = std::max({largest, scale, round_off_share * solver().latent_temperature()});
       return {largest > 0 ? distance / largest : distance, largest, settled};
@@ -184,7 +231,7 @@ namespace meltfront::reference_fem
       if constexpr(Solver::moves_fronts)
       {
         const std::size_t swept = find_nodes_at_fronts(u, heat);
-        sweep_while_moving(swept, [&](std::size_t k) { return relax(at_fronts[k]); });
+        sweep_while_moving(u, swept, [&](std::size_t k) { return relax(at_fronts[k]); });
         for(const unsigned int i : at_fronts)
           recover_heat_of(i, c, rhs, u, heat);
         if constexpr(Solver::exchanges)
@@ -197,7 +244,7 @@ namespace meltfront::reference_fem
       }
       else
       {
-        sweep_while_moving(u.size(), relax);
+        sweep_while_moving(u, n_own(), relax);
         recover_heat(c, rhs, u, heat);
       }
     }
@@ -224,7 +271,7 @@ namespace meltfront::reference_fem
       };
       near_front.assign(u.size(), 0);
       at_fronts.clear();
-      for(std::size_t i = 0; i < u.size(); ++i)
+      for(std::size_t i = 0; i < n_own(); ++i)
         if(neighbours_elsewhere(i)
            || (problem.free[i]
                && !solver().same_side(
@@ -233,20 +280,25 @@ namespace meltfront::reference_fem
           near_front[i] = 1;
           at_fronts.push_back(static_cast<unsigned int>(i));
         }
+      const auto mark = [&](unsigned int i)
+      {
+        if(i < n_own() && !near_front[i])
+        {
+          near_front[i] = 1;
+          at_fronts.push_back(i);
+        }
+      };
       std::size_t first = 0, swept = 0;
       for(int layer = 0; layer <= layers; ++layer)
       {
         swept = at_fronts.size();
+        processes.update_marks(near_front, mark);
         for(; first < swept; ++first)
         {
           const std::size_t i = at_fronts[first];
           for(std::size_t k = conduction.row_start[i]; k < conduction.row_start[i + 1];
               ++k)
-            if(const unsigned int j = conduction.column[k]; !near_front[j])
-            {
-              near_front[j] = 1;
-              at_fronts.push_back(j);
-            }
+            mark(conduction.column[k]);
         }
       }
       std::sort(at_fronts.begin(),
@@ -257,7 +309,7 @@ namespace meltfront::reference_fem
     /** Symmetric sweeps of nonlinear Gauss-Seidel, there and back.
      * @param relax of the k-th node; true if it moved to another region */
     template <typename Relax>
-    void sweep_while_moving(std::size_t nodes, const Relax &relax)
+    void sweep_while_moving(CompensatedVector &u, std::size_t nodes, const Relax &relax)
     {
       constexpr int most_sweeps = 4;
       bool moved = true;
@@ -266,8 +318,11 @@ namespace meltfront::reference_fem
         moved = false;
         for(std::size_t k = 0; k < nodes; ++k)
           moved |= relax(k);
+        processes.update(u);
         for(std::size_t k = nodes; k-- > 0;)
           moved |= relax(k);
+        processes.update(u);
+        moved = processes.anywhere(moved);
         entries_touched += static_cast<long>(2 * nodes * problem.conduction.entries()
                                              / problem.conduction.size());
         ++cost.sweeps;

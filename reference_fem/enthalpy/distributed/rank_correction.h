@@ -1,7 +1,8 @@
 #ifndef meltfront_reference_fem_enthalpy_distributed_rank_correction_h
 #define meltfront_reference_fem_enthalpy_distributed_rank_correction_h
 
-#include <reference_fem/enthalpy/distributed/rank_solver.h>
+#include <reference_fem/enthalpy/coarse_correction.h>
+#include <reference_fem/enthalpy/distributed/rank_level.h>
 #include <reference_fem/enthalpy/distributed/shared_search.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace meltfront::reference_fem
    * On coarse levels heats are over c, the factor of the step.
    */
   template <class Graph>
-  class RankCorrection
+  class RankCorrection : public FrontMover
   {
   public:
     RankCorrection(const std::vector<RankLevel> &levels,
@@ -31,26 +32,20 @@ namespace meltfront::reference_fem
       , states(levels.size())
     {
       for(std::size_t l = 0; l < levels.size(); ++l)
-        for(RankVector *field :
+        for(std::vector<double> *field :
             {&states[l].volume, &states[l].transfer, &states[l].u, &states[l].start,
              &states[l].right_side, &states[l].heat, &states[l].work})
-          if(l > 0 || field == &states[l].volume || field == &states[l].heat
-             || field == &states[l].work)
-            field->reinit(levels[l].nodes);
-      take(volume, states[0].volume);
+          if(l > 0 || field == &states[l].heat || field == &states[l].work)
+            field->resize(levels[l].n_with_ghosts());
+      take(volume, states[0].work);
       for(std::size_t l = 1; l < levels.size(); ++l)
-        restrict_to(l, states[l - 1].volume, states[l].volume);
+        restrict_to(l, l == 1 ? states[0].work : states[l - 1].volume, states[l].volume);
     }
 
-    /**
-     * @param on_graph by own node: the heat V H that lies on the graph at u (J)
-     * @param heat by own node: that which the balance asks for (J)
-     * @param transfer by own node, to the surroundings (W/K); null: none
-     * @param correction P (v - u_c) at the own nodes
-     */
-    void correct(double c, const std::vector<double> &on_graph,
+    /** Of the own nodes. */
+    void correct(double c, const std::vector<char> &, const std::vector<double> &on_graph,
                  const std::vector<double> &heat, const std::vector<double> *transfer,
-                 std::vector<double> &correction)
+                 std::vector<double> &correction) override
     {
       factor = c;
       State &finest = states.front();
@@ -65,121 +60,95 @@ namespace meltfront::reference_fem
       take(on_graph, finest.work);
       take(heat, finest.heat);
       solve_below(0, finest.work, finest.heat, 1 / c);
-      interpolate(0, finest.work);
-      for(unsigned int i = 0; i < levels.front().n_own(); ++i)
-        correction[i] = finest.work.local_element(i);
+      interpolate(0, [&](std::size_t i, double change) { correction[i] += change; });
     }
 
   private:
     struct State
     {
-      RankVector volume, transfer, u, start, right_side, heat, work;
+      std::vector<double> volume, transfer, u, start, right_side, heat, work;
     };
 
     /** To own nodes that are free; zero at the others. */
-    void take(const std::vector<double> &values, RankVector &result) const
+    void take(const std::vector<double> &values, std::vector<double> &result) const
     {
-      for(unsigned int i = 0; i < levels.front().n_own(); ++i)
-        result.local_element(i) = levels.front().free[i] ? values[i] : 0;
+      for(std::size_t i = 0; i < levels.front().n_own(); ++i)
+        result[i] = levels.front().free[i] ? values[i] : 0;
     }
 
-    void mask(std::size_t l, RankVector &values) const
+    void exchange(std::size_t l, std::vector<double> &values)
     {
-      for(unsigned int i = 0; i < levels[l].n_own(); ++i)
-        if(!levels[l].free[i])
-          values.local_element(i) = 0;
-    }
-
-    void count_transfer(std::size_t finer)
-    {
-      traffic.exchanges += 2;
-      traffic.sent += levels[finer].nodes->n_import_indices()
-                      + levels[finer + 1].nodes->n_import_indices();
+      levels[l].exchange(values, traffic);
     }
 
     /** result = P' values, to level l. */
-    void restrict_to(std::size_t l, const RankVector &values, RankVector &result)
+    void restrict_to(std::size_t l, std::vector<double> &values,
+                     std::vector<double> &result)
     {
-      result = 0;
-      levels[l - 1].coarser->restrict_to(values, result);
-      mask(l, result);
-      count_transfer(l - 1);
+      exchange(l - 1, values);
+      levels[l].from_finer.multiply(values.data(), [&](std::size_t i, double sum)
+                                    { result[i] = levels[l].free[i] ? sum : 0; });
     }
 
-    /** result = P (v - u_c), from the level below l. */
-    void interpolate(std::size_t l, RankVector &result)
+    /** use(i, P (v - u_c)_i), from the level below l. */
+    template <typename Use>
+    void interpolate(std::size_t l, const Use &use)
     {
-      result = 0;
-      levels[l].coarser->interpolate(states[l + 1].start, result);
-      mask(l, result);
-      count_transfer(l);
+      exchange(l + 1, states[l + 1].start);
+      levels[l + 1].to_finer.multiply(states[l + 1].start.data(),
+                                      [&](std::size_t i, double sum)
+                                      { use(i, levels[l].free[i] ? sum : 0); });
     }
 
-    void exchange(std::size_t l, const RankVector &values)
+    /** use(i, -(K u)_i) of a level; ghosts are up to date. */
+    template <typename Use>
+    void inflow(std::size_t l, const std::vector<double> &u, const Use &use) const
     {
-      values.update_ghost_values();
-      ++traffic.exchanges;
-      traffic.sent += levels[l].nodes->n_import_indices();
-    }
-
-    /** -(K u)_i on a level; ghosts are up to date. */
-    double inflow(std::size_t l, std::size_t i, const double *u) const
-    {
-      const ConductionMatrix &k = levels[l].conduction;
-      double sum = 0;
-      for(std::size_t e = k.row_start[i]; e < k.row_start[i + 1]; ++e)
-        sum += k.conductance[e] * (u[k.column[e]] - u[i]);
-      return sum;
+      const ConductionRuns &conduction = levels[l].conduction;
+      conduction.multiply(u.data(), [&](std::size_t i, double sum)
+                          { use(i, sum - conduction.diagonal[i] * u[i]); });
     }
 
     /** Leaves v - u_c of the next coarser level in its `start`. */
-    void solve_below(std::size_t l, const RankVector &on_graph, const RankVector &heat,
-                     double scale)
+    void solve_below(std::size_t l, std::vector<double> &on_graph,
+                     std::vector<double> &heat, double scale)
     {
       State &below = states[l + 1];
       restrict_to(l + 1, on_graph, below.start);
       restrict_to(l + 1, heat, below.right_side);
-      const auto n = static_cast<unsigned int>(levels[l + 1].n_own());
-      for(unsigned int i = 0; i < n; ++i)
-        below.u.local_element(i)
-            = levels[l + 1].free[i]
-                  ? graph.kirchhoff(graph.temperature_excess_at_enthalpy(
-                      factor * scale * below.start.local_element(i)
-                      / below.volume.local_element(i)))
-                  : 0;
+      const std::size_t n = levels[l + 1].n_own();
+      for(std::size_t i = 0; i < n; ++i)
+        below.u[i] = levels[l + 1].free[i]
+                         ? graph.kirchhoff(graph.temperature_excess_at_enthalpy(
+                             factor * scale * below.start[i] / below.volume[i]))
+                         : 0;
       exchange(l + 1, below.u);
-      for(unsigned int i = 0; i < n; ++i)
-      {
-        const double u = below.u.local_element(i);
-        below.right_side.local_element(i)
-            = scale * below.right_side.local_element(i)
-              - inflow(l + 1, i, below.u.begin())
-              + below.transfer.local_element(i) * graph.temperature_excess(u);
-        below.start.local_element(i) = u;
-      }
+      inflow(l + 1, below.u,
+             [&](std::size_t i, double inflow_of)
+             {
+               below.right_side[i]
+                   = scale * below.right_side[i] - inflow_of
+                     + below.transfer[i] * graph.temperature_excess(below.u[i]);
+             });
+      std::copy_n(below.u.begin(), n, below.start.begin());
       solve_level(l + 1);
-      for(unsigned int i = 0; i < n; ++i)
-        below.start.local_element(i)
-            = below.u.local_element(i) - below.start.local_element(i);
+      for(std::size_t i = 0; i < n; ++i)
+        below.start[i] = below.u[i] - below.start[i];
     }
 
     void sweep(std::size_t l, bool forward)
     {
       State &state = states[l];
-      const ConductionMatrix &k = levels[l].conduction;
-      const std::size_t n = levels[l].n_own();
-      double *u = state.u.begin();
-      for(std::size_t step = 0; step < n; ++step)
-      {
-        const std::size_t i = forward ? step : n - 1 - step;
-        if(!levels[l].free[i])
-          continue;
-        double heat = state.right_side.begin()[i];
-        for(std::size_t e = k.row_start[i]; e < k.row_start[i + 1]; ++e)
-          heat += k.conductance[e] * u[k.column[e]];
-        u[i] = graph.resolve(heat, state.volume.begin()[i] / factor, k.diagonal[i],
-                             state.transfer.begin()[i]);
-      }
+      const ConductionRuns &conduction = levels[l].conduction;
+      conduction.sweep(forward, state.right_side.data(), state.u.data(),
+                       [&](std::size_t i, double heat)
+                       {
+                         return levels[l].free[i]
+                                    ? graph.resolve(heat, state.volume[i] / factor,
+                                                    conduction.diagonal[i],
+                                                    state.transfer[i])
+                                    : 0;
+                       });
       exchange(l, state.u);
     }
 
@@ -208,24 +177,23 @@ namespace meltfront::reference_fem
     void correct_level(std::size_t l)
     {
       State &state = states[l];
-      const auto n = static_cast<unsigned int>(levels[l].n_own());
-      for(unsigned int i = 0; i < n; ++i)
-      {
-        const double u = state.u.local_element(i);
-        const double heat
-            = state.right_side.local_element(i) + inflow(l, i, state.u.begin())
-              - state.transfer.local_element(i) * graph.temperature_excess(u);
-        state.heat.local_element(i) = levels[l].free[i] ? heat : 0;
-        state.work.local_element(i)
-            = levels[l].free[i]
-                  ? graph.heat_on_graph(u, state.volume.local_element(i) / factor, heat)
-                  : 0;
-      }
+      inflow(l, state.u,
+             [&](std::size_t i, double inflow_of)
+             {
+               const double heat
+                   = state.right_side[i] + inflow_of
+                     - state.transfer[i] * graph.temperature_excess(state.u[i]);
+               const bool free = levels[l].free[i];
+               state.heat[i] = free ? heat : 0;
+               state.work[i] = free ? graph.heat_on_graph(state.u[i],
+                                                          state.volume[i] / factor, heat)
+                                    : 0;
+             });
       solve_below(l, state.work, state.heat, 1);
-      interpolate(l, state.work);
+      interpolate(l, [&](std::size_t i, double change) { state.work[i] = change; });
       const double length = search(l);
-      for(unsigned int i = 0; i < n; ++i)
-        state.u.local_element(i) += length * state.work.local_element(i);
+      for(std::size_t i = 0; i < levels[l].n_own(); ++i)
+        state.u[i] += length * state.work[i];
       exchange(l, state.u);
     }
 
@@ -235,13 +203,15 @@ namespace meltfront::reference_fem
       State &state = states[l];
       exchange(l, state.work);
       KinkedDerivative derivative;
-      for(unsigned int i = 0; i < levels[l].n_own(); ++i)
-        if(levels[l].free[i])
-          derivative.add_node(
-              graph, state.u.local_element(i), state.work.local_element(i),
-              state.volume.local_element(i) / factor, state.transfer.local_element(i),
-              state.heat.local_element(i), -inflow(l, i, state.work.begin()));
-      return lowest_of_all(derivative, levels[l].communicator(), traffic);
+      inflow(l, state.work,
+             [&](std::size_t i, double inflow_of)
+             {
+               if(levels[l].free[i])
+                 derivative.add_node(graph, state.u[i], state.work[i],
+                                     state.volume[i] / factor, state.transfer[i],
+                                     state.heat[i], -inflow_of);
+             });
+      return lowest_of_all(derivative, levels[l].communicator, traffic);
     }
 
     const std::vector<RankLevel> &levels;

@@ -39,7 +39,7 @@ namespace meltfront::reference_fem
   {
     // As measured in the plane on one and two ranks, setting up and whole snapshots
     // included; in space by the ratio that the serial engine has.
-    constexpr double program_of_rank = 1.7e8, in_plane = 1350, in_space = 2100;
+    constexpr double program_of_rank = 1.7e8, in_plane = 1150, in_space = 1800;
     return ranks * program_of_rank + nodes * (dimension > 2 ? in_space : in_plane);
   }
 
@@ -93,8 +93,8 @@ namespace meltfront::reference_fem
       solid_fraction[i] = scene.material.solid_fraction(specific);
     }
     const Traffic of_steps = traffic;
-    ghosts->update(temperature);
-    ghosts->update(solid_fraction);
+    levels.front().exchange(temperature, traffic);
+    levels.front().exchange(solid_fraction, traffic);
     site_temperature.resize(n_sites);
     site_solid_fraction.resize(n_sites);
     for(std::size_t site = 0; site < n_sites; ++site)

@@ -1,6 +1,7 @@
 #include <reference_fem/enthalpy/distributed/mpi_start.h>
 #include <reference_fem/enthalpy/distributed/rank_newton.h>
 #include <reference_fem/enthalpy/distributed/rank_run.h>
+#include <reference_fem/enthalpy/distributed/rank_solver.h>
 #include <reference_fem/enthalpy/initial_state.h>
 #include <reference_fem/enthalpy/sum_over.h>
 
@@ -47,19 +48,14 @@ namespace meltfront::reference_fem
       throw cases::Refusal("fem-enthalpy has one preconditioner on several ranks: leave "
                            "the option preconditioner at automatic");
     start_mpi_alone();
-    const std::unique_ptr<RankMesh> geometry
-        = make_rank_mesh(scene, resolution.n, communicator);
+    levels = make_rank_levels(scene, resolution.n, communicator);
+    const RankLevel &finest = levels.front();
+    const std::unique_ptr<Mesh> geometry = make_rank_mesh(scene, finest);
     mesh = geometry->discretise();
-    for(std::size_t site = 0; site < mesh.node_of_site.size(); ++site)
-    {
-      cases::Position place{};
-      for(int d = 0; d < mesh.dimension; ++d)
-        place[d] = mesh.site_positions[d][site];
-      site_numbers.push_back(geometry->number_at(place));
-    }
-    n_nodes = geometry->n_nodes();
-    levels = geometry->take_levels();
-    free = levels.front().free;
+    for(const unsigned int node : mesh.node_of_site)
+      site_numbers.push_back(finest.number(node));
+    n_nodes = finest.lattice.n_nodes();
+    free = finest.free;
     n_free = static_cast<std::uint64_t>(
         sum_of_ranks(static_cast<double>(std::ranges::count(free, 1))));
     using cases::Effect;
@@ -78,11 +74,11 @@ namespace meltfront::reference_fem
     linear_solver = linear.get();
     solver = make_rank_newton(problem(), levels, scene.material, effects,
                               std::move(linear), traffic);
-    ghosts.emplace(levels.front(), traffic);
-    u = CompensatedVector(levels.front().n_with_ghosts());
+    u = CompensatedVector(finest.n_with_ghosts());
     for(std::size_t i = 0; i < enthalpy.size(); ++i)
       u.set(i, solver->kirchhoff_at_enthalpy(i, enthalpy[i]));
-    ghosts->update(u);
+    for(std::vector<double> *part : u.parts())
+      finest.exchange(*part, traffic);
     rhs.resize(enthalpy.size());
     heat.resize(enthalpy.size());
     initial_heat = total([this](std::size_t i) { return enthalpy[i]; });
@@ -90,8 +86,7 @@ namespace meltfront::reference_fem
 
   StepProblem RankRun::problem()
   {
-    return {levels.front().conduction, mesh.volume, free, exchange ? &*exchange : nullptr,
-            nullptr};
+    return {mesh.conduction, mesh.volume, free, exchange ? &*exchange : nullptr, nullptr};
   }
 
   double RankRun::sum_of_ranks(double own) const

@@ -6,8 +6,6 @@
 #include <cases/shared_run.h>
 #include <reference_fem/enthalpy/compensated_vector.h>
 #include <reference_fem/enthalpy/distributed/box_hierarchy.h>
-#include <reference_fem/enthalpy/distributed/ghosts.h>
-#include <reference_fem/enthalpy/distributed/rank_solver.h>
 #include <reference_fem/enthalpy/heat_sources.h>
 #include <reference_fem/enthalpy/options.h>
 #include <reference_fem/enthalpy/run.h>
@@ -129,7 +127,6 @@ namespace meltfront::reference_fem
     std::uint64_t n_nodes = 0, n_free = 0; ///< of all ranks
     mutable Traffic traffic;
     std::vector<RankLevel> levels;
-    std::optional<Ghosts> ghosts;
     std::vector<char> free;
     LinearSolver *linear_solver = nullptr;
     std::unique_ptr<NonlinearSolver> solver;

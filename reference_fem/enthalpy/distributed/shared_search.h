@@ -1,7 +1,7 @@
 #ifndef meltfront_reference_fem_enthalpy_distributed_shared_search_h
 #define meltfront_reference_fem_enthalpy_distributed_shared_search_h
 
-#include <reference_fem/enthalpy/distributed/rank_solver.h>
+#include <reference_fem/enthalpy/distributed/rank_level.h>
 #include <reference_fem/enthalpy/line_search.h>
 
 namespace meltfront::reference_fem

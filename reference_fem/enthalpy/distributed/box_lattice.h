@@ -1,0 +1,159 @@
+#ifndef meltfront_reference_fem_enthalpy_distributed_box_lattice_h
+#define meltfront_reference_fem_enthalpy_distributed_box_lattice_h
+
+#include <cases/scene.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace meltfront::reference_fem
+{
+  /** The nodes of a box of alike cells, numbered along x first, then y, then z: the same
+   * whatever rank has which of them. */
+  struct BoxLattice
+  {
+    /** Of a node: cells from the lower side in each direction; of a cell, its lower
+     * corner. */
+    using Place = std::array<unsigned int, 3>;
+
+    int dimension = 2;
+    Place cells{}; ///< by direction; none across a plane
+    cases::Position lower{}, upper{};
+
+    std::uint64_t n_nodes() const
+    {
+      return number_of(cells) + 1;
+    }
+
+    std::uint64_t number_of(const Place &node) const
+    {
+      return node[0]
+             + (cells[0] + std::uint64_t(1))
+                   * (node[1] + (cells[1] + std::uint64_t(1)) * node[2]);
+    }
+
+    Place place_of(std::uint64_t number) const
+    {
+      const std::uint64_t nx = cells[0] + std::uint64_t(1),
+                          ny = cells[1] + std::uint64_t(1);
+      return {static_cast<unsigned int>(number % nx),
+              static_cast<unsigned int>(number / nx % ny),
+              static_cast<unsigned int>(number / nx / ny)};
+    }
+
+    double spacing(int direction) const
+    {
+      return (upper[direction] - lower[direction]) / cells[direction];
+    }
+
+    double cell_volume() const
+    {
+      double volume = 1;
+      for(int d = 0; d < dimension; ++d)
+        volume *= spacing(d);
+      return volume;
+    }
+
+    cases::Position position(const Place &node) const
+    {
+      cases::Position result{};
+      for(int d = 0; d < dimension; ++d)
+        result[d] = node[d] == cells[d] ? upper[d] : lower[d] + node[d] * spacing(d);
+      return result;
+    }
+
+    bool at_lower(const Place &node, int direction) const
+    {
+      return node[direction] == 0;
+    }
+    bool at_upper(const Place &node, int direction) const
+    {
+      return node[direction] == cells[direction];
+    }
+
+    /** The part of a cell's volume, area or length that goes with a node: half of it for
+     * every side of the box that the node is on, sides across one direction left out. */
+    double share_of_cell(const Place &node, int without = -1) const
+    {
+      double share = 1;
+      for(int d = 0; d < dimension; ++d)
+        if(d != without && (at_lower(node, d) || at_upper(node, d)))
+          share /= 2;
+      return share;
+    }
+
+    /** Whether a node is the lower corner of a cell. */
+    bool begins_cell(const Place &node) const
+    {
+      for(int d = 0; d < dimension; ++d)
+        if(at_upper(node, d))
+          return false;
+      return true;
+    }
+
+    /** A corner of a cell: upper along a direction where its bit is set. */
+    static Place corner(Place cell, unsigned int which)
+    {
+      for(unsigned int d = 0; d < 3; ++d)
+        cell[d] += which >> d & 1;
+      return cell;
+    }
+
+    unsigned int n_corners() const
+    {
+      return 1u << dimension;
+    }
+
+    /** Visit the places between two, which included, in the order of their numbers. */
+    template <typename Visit>
+    static void visit_between(const Place &first, const Place &last, const Visit &visit)
+    {
+      Place place;
+      for(place[2] = first[2]; place[2] <= last[2]; ++place[2])
+        for(place[1] = first[1]; place[1] <= last[1]; ++place[1])
+          for(place[0] = first[0]; place[0] <= last[0]; ++place[0])
+            visit(place);
+    }
+
+    /** Visit a node and those that share cells with it. */
+    template <typename Visit>
+    void visit_around(const Place &node, const Visit &visit) const
+    {
+      Place first = node, last = node;
+      for(int d = 0; d < dimension; ++d)
+      {
+        first[d] -= at_lower(node, d) ? 0 : 1;
+        last[d] += at_upper(node, d) ? 0 : 1;
+      }
+      visit_between(first, last, visit);
+    }
+
+    /** Where 2^dimension cells are one. All numbers of cells are to be even. */
+    BoxLattice coarser() const
+    {
+      BoxLattice result = *this;
+      for(unsigned int &along : result.cells)
+        along /= 2;
+      return result;
+    }
+
+    /** Visit the nodes of the coarser lattice between which a node interpolates, each
+     * with its share. */
+    template <typename Visit>
+    static void visit_coarser(const Place &node, const Visit &visit)
+    {
+      Place first, last;
+      double share = 1;
+      for(std::size_t d = 0; d < 3; ++d)
+      {
+        first[d] = node[d] / 2;
+        last[d] = first[d] + node[d] % 2;
+        share /= 1 + node[d] % 2;
+      }
+      visit_between(first, last, [&](const Place &place) { visit(place, share); });
+    }
+  };
+} // namespace meltfront::reference_fem
+
+#endif
