@@ -74,6 +74,19 @@ namespace meltfront::reference_fem::tests
       EXPECT_THROW(run_from_one_phase(scene, 12), Refusal);
     }
 
+    TEST(EnthalpyStart, AColdRimIsFollowedFromWhereItsLayerIsResolved)
+    {
+      // Where the first layer is no thicker than the rim's cells the front lies along the
+      // rim and mostly beyond it.
+      Scene scene = ball(material_of_starts(), 2, 1.3, 0, 0.15);
+      scene.domain.shape = DomainShape::shell;
+      scene.domain.inner_radius = 0.4;
+      hold(scene, Side::inner, -1.2);
+      const Course course = run_from_one_phase(scene, 24);
+      EXPECT_LE(course.worst_budget_defect(), round_off);
+      EXPECT_TRUE(grows(course));
+    }
+
     TEST(Appearance, ALayerTakesThePlaceOfMissingHeat)
     {
       using namespace cut::conservative;
