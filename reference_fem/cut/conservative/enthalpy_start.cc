@@ -231,15 +231,7 @@ namespace meltfront::reference_fem::cut::conservative
     if(!frame.has_front())
       throw std::runtime_error("there is no front to hand over");
     // What a hat is of, in this mesh and in the other one.
-    Values whole(mesh.nodes.size());
-    for(const Triangle &triangle : mesh.triangles)
-      integrate(triangle.part,
-                [&](const Point &point, double weight)
-                {
-                  for(int i = 0; i < 3; ++i)
-                    whole[triangle.nodes[static_cast<std::size_t>(i)]]
-                        += weight * triangle.hat(i, point);
-                });
+    const Values whole = volume_of_hats(mesh);
     Values solid = frame.front.solid_area, elsewhere(mesh.nodes.size());
     for(std::size_t node = 0; node < solid.size(); ++node)
       if(contents.volume[node] > 0)

@@ -90,6 +90,20 @@ namespace meltfront::reference_fem::cut::conservative
     return level_set;
   }
 
+  Values volume_of_hats(const TriangleMesh &mesh)
+  {
+    Values result(mesh.nodes.size());
+    for(const Triangle &triangle : mesh.triangles)
+      integrate(triangle.part,
+                [&](const Point &point, double weight)
+                {
+                  for(int i = 0; i < 3; ++i)
+                    result[triangle.nodes[static_cast<std::size_t>(i)]]
+                        += weight * triangle.hat(i, point);
+                });
+    return result;
+  }
+
   std::vector<Segment> segments_of(const Front &front)
   {
     std::vector<Segment> result;

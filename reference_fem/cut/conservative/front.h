@@ -63,6 +63,9 @@ namespace meltfront::reference_fem::cut::conservative
   /** Values with those that are zero, as far as the spacing tells, shifted off it. */
   Values without_zeros(Values level_set, double spacing);
 
+  /** Integral of each hat over the domain (m^2). */
+  Values volume_of_hats(const TriangleMesh &mesh);
+
   /** Of the front, in the domain; none where it only passes beyond a rim. */
   std::vector<Segment> segments_of(const Front &front);
 
