@@ -18,6 +18,9 @@ namespace meltfront::reference_fem::cut::conservative
      * which heat belongs to a layer on it. */
     constexpr double thinnest = 0.05, near_wall = 6;
 
+    /** Of what is tolerated beyond the melting temperature. */
+    constexpr double appears_at = 0.5;
+
     /** Squares of the spacing: the smallest body that appears. */
     constexpr double smallest = 0.2;
 
@@ -28,12 +31,24 @@ namespace meltfront::reference_fem::cut::conservative
       std::vector<unsigned int> nodes;
     };
 
+    /** Of a phase (J/m). */
+    double heat_beyond_melting(const std::array<Values, 2> &heat, unsigned int node,
+                               Phase phase)
+    {
+      const double of_phase = heat[index(phase)][node];
+      return std::max(0., phase == Phase::liquid ? -of_phase : of_phase);
+    }
+
+    Phase phase_of(const Values &level_set, unsigned int node)
+    {
+      return level_set[node] < 0 ? Phase::solid : Phase::liquid;
+    }
+
     /** By node and phase, the area of the other phase that its heat would make (m^2). */
     double area_due(const FrontState &state, unsigned int node, Phase phase,
                     double latent_heat)
     {
-      const double heat = state.heat[index(phase)][node];
-      return std::max(0., phase == Phase::liquid ? -heat : heat) / latent_heat;
+      return heat_beyond_melting(state.heat, node, phase) / latent_heat;
     }
 
     std::vector<Patch> patches(const TriangleMesh &mesh, const FrontState &state,
@@ -44,12 +59,10 @@ namespace meltfront::reference_fem::cut::conservative
         for(std::size_t i = 0; i < 3 && !triangle.part.empty(); ++i)
           for(const std::size_t j : {(i + 1) % 3, (i + 2) % 3})
             neighbours[triangle.nodes[i]].push_back(triangle.nodes[j]);
-      const auto phase_of = [&](unsigned int node)
-      { return state.level_set[node] < 0 ? Phase::solid : Phase::liquid; };
       const auto takes_part = [&](unsigned int node)
       {
         return std::abs(state.level_set[node]) > away_from_front * mesh.spacing
-               && area_due(state, node, phase_of(node), latent_heat) > 0;
+               && area_due(state, node, phase_of(state.level_set, node), latent_heat) > 0;
       };
       std::vector<char> seen(mesh.nodes.size(), false);
       std::vector<Patch> result;
@@ -57,7 +70,7 @@ namespace meltfront::reference_fem::cut::conservative
       {
         if(seen[first] || !takes_part(first))
           continue;
-        Patch patch{phase_of(first), {first}};
+        Patch patch{phase_of(state.level_set, first), {first}};
         seen[first] = true;
         for(std::size_t i = 0; i < patch.nodes.size(); ++i)
           for(const unsigned int node : neighbours[patch.nodes[i]])
@@ -161,7 +174,7 @@ namespace meltfront::reference_fem::cut::conservative
     std::optional<Values> body_of(const TriangleMesh &mesh, const cases::Domain &domain,
                                   const std::vector<cases::Side> &sides,
                                   const FrontState &state, const Patch &patch,
-                                  double latent_heat)
+                                  double latent_heat, bool beyond_tolerance)
     {
       Thickness thickness(mesh);
       double area = 0, of_walls = 0, farthest = 0;
@@ -189,7 +202,7 @@ namespace meltfront::reference_fem::cut::conservative
         return std::nullopt;
       Values result(mesh.nodes.size());
       const bool on_wall = of_walls > area / 2;
-      if(on_wall && thickness.largest() < thinnest * mesh.spacing)
+      if(on_wall && !beyond_tolerance && thickness.largest() < thinnest * mesh.spacing)
         return std::nullopt;
       for(std::size_t node = 0; node < result.size(); ++node)
         if(!on_wall)
@@ -210,19 +223,38 @@ namespace meltfront::reference_fem::cut::conservative
     }
   } // namespace
 
+  double largest_excess(const TriangleMesh &mesh, const std::array<double, 2> &tolerated,
+                        const Values &level_set, const std::array<Values, 2> &heat)
+  {
+    const Values volume = volume_of_hats(mesh);
+    double result = 0;
+    for(unsigned int node = 0; node < level_set.size(); ++node)
+      if(volume[node] > 0 && std::abs(level_set[node]) > away_from_front * mesh.spacing)
+      {
+        const Phase phase = phase_of(level_set, node);
+        result = std::max(result, heat_beyond_melting(heat, node, phase)
+                                      / (volume[node] * tolerated[index(phase)]));
+      }
+    return result;
+  }
+
   std::vector<Appearance> let_phases_appear(const TriangleMesh &mesh,
                                             const cases::Domain &domain,
-                                            double latent_heat, double reach,
-                                            FrontState &state)
+                                            double latent_heat,
+                                            const std::array<double, 2> &tolerated,
+                                            double reach, FrontState &state)
   {
     std::vector<cases::Side> sides;
     for(const WallPiece &wall : mesh.walls)
       if(std::ranges::find(sides, wall.side) == sides.end())
         sides.push_back(wall.side);
+    const bool beyond_tolerance
+        = largest_excess(mesh, tolerated, state.level_set, state.heat) > appears_at;
     std::vector<Appearance> result;
     for(const Patch &patch : patches(mesh, state, latent_heat))
     {
-      const auto body = body_of(mesh, domain, sides, state, patch, latent_heat);
+      const auto body
+          = body_of(mesh, domain, sides, state, patch, latent_heat, beyond_tolerance);
       if(!body)
         continue;
       const Values before = Front(mesh, state.level_set).solid_area;

@@ -3,6 +3,7 @@
 
 #include <reference_fem/cut/conservative/bodies.h>
 
+#include <array>
 #include <vector>
 
 namespace meltfront::reference_fem::cut::conservative
@@ -26,12 +27,19 @@ namespace meltfront::reference_fem::cut::conservative
    * its hats. No heat is lost or gained.
    *
    * @param latent_heat of the volume (J/m^3)
+   * @param tolerated heat beyond the melting temperature, by phase (J/m^3)
    * @param reach up to which the level set is a distance (m)
    */
   std::vector<Appearance> let_phases_appear(const TriangleMesh &mesh,
                                             const cases::Domain &domain,
-                                            double latent_heat, double reach,
-                                            FrontState &state);
+                                            double latent_heat,
+                                            const std::array<double, 2> &tolerated,
+                                            double reach, FrontState &state);
+
+  /** By how much a phase's heat is at most beyond the melting temperature away from any
+   * front, over what is tolerated. */
+  double largest_excess(const TriangleMesh &mesh, const std::array<double, 2> &tolerated,
+                        const Values &level_set, const std::array<Values, 2> &heat);
 } // namespace meltfront::reference_fem::cut::conservative
 
 #endif

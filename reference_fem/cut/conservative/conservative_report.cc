@@ -47,6 +47,8 @@ namespace meltfront::reference_fem::cut::conservative
            {"stages whose passes did not settle", double(unsettled_stages)},
            {"small bodies booked as the other phase", double(turned_bodies)},
            {"bodies that appeared", double(appeared_bodies)},
+           {"steps after which slopes of the level set were restored",
+            double(restored_slopes)},
            {"largest area by which the front was behind its heat, of the domain",
             largest_debt / domain_area()}};
     cost.effects = effect_costs();

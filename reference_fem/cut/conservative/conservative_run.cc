@@ -3,6 +3,7 @@
 #include <cases/error.h>
 #include <cases/time_integral.h>
 #include <reference_fem/cut/conservative/appearance.h>
+#include <reference_fem/cut/conservative/initial_front.h>
 #include <reference_fem/cut/run.h>
 
 #include <fmt/format.h>
@@ -34,6 +35,10 @@ namespace meltfront::reference_fem::cut::conservative
      * undercools or superheats them by is what elements of this size overshoot by anyway.
      */
     constexpr double least_area = 0.1;
+
+    /** Slope of the level set, or its reciprocal, from which on it is restored: a
+     * triangle that the front has crossed within a step then still lies in the band. */
+    constexpr double steepest = 2;
 
     /** Of the run: shorter steps are not made. */
     constexpr double shortest_step = 1e-8;
@@ -198,7 +203,8 @@ namespace meltfront::reference_fem::cut::conservative
       const bool last_chance = halvings == most_halvings;
       try
       {
-        if(attempt(duration, end(), step))
+        const bool near = attempt(duration, end(), step);
+        if(near && (last_chance || !misses_a_phase(step)))
           break;
         if(last_chance)
         {
@@ -240,6 +246,7 @@ namespace meltfront::reference_fem::cut::conservative
     ++step_number;
     state.level_set = std::move(step.second.level_set);
     turn_small_bodies();
+    restore_slopes();
     state.level_set = with_distances(mesh, Front(mesh, state.level_set), state.level_set,
                                      reach_of_distance * mesh.spacing);
     settle_hats();
@@ -262,11 +269,36 @@ namespace meltfront::reference_fem::cut::conservative
     }
   }
 
+  /** Nodes of cut triangles keep their values, step by step; where their slope is no
+   * longer a distance's, which the band and the smoothing of the front's law count on,
+   * they get distances again, and these are fitted to the solid's area in each hat. */
+  void ConservativeRun::restore_slopes()
+  {
+    const Front front(mesh, state.level_set);
+    if(std::ranges::none_of(front.cut,
+                            [](const CutTriangle &cut)
+                            {
+                              const double slope = cut.level_set.gradient.norm();
+                              return cut.crossed
+                                     && !(slope * steepest >= 1 && slope <= steepest);
+                            }))
+      return;
+    const double reach = reach_of_distance * mesh.spacing;
+    const StepFrame frame(mesh,
+                          distances(mesh, segments_of(front), state.level_set, reach),
+                          Constants().smoothing);
+    const FrontState fitted = fitted_front(mesh, frame, front.solid_area, reach);
+    state.level_set = fitted.level_set;
+    for(std::size_t node = 0; node < fitted.debt.size(); ++node)
+      state.debt[node] += fitted.debt[node];
+    ++restored_slopes;
+  }
+
   void ConservativeRun::let_phases_appear()
   {
-    for(const Appearance &body :
-        conservative::let_phases_appear(mesh, scene.domain, latent_heat_of_volume(),
-                                        reach_of_distance * mesh.spacing, state))
+    for(const Appearance &body : conservative::let_phases_appear(
+            mesh, scene.domain, latent_heat_of_volume(), tolerated_heat(),
+            reach_of_distance * mesh.spacing, state))
     {
       ++appeared_bodies;
       begin_anew();
@@ -274,6 +306,37 @@ namespace meltfront::reference_fem::cut::conservative
                              body.area, body.phase == Phase::solid ? "solid" : "liquid",
                              body.place[0], body.place[1]));
     }
+  }
+
+  /** Half of the overshoot that is allowed, as heat over the melting temperature by phase
+   * (J/m^3); infinite as long as all is of one temperature. */
+  std::array<double, 2> ConservativeRun::tolerated_heat() const
+  {
+    double lowest = 0, highest = 0;
+    for(const Values &values : temperatures)
+      for(const double value : values)
+      {
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
+      }
+    const double melting
+        = scene.material.melting_temperature,
+        span = (std::isfinite(bounds.upper) ? bounds.upper - melting : highest)
+               - (std::isfinite(bounds.lower) ? bounds.lower - melting : lowest),
+        share = cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain),
+        half = span > 0 ? share * span / 2 : std::numeric_limits<double>::infinity();
+    return {half * scene.material.solid.volumetric_heat_capacity(),
+            half * scene.material.liquid.volumetric_heat_capacity()};
+  }
+
+  /** Whether a phase that should have appeared within a step is beyond the melting
+   * temperature at its end. */
+  bool ConservativeRun::misses_a_phase(const Step &step) const
+  {
+    constexpr double begins = 0.5;
+    const std::array<double, 2> tolerated = tolerated_heat();
+    return largest_excess(mesh, tolerated, step.second.level_set, step.second.heat) > 1
+           && largest_excess(mesh, tolerated, state.level_set, state.heat) < begins;
   }
 
   /** A state whose heat varies from hat to hat: the next step is as long as heat takes to

@@ -59,7 +59,10 @@ namespace meltfront::reference_fem::cut::conservative
     bool attempt(double duration, double end, Step &step);
     void accept(Step &step, double duration, double end);
     void turn_small_bodies();
+    void restore_slopes();
     void let_phases_appear();
+    std::array<double, 2> tolerated_heat() const;
+    bool misses_a_phase(const Step &step) const;
     void begin_anew();
     std::string why_last_body_is_lost() const;
     void settle_hats();
@@ -98,7 +101,7 @@ namespace meltfront::reference_fem::cut::conservative
     double last_step = 0, front_speed = 0;
     double boundary_heat = 0, source_heat = 0, initial_heat = 0;
     long step_number = 0, halved_steps = 0, capped_steps = 0, turned_bodies = 0,
-         appeared_bodies = 0;
+         appeared_bodies = 0, restored_slopes = 0;
     long solves = 0, most_solves = 0, unsettled_stages = 0, unknowns = 0,
          most_unknowns = 0, entries = 0;
     double largest_debt = 0; ///< of the solid's area (m^2)

@@ -118,13 +118,13 @@ namespace meltfront::reference_fem::cut::conservative
    * follow from the heat. */
   void ConservativeRun::take_over_temperatures(const cases::Snapshot &snapshot)
   {
-    Values nearest(mesh.nodes.size(), mesh.spacing);
+    Values nearest(mesh.nodes.size(), 2 * mesh.spacing);
     for(std::size_t site = 0; site < snapshot.temperature.size(); ++site)
     {
       const Point place(snapshot.positions[0][site], snapshot.positions[1][site]);
       const double excess
           = snapshot.temperature[site] - scene.material.melting_temperature;
-      mesh.visit_nodes_near(place, mesh.spacing / 2,
+      mesh.visit_nodes_near(place, mesh.spacing,
                             [&](unsigned int node)
                             {
                               const double distance = place.distance(mesh.nodes[node]);

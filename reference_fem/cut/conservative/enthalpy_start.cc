@@ -196,13 +196,28 @@ namespace meltfront::reference_fem::cut::conservative
       if(volume[node] > 0)
         values[node] = 0.5 - solid[node] / volume[node];
     values = without_zeros(std::move(values), mesh.spacing);
-    const Front front(mesh, values);
-    std::vector<Segment> segments;
-    for(const CutTriangle &cut : front.cut)
-      if(cut.crossed)
-        segments.push_back(cut.segment);
-    return distances(mesh, segments, values, reach);
+    return distances(mesh, segments_of(Front(mesh, values)), values, reach);
   }
+
+  namespace
+  {
+    /** An area as debt of the front, evenly along it. */
+    void add_debt_along(const Front &front, double area, Values &debt)
+    {
+      double length = 0;
+      for(const Segment &segment : segments_of(front))
+        length += segment.length();
+      for(const CutTriangle &cut : front.cut)
+        if(cut.crossed)
+          integrate(cut.segment,
+                    [&](const Point &point, double weight)
+                    {
+                      for(int i = 0; i < 3; ++i)
+                        debt[cut.place->nodes[static_cast<std::size_t>(i)]]
+                            += area * weight / length * cut.place->hat(i, point);
+                    });
+    }
+  } // namespace
 
   FrontState front_of_areas(const TriangleMesh &mesh, const HatContents &contents,
                             double reach)
@@ -216,15 +231,7 @@ namespace meltfront::reference_fem::cut::conservative
     if(!frame.has_front())
       throw std::runtime_error("there is no front to hand over");
     // What a hat is of, in this mesh and in the other one.
-    Values whole(mesh.nodes.size());
-    for(const Triangle &triangle : mesh.triangles)
-      integrate(triangle.part,
-                [&](const Point &point, double weight)
-                {
-                  for(int i = 0; i < 3; ++i)
-                    whole[triangle.nodes[static_cast<std::size_t>(i)]]
-                        += weight * triangle.hat(i, point);
-                });
+    const Values whole = volume_of_hats(mesh);
     Values solid = frame.front.solid_area, elsewhere(mesh.nodes.size());
     for(std::size_t node = 0; node < solid.size(); ++node)
       if(contents.volume[node] > 0)
@@ -236,7 +243,10 @@ namespace meltfront::reference_fem::cut::conservative
         if(near_front)
           solid[node] = found;
       }
+    // Beside a rim a hat of this mesh is not of the volume that it holds of the other.
+    const double missing = sum(contents.solid_area) - sum(solid) - sum(elsewhere);
     FrontState result = fitted_front(mesh, frame, solid, reach);
+    add_debt_along(Front(mesh, result.level_set), missing, result.debt);
     for(std::size_t node = 0; node < elsewhere.size(); ++node)
       result.debt[node] += elsewhere[node];
     return result;
@@ -260,20 +270,20 @@ namespace meltfront::reference_fem::cut::conservative
       const Values distance = distances_by_shares(mesh, contents, reach);
       const Front front(mesh, distance);
       Depths result;
-      if(front.cut.empty())
-        return result;
-      result.present = true;
       const double sign = front.area(Phase::solid) < front.area(Phase::liquid) ? -1 : 1;
+      // Nodes beyond a rim tell of no depth: where a layer begins, the front is there,
+      // too.
       std::vector<char> inside(mesh.nodes.size(), false);
       for(const Triangle &triangle : mesh.triangles)
         for(const unsigned int node : triangle.nodes)
-          inside[node] = inside[node] || !triangle.part.empty();
+          inside[node] = inside[node] || (triangle.whole && !triangle.part.empty());
       result.least = reach;
       for(unsigned int node = 0; node < mesh.nodes.size(); ++node)
       {
         const double depth = sign * distance[node];
         if(!inside[node] || depth <= 0)
           continue;
+        result.present = true;
         result.most = std::max(result.most, depth);
         bool rim = false;
         if(depth < asked)

@@ -18,6 +18,17 @@ namespace meltfront::reference_fem::cut::conservative
           = square > 0 ? std::clamp((point - segment.begin) * along / square, 0., 1.) : 0;
       return point.distance(segment.begin + place * along);
     }
+
+    /** Call visit(node, distance) for nodes within a reach of a segment, and some beyond
+     * it. */
+    template <typename Visit>
+    void visit_distances(const TriangleMesh &mesh, const Segment &segment, double reach,
+                         const Visit &visit)
+    {
+      mesh.visit_nodes_near(segment.begin, reach + segment.length(),
+                            [&](unsigned int node)
+                            { visit(node, distance(mesh.nodes[node], segment)); });
+    }
   } // namespace
 
   Front::Front(const TriangleMesh &mesh, const Values &level_set)
@@ -79,6 +90,47 @@ namespace meltfront::reference_fem::cut::conservative
     return level_set;
   }
 
+  Values volume_of_hats(const TriangleMesh &mesh)
+  {
+    Values result(mesh.nodes.size());
+    for(const Triangle &triangle : mesh.triangles)
+      integrate(triangle.part,
+                [&](const Point &point, double weight)
+                {
+                  for(int i = 0; i < 3; ++i)
+                    result[triangle.nodes[static_cast<std::size_t>(i)]]
+                        += weight * triangle.hat(i, point);
+                });
+    return result;
+  }
+
+  std::vector<Segment> segments_of(const Front &front)
+  {
+    std::vector<Segment> result;
+    for(const CutTriangle &cut : front.cut)
+      if(cut.crossed)
+        result.push_back(cut.segment);
+    return result;
+  }
+
+  std::vector<Gradient> nearest_normals(const TriangleMesh &mesh, const Front &front,
+                                        double reach)
+  {
+    std::vector<Gradient> result(mesh.nodes.size());
+    Values nearest(mesh.nodes.size(), reach);
+    for(const CutTriangle &cut : front.cut)
+      if(cut.crossed)
+        visit_distances(mesh, cut.segment, reach,
+                        [&](unsigned int node, double found)
+                        {
+                          if(!(found < nearest[node]))
+                            return;
+                          nearest[node] = found;
+                          result[node] = cut.normal;
+                        });
+    return result;
+  }
+
   Values distances(const TriangleMesh &mesh, const std::vector<Segment> &segments,
                    const Values &signs, double reach)
   {
@@ -86,24 +138,19 @@ namespace meltfront::reference_fem::cut::conservative
     for(std::size_t i = 0; i < result.size(); ++i)
       result[i] = std::copysign(reach, signs[i]);
     for(const Segment &segment : segments)
-      mesh.visit_nodes_near(segment.begin, reach + segment.length(),
-                            [&](unsigned int node)
-                            {
-                              const double found = distance(mesh.nodes[node], segment);
-                              if(found < std::abs(result[node]))
-                                result[node] = std::copysign(found, signs[node]);
-                            });
+      visit_distances(mesh, segment, reach,
+                      [&](unsigned int node, double found)
+                      {
+                        if(found < std::abs(result[node]))
+                          result[node] = std::copysign(found, signs[node]);
+                      });
     return without_zeros(std::move(result), mesh.spacing);
   }
 
   Values with_distances(const TriangleMesh &mesh, const Front &front,
                         const Values &level_set, double reach)
   {
-    std::vector<Segment> segments;
-    for(const CutTriangle &cut : front.cut)
-      if(cut.crossed)
-        segments.push_back(cut.segment);
-    Values result = distances(mesh, segments, level_set, reach);
+    Values result = distances(mesh, segments_of(front), level_set, reach);
     for(const CutTriangle &cut : front.cut)
       for(const unsigned int node : cut.place->nodes)
         result[node] = level_set[node];

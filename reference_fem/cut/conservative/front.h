@@ -63,6 +63,17 @@ namespace meltfront::reference_fem::cut::conservative
   /** Values with those that are zero, as far as the spacing tells, shifted off it. */
   Values without_zeros(Values level_set, double spacing);
 
+  /** Integral of each hat over the domain (m^2). */
+  Values volume_of_hats(const TriangleMesh &mesh);
+
+  /** Of the front, in the domain; none where it only passes beyond a rim. */
+  std::vector<Segment> segments_of(const Front &front);
+
+  /** The front's normal where it is nearest to a node, by node; zero where it is farther
+   * than a reach. */
+  std::vector<Gradient> nearest_normals(const TriangleMesh &mesh, const Front &front,
+                                        double reach);
+
   /** Signed distances of nodes to segments, up to a reach; beyond it that reach.
    * @param signs of the values are those of the result */
   Values distances(const TriangleMesh &mesh, const std::vector<Segment> &segments,

@@ -182,9 +182,11 @@ namespace meltfront::reference_fem::cut::conservative
     for(const Point &node : mesh.nodes)
       values.push_back(level_set(node));
     values = without_zeros(std::move(values), mesh.spacing);
+    const Front interpolated(mesh, values);
+    // Of the level set's own values none tells how far the front is: it may be steep.
     const Values nothing(mesh.nodes.size()),
-        linear = with_distances(mesh, Front(mesh, values), values, reach);
-    const FineFront fine = fine_front(mesh, Front(mesh, values), linear, level_set);
+        linear = distances(mesh, segments_of(interpolated), values, reach);
+    const FineFront fine = fine_front(mesh, interpolated, linear, level_set);
     if(fine.segments.empty())
       return {linear, {nothing, nothing}, nothing};
     const StepFrame frame(mesh, distances(mesh, fine.segments, values, reach), 1);

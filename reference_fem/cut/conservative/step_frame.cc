@@ -12,6 +12,11 @@ namespace meltfront::reference_fem::cut::conservative
 
     /** Spacings from the front within which the level set moves. */
     constexpr double band_width = 3.5;
+
+    /** Of the isotropic smoothing, what is left where two fronts meet halfway: it makes
+     * the matrix regular, and carries a thousandth of what one moves more than the other.
+     */
+    constexpr double share_between_fronts = 0.1;
   } // namespace
 
   Values Operator::apply(const LocalVector &unknowns) const
@@ -101,19 +106,28 @@ namespace meltfront::reference_fem::cut::conservative
   void StepFrame::assemble_smoothing(const TriangleMesh &mesh, double factor,
                                      double isotropic)
   {
+    // A node of the band is as far from the front, but for what a cut triangle's slope
+    // is off by.
+    const std::vector<Gradient> normals
+        = nearest_normals(mesh, front, 2 * band_width * mesh.spacing);
     for(const unsigned int t : band)
     {
       const Triangle &triangle = mesh.triangles[t];
       const Gradient slope = triangle.gradient(level_set);
+      const auto &[a, b, c] = triangle.nodes;
+      const bool of_one_front = normals[a] * normals[b] > 0 && normals[b] * normals[c] > 0
+                                && normals[c] * normals[a] > 0;
       // Where the distance has a ridge it has no normal: there the term fades.
       const double weight = factor * triangle.area,
-                   along = weight / std::max(1., slope.norm_square());
+                   along = of_one_front ? weight / std::max(1., slope.norm_square()) : 0,
+                   across
+                   = (of_one_front ? 1 : share_between_fronts) * isotropic * weight;
       for(std::size_t i = 0; i < 3; ++i)
         for(std::size_t j = 0; j < 3; ++j)
-          smoothing.add(
-              triangle.nodes[i], displacement[triangle.nodes[j]],
-              along * (slope * triangle.gradients[i]) * (slope * triangle.gradients[j])
-                  + isotropic * weight * (triangle.gradients[i] * triangle.gradients[j]));
+          smoothing.add(triangle.nodes[i], displacement[triangle.nodes[j]],
+                        along * (slope * triangle.gradients[i])
+                                * (slope * triangle.gradients[j])
+                            + across * (triangle.gradients[i] * triangle.gradients[j]));
     }
   }
 

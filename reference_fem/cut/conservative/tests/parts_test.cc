@@ -91,6 +91,51 @@ namespace meltfront::reference_fem::cut::conservative
       EXPECT_NEAR(Front(mesh, state.level_set).area(Phase::solid), 2 * 1.0713, 1e-9);
     }
 
+    TEST(InitialFront, ALevelSetMayBeSteep)
+    {
+      // Only its zeros matter: so steep that no value at a node is below two spacings.
+      const TriangleMesh mesh(square().domain, 20);
+      const FrontState state
+          = initial_front(mesh, star, reach * mesh.spacing),
+          steep = initial_front(
+              mesh, [](const Point &p) { return 1e3 * star(p) * (3 + p[0]); },
+              reach * mesh.spacing);
+      for(std::size_t node = 0; node < mesh.nodes.size(); ++node)
+        ASSERT_NEAR(steep.level_set[node], state.level_set[node], 1e-8 * mesh.spacing);
+    }
+
+    TEST(StepFrame, FrontsThatFaceEachOtherMoveApart)
+    {
+      // Solid between two fronts three spacings apart: one moves by half a spacing, the
+      // other stays, wherever the middle between them lies in the lattice.
+      const TriangleMesh mesh(square().domain, 20);
+      for(const double place : {0.013, 0.037, 0.061, 0.089})
+      {
+        const auto between = [&](double left)
+        {
+          return nodal(mesh, [&](const Point &p)
+                       { return std::max(left - p[0], p[0] - place - 0.3); });
+        };
+        const StepFrame frame(mesh, between(place), 1);
+        const Front target(mesh, between(place - 0.05));
+        Values change(mesh.nodes.size());
+        for(std::size_t node = 0; node < change.size(); ++node)
+          change[node] = target.solid_area[node] - frame.front.solid_area[node];
+        FrontMove move(mesh, frame, change, Values(mesh.nodes.size()));
+        for(int i = 0; i < 20; ++i)
+          move.approach(change);
+        double right = 0, of_target = 0;
+        for(std::size_t node = 0; node < change.size(); ++node)
+          if(mesh.nodes[node][0] > place + 0.15)
+          {
+            right += move.front->solid_area[node];
+            of_target += target.solid_area[node];
+          }
+        // Two thousandths of the 0.1 by which the solid grows at the left.
+        EXPECT_NEAR(right, of_target, 2e-4) << place;
+      }
+    }
+
     TEST(FrontMove, FindsAFrontThatNewtonsMethodMisses)
     {
       // Two circles that nearly touch: between them the level set has a ridge.

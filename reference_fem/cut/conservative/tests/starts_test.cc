@@ -74,6 +74,46 @@ namespace meltfront::reference_fem::tests
       EXPECT_THROW(run_from_one_phase(scene, 12), Refusal);
     }
 
+    TEST(EnthalpyStart, AColdRimIsFollowedFromWhereItsLayerIsResolved)
+    {
+      // Where the first layer is no thicker than the rim's cells the front lies along the
+      // rim and mostly beyond it.
+      Scene scene = ball(material_of_starts(), 2, 1.3, 0, 0.15);
+      scene.domain.shape = DomainShape::shell;
+      scene.domain.inner_radius = 0.4;
+      hold(scene, Side::inner, -1.2);
+      const Course course = run_from_one_phase(scene, 24);
+      EXPECT_LE(course.worst_budget_defect(), round_off);
+      EXPECT_TRUE(grows(course));
+    }
+
+    TEST(Appearance, AThinLayerAppearsWhereMoreIsBeyondMeltingThanTolerated)
+    {
+      using namespace cut::conservative;
+      constexpr double latent_heat = 2, reach = 0.6;
+      const Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {3, 1, 0}, 0, 1);
+      const TriangleMesh mesh(scene.domain, 30);
+      using cut::Values;
+      const Values nothing(mesh.nodes.size());
+      FrontState state{Values(mesh.nodes.size(), reach), {nothing, nothing}, nothing};
+      // A hundredth of a spacing of ice, in the row at y = 0.
+      for(std::size_t node = 0; node < mesh.nodes.size(); ++node)
+        if(mesh.nodes[node][1] < 0.05)
+          state.heat[1][node] = -latent_heat * 0.1 * 0.001;
+      const double excess = largest_excess(mesh, {1, 1}, state.level_set, state.heat);
+      // Of the hat in a corner, a sixth of a square.
+      EXPECT_NEAR(excess, latent_heat * 0.1 * 0.001 / (0.01 / 6), 1e-12);
+      const auto appear = [&](double tolerated)
+      {
+        FrontState copy = state;
+        return let_phases_appear(mesh, scene.domain, latent_heat, {tolerated, tolerated},
+                                 reach, copy)
+            .size();
+      };
+      EXPECT_EQ(appear(3 * excess), 0u);
+      EXPECT_EQ(appear(excess), 1u);
+    }
+
     TEST(Appearance, ALayerTakesThePlaceOfMissingHeat)
     {
       using namespace cut::conservative;
@@ -90,7 +130,7 @@ namespace meltfront::reference_fem::tests
           state.heat[1][node] = -latent_heat * 0.1 * (y < 0.05 ? 0.02 : 0.013);
       const double before = sum(state.heat[1]);
       const auto appeared
-          = let_phases_appear(mesh, scene.domain, latent_heat, reach, state);
+          = let_phases_appear(mesh, scene.domain, latent_heat, {1, 1}, reach, state);
       ASSERT_EQ(appeared.size(), 1u);
       const Front front(mesh, state.level_set);
       // As thick as the heat says but for a twentieth of a cell, which is debt.
