@@ -40,10 +40,8 @@ namespace meltfront::reference_fem::cut::conservative
     cost.work = entries;
     cost.solver_iterations = solves;
     cost.most_iterations = most_solves;
-    cost.capped_steps = capped_steps;
     cost.evidence
         = {{"steps halved", double(halved_steps)},
-           {"steps whose front's move was cut to one cell", double(capped_steps)},
            {"stages whose passes did not settle", double(unsettled_stages)},
            {"small bodies booked as the other phase", double(turned_bodies)},
            {"bodies that appeared", double(appeared_bodies)},

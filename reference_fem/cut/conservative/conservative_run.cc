@@ -207,10 +207,11 @@ namespace meltfront::reference_fem::cut::conservative
         if(near && (last_chance || !misses_a_phase(step)))
           break;
         if(last_chance)
-        {
-          ++capped_steps;
-          break;
-        }
+          throw std::runtime_error(fmt::format(
+              "the front moves by more than {} spacings even in a {}th of the "
+              "step; what is solid or liquid there is thinner than this n "
+              "resolves, take a larger one",
+              farthest_move, 1 << most_halvings));
       }
       catch(const cases::Refusal &)
       {
