@@ -65,6 +65,18 @@ namespace meltfront::verification
       return list;
     }
 
+    class NothingWanted : public cases::Observer
+    {
+      bool wants(long, double) override
+      {
+        return false;
+      }
+
+      void observe(const cases::Snapshot &) override
+      {
+      }
+    };
+
     class Demands : public testing::TestWithParam<Impossible>
     {
     };
@@ -85,10 +97,10 @@ namespace meltfront::verification
       resolution.memory_limit = 32e9;
       for(const auto &[key, value] : trial.options)
         resolution.options.set(key, value);
-      cases::Observer *const none = nullptr;
+      NothingWanted none;
       try
       {
-        method.solve(scene, effects, resolution, *none);
+        method.solve(scene, effects, resolution, none);
         FAIL() << "was run";
       }
       catch(const cases::Refusal &refusal)
