@@ -71,17 +71,29 @@ namespace meltfront::verification
                                 : fmt::format("{:.8g}, no error bar", value);
     }
 
-    void print_answer(const Answer &answer)
+    std::string verdict_text(const Answer &answer)
     {
       const Consensus &consensus = answer.consensus;
-      fmt::print("\n{}{}: {}{}\n", answer.quantity,
+      const std::string value = interval_text(consensus.value, consensus.bar);
+      if(consensus.agreed)
+        return fmt::format("{}, {} of {} methods agree", value, consensus.support,
+                           answer.methods.size());
+      if(consensus.contradictory())
+        return value + ", NO CONSENSUS: the methods contradict each other";
+      if(consensus.taking_part == 0)
+        return "NO ERROR BAR: no method converges on levels so few and coarse; give more "
+               "time (--within) or finer levels (--n)";
+      return value
+             + (answer.methods.size() < 2
+                    ? ", confirmed by no other method"
+                    : ", confirmed by no other method that converges");
+    }
+
+    void print_answer(const Answer &answer)
+    {
+      fmt::print("\n{}{}: {}\n", answer.quantity,
                  answer.unit.empty() ? "" : " (" + answer.unit + ")",
-                 interval_text(consensus.value, consensus.bar),
-                 consensus.agreed            ? fmt::format(", {} of {} methods agree",
-                                                           consensus.support, answer.methods.size())
-                 : answer.methods.size() < 2 ? ", confirmed by no other method"
-                                             : ", NO CONSENSUS: the methods contradict "
-                                               "each other");
+                 verdict_text(answer));
       for(const MethodAnswer &one : answer.methods)
         fmt::print("  {:24} n = {:<5} {}D  {:32} {:>9}  {:8.2g} s{}{}\n", one.label,
                    one.n, one.dimension, interval_text(one.bar.value, one.bar.bar),
@@ -154,11 +166,16 @@ namespace meltfront::verification
       return settings;
     }
 
-    bool contradictory(const std::vector<Answer> &answers)
+    /** Whether to some question there is no value with a bar that stands. */
+    bool unanswered(const std::vector<Answer> &answers)
     {
-      return std::ranges::any_of(
-          answers, [](const Answer &answer)
-          { return !answer.consensus.agreed && answer.methods.size() > 1; });
+      return std::ranges::any_of(answers,
+                                 [](const Answer &answer)
+                                 {
+                                   return answer.consensus.contradictory()
+                                          || (answer.consensus.taking_part == 0
+                                              && answer.methods.size() > 1);
+                                 });
     }
 
     /** A case that is asked for answers: where they go, who can give them, and the runs.
@@ -224,9 +241,9 @@ namespace meltfront::verification
     for(const std::string &remark : inquiry.remarks())
       fmt::print("{}\n", remark);
     print_place_of_report(inquiry.directory);
-    return answers.empty()          ? run_failed
-           : contradictory(answers) ? criterion_failed
-                                    : all_well;
+    return answers.empty()       ? run_failed
+           : unanswered(answers) ? criterion_failed
+                                 : all_well;
   }
 
   int advise(const AdviseArguments &arguments)

@@ -35,7 +35,7 @@ namespace meltfront::verification
    * values and error bars, who agrees with whom, and the cheapest for wanted errors;
    * `answers.json`.
    * @return criterion_failed if methods contradict each other so that none is confirmed,
-   * run_failed if none answered
+   * or none of several has an error bar; run_failed if none answered
    */
   int compare(const CompareArguments &arguments);
 

@@ -41,6 +41,7 @@ namespace meltfront::verification
     for(const AnswerInterval &answer : answers)
       if(takes_part(answer))
         members.push_back(&answer);
+    result.taking_part = static_cast<int>(members.size());
     if(members.empty())
       return result;
     const auto support = [&](const AnswerInterval *one)

@@ -24,10 +24,17 @@ namespace meltfront::verification
     /** Two answers agree at least. False: the value and bar are the middle and half the
      * width of what the answers cover, and none is confirmed. */
     bool agreed = false;
-    int support = 0; ///< answers that agree with it
+    int support = 0;     ///< answers that agree with it
+    int taking_part = 0; ///< answers that converge, with a bar
     /** For each answer, its distance from the consensus over the sum of both bars: above
      * 1 it contradicts the consensus. NaN for one that took no part. */
     std::vector<double> distance_in_bars;
+
+    /** Answers with bars that exclude each other, so that none is confirmed. */
+    bool contradictory() const
+    {
+      return !agreed && taking_part > 1;
+    }
   };
 
   /**

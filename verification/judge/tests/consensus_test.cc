@@ -26,6 +26,7 @@ TEST(Consensus, NoneWhereNoTwoAgree)
   const std::vector<AnswerInterval> answers{{1, .1, true}, {2, .2, true}};
   const Consensus consensus = consensus_of(answers);
   EXPECT_FALSE(consensus.agreed);
+  EXPECT_TRUE(consensus.contradictory());
   EXPECT_NEAR(consensus.value, (.9 + 2.2) / 2, 1e-15);
   EXPECT_NEAR(consensus.bar, (2.2 - .9) / 2, 1e-15);
 }
@@ -53,4 +54,13 @@ TEST(Consensus, OneAnswerIsNotConfirmed)
   EXPECT_EQ(consensus.value, 1);
   EXPECT_NEAR(consensus.bar, .1, 1e-15);
   EXPECT_EQ(consensus_of({}).support, 0);
+}
+
+TEST(Consensus, WhatDoesNotConvergeContradictsNobody)
+{
+  const Consensus consensus
+      = consensus_of(std::vector<AnswerInterval>{{1, .1, true}, {5, .1, false}});
+  EXPECT_FALSE(consensus.agreed);
+  EXPECT_FALSE(consensus.contradictory());
+  EXPECT_EQ(consensus.taking_part, 1);
 }

@@ -43,11 +43,14 @@ namespace meltfront::verification
       const Markup value
           = element("b", value_text(consensus.value, consensus.bar)
                              + (answer.unit.empty() ? "" : " " + answer.unit));
+      if(consensus.taking_part == 0)
+        return text(answer.quantity + ": ") + element("b", "no error bar")
+               + text("; no method converges on these levels.");
       if(!consensus.agreed)
         return text(answer.quantity + ": ")
-               + element("b", consensus.support < 2 && answer.methods.size() < 2
-                                  ? "one answer, confirmed by no other"
-                                  : "no consensus")
+               + element("b", consensus.contradictory()
+                                  ? "no consensus"
+                                  : "one answer that converges, confirmed by no other")
                + text("; all answers lie in ") + value + text(".");
       Markup sentence = text(answer.quantity + ": ") + value
                         + text(fmt::format(", in which {} of {} methods agree",

@@ -87,6 +87,16 @@ namespace meltfront::verification
     expect_in(page_of(result), "contradicted by sph-2005");
   }
 
+  TEST(AnswersChapter, SaysThatOneLevelGivesNoErrorBar)
+  {
+    MatrixResult result = one_case();
+    std::erase_if(result.runs, [](const RunRecord &run) { return run.n != 20; });
+    ASSERT_FALSE(result.runs.empty());
+    const std::string html = page_of(result);
+    expect_in(html, "no error bar");
+    EXPECT_EQ(html.find("no consensus;"), std::string::npos);
+  }
+
   TEST(AnswersChapter, SaysThatThereIsNoConsensus)
   {
     MatrixResult result = one_case();
