@@ -224,8 +224,12 @@ namespace meltfront::verification
     };
   } // namespace
 
-  int compare(const CompareArguments &arguments)
+  int compare(const CompareArguments &asked)
   {
+    constexpr double of_compare = 60, as_long_as_it_takes = 1e8; // s
+    CompareArguments arguments = asked;
+    if(arguments.within == 0)
+      arguments.within = arguments.resolutions.empty() ? of_compare : as_long_as_it_takes;
     Inquiry inquiry(arguments, "compare", sort_settings(arguments.settings));
     if(arguments.resolutions.empty())
       while(inquiry.growth.grow(share_of_levels))

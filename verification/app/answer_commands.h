@@ -11,11 +11,11 @@ namespace meltfront::verification
   {
     std::string case_name;
     std::vector<std::string> settings; ///< METHOD.KEY=VALUE, SUBSECTION/KEY=VALUE
-    double within = 60;                ///< seconds for all runs
-    std::vector<int> resolutions;      ///< empty: as many as the time allows
-    std::string output;                ///< directory; empty: results/compare-CASE
-    int jobs = 0;                      ///< runs at once; 0: one per core
-    double memory = 0; ///< GB that a run may take; 0: what the machine has
+    double within = 0;            ///< seconds for all runs; 0: 60, or as resolutions take
+    std::vector<int> resolutions; ///< empty: as many as the time allows
+    std::string output;           ///< directory; empty: results/compare-CASE
+    int jobs = 0;                 ///< runs at once; 0: one per core
+    double memory = 0;            ///< GB that a run may take; 0: what the machine has
   };
 
   struct AdviseArguments

@@ -189,7 +189,9 @@ namespace meltfront::verification
     command->add_option("case", a.case_name, "case of the library, or a case file")
         ->required();
     add_settings(command, a.settings);
-    command->add_option("--within", a.within, "seconds for all runs (60)")
+    command
+        ->add_option("--within", a.within,
+                     "seconds for all runs (60; with --n as long as they take)")
         ->check(CLI::PositiveNumber);
     command
         ->add_option("--n", a.resolutions,

@@ -166,30 +166,42 @@ namespace meltfront::verification
     return std::filesystem::path(options.directory + "/" + planned.file()).parent_path();
   }
 
+  const RunRecord *LadderGrowth::last_run(const GrowingLadder &ladder) const
+  {
+    const auto run = std::ranges::find_if(made.runs,
+                                          [&](const RunRecord &one) {
+                                            return one.method == ladder.method->name()
+                                                   && one.n == ladder.resolutions.back();
+                                          });
+    return run == made.runs.end() ? nullptr : &*run;
+  }
+
+  /** A level that the time did not suffice for ends its ladder and leaves no trace. */
+  void LadderGrowth::drop_out_of_time(GrowingLadder &ladder)
+  {
+    const RunRecord *run = last_run(ladder);
+    if(!run || run->status == RunStatus::finished)
+      return;
+    const auto ended = run->provenance.find("ended");
+    if(ended == run->provenance.end() || ended->second != "killed"
+       || run->message.find("time limit") == std::string::npos)
+      return;
+    ladder.stopped = fmt::format("n = {} was ended when the time was up, after {:.0f} s",
+                                 run->n, within);
+    std::filesystem::remove_all(folder_of(*run));
+    ladder.resolutions.pop_back();
+  }
+
   /** A level that did not finish ends its ladder. */
   void LadderGrowth::drop_ended(GrowingLadder &ladder)
   {
-    const int n = ladder.resolutions.back();
-    const auto run = std::ranges::find_if(
-        made.runs, [&](const RunRecord &one)
-        { return one.method == ladder.method->name() && one.n == n; });
-    if(run == made.runs.end() || run->status == RunStatus::finished)
-      return;
-    const auto ended = run->provenance.find("ended");
-    const bool out_of_time = ended != run->provenance.end() && ended->second == "killed"
-                             && run->message.find("time limit") != std::string::npos;
-    if(out_of_time)
-      ladder.stopped = fmt::format(
-          "n = {} was ended when the time was up, after {:.0f} s", n, within);
+    const RunRecord *run = last_run(ladder);
+    drop_out_of_time(ladder);
     // The first level may be too coarse for it.
-    else if(ladder.resolutions.size() > 1 || n > fitting(*ladder.method, coarsest))
+    if(run && ladder.stopped.empty() && run->status != RunStatus::finished
+       && (ladder.resolutions.size() > 1 || run->n > fitting(*ladder.method, coarsest)))
       ladder.stopped
-          = fmt::format("{} at n = {}: {}", to_string(run->status), n, run->message);
-    if(out_of_time)
-    {
-      std::filesystem::remove_all(folder_of(*run));
-      ladder.resolutions.pop_back();
-    }
+          = fmt::format("{} at n = {}: {}", to_string(run->status), run->n, run->message);
   }
 
   bool LadderGrowth::grow(double share)
@@ -306,9 +318,22 @@ namespace meltfront::verification
 
   void LadderGrowth::make_all(const std::vector<int> &resolutions)
   {
-    for(GrowingLadder &ladder : growing)
-      ladder.resolutions = resolutions;
-    run({});
+    std::vector<int> coarsest_first = resolutions;
+    std::ranges::sort(coarsest_first);
+    for(const int n : coarsest_first)
+    {
+      const bool in_time = n == coarsest_first.front() || seconds_left() > 0;
+      for(GrowingLadder &ladder : growing)
+        if(!in_time && ladder.stopped.empty())
+          ladder.stopped = fmt::format("the time was up before n = {}", n);
+        else if(ladder.stopped.empty())
+          ladder.resolutions.push_back(n);
+      if(in_time)
+        run({});
+      for(GrowingLadder &ladder : growing)
+        if(in_time && ladder.stopped.empty())
+          drop_out_of_time(ladder);
+    }
   }
 
   std::vector<std::string> LadderGrowth::stops() const

@@ -58,7 +58,8 @@ namespace meltfront::verification
     /** Make one level of one method, whatever it takes. */
     void make(const cases::Method &method, int n);
 
-    /** Make these levels of every method, whatever they take. */
+    /** Make these levels of every method, the coarsest first, and go on after failures;
+     * what there is no time for is left out. */
     void make_all(const std::vector<int> &resolutions);
 
     /** Of every ladder whose steps were refined too little with space to tell their error
@@ -93,6 +94,8 @@ namespace meltfront::verification
   private:
     Matrix matrix() const;
     void run(const std::function<void(MatrixResult &)> &what);
+    const RunRecord *last_run(const GrowingLadder &ladder) const;
+    void drop_out_of_time(GrowingLadder &ladder);
     void drop_ended(GrowingLadder &ladder);
     void drop_checks_that_ended();
     std::filesystem::path folder_of(const RunRecord &run) const;

@@ -218,6 +218,10 @@ namespace meltfront::verification
       LadderGrowth late = growth(1e-3);
       late.make_all({20, 40});
       late.check_steps();
+      EXPECT_TRUE(std::ranges::none_of(late.result().runs,
+                                       [](const RunRecord &run) { return run.n == 40; }))
+          << "the coarsest come first, and no run begins without time";
+      EXPECT_FALSE(late.stops().empty());
       EXPECT_TRUE(std::ranges::all_of(late.result().runs, [](const RunRecord &run)
                                       { return run.label == run.method; }))
           << "no time is left for checks";
