@@ -119,7 +119,7 @@ namespace meltfront::cases::manufactured
         const double longest = diameter / 30;
         for(int n = 0; n < most_steps; ++n)
         {
-          const FrontDerivatives f = family.derivatives(y, time);
+          const FrontDerivatives f = family.second_derivatives(y, time);
           const double slope = std::sqrt(f.square_of_gradient());
           if(slope == 0)
             return;
@@ -176,7 +176,7 @@ namespace meltfront::cases::manufactured
         const int most_steps = 60;
         for(int n = 0; n < most_steps; ++n)
         {
-          const FrontDerivatives f = family.derivatives(y, time);
+          const FrontDerivatives f = family.second_derivatives(y, time);
           const double square = f.square_of_gradient();
           if(square == 0)
             return y;
@@ -207,7 +207,7 @@ namespace meltfront::cases::manufactured
       {
         const double infinity = std::numeric_limits<double>::infinity();
         const Position nowhere{infinity, infinity, infinity};
-        FrontDerivatives f = family.derivatives(y, time);
+        FrontDerivatives f = family.second_derivatives(y, time);
         const double square = f.square_of_gradient();
         if(square == 0)
           return nowhere;
@@ -239,7 +239,7 @@ namespace meltfront::cases::manufactured
           mu -= share * step[3];
           if(length < 1e-13 * diameter)
             return y;
-          f = family.derivatives(y, time);
+          f = family.second_derivatives(y, time);
         }
         return nowhere;
       }

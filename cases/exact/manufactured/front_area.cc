@@ -55,7 +55,7 @@ namespace meltfront::cases::manufactured
           const std::array<int, 3> number{i, j, k};
           for(int d = 0; d < dimension; ++d)
             p[d] = lower[d] + (upper[d] - lower[d]) * (number[d] + 0.5) / cells[d];
-          const FrontDerivatives f = family.derivatives(p, time);
+          const FrontDerivatives f = family.second_derivatives(p, time);
           area += layer(distance(f, 2 * half_width * cell), half_width * cell);
         }
     return area * volume;

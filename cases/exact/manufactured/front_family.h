@@ -108,6 +108,11 @@ namespace meltfront::cases
     /** f and its derivatives, exact to round-off. */
     virtual FrontDerivatives derivatives(const Position &position, double time) const = 0;
 
+    /** The same of f, its gradient, Hessian and Laplacian; the rest is zero. Takes a
+     * fraction of the time. */
+    virtual FrontDerivatives second_derivatives(const Position &position,
+                                                double time) const = 0;
+
     /**
      * Distance to the front (m), negative in the solid: closed for plane, disk and ball,
      * by a search for the others, see manufactured::distance_to_front().

@@ -80,13 +80,15 @@ namespace meltfront::cases::manufactured
    * The monomials of a Jet: those of space up to `space_degree` without time, up to
    * `rate_degree` times dt, and dt^2 alone, in this order. With 3 and 2 that is what
    * a manufactured heat source needs of a level set, with 5 and 3 what it needs where the
-   * front's curvature is in the temperature. Any product's terms outside come from
-   * factors outside or stay outside, so that the rest can be left away.
+   * front's curvature is in the temperature, with 2 and -1, which is without time, what a
+   * search for the front needs. Any product's terms outside come from factors outside or
+   * stay outside, so that the rest can be left away.
    */
   template <int dim, int space_degree = 3, int rate_degree = 2>
   struct Monomials
   {
     static_assert(rate_degree < space_degree);
+    static constexpr bool moves = rate_degree >= 0;
     struct Exponents
     {
       std::array<int, 3> space;
@@ -100,17 +102,18 @@ namespace meltfront::cases::manufactured
     /** The highest degree, dt counted too. */
     static constexpr int highest = space_degree;
     /** Those of space that stand with dt^0, dt^1 and dt^2. */
-    static constexpr std::array<int, 3> highest_of{space_degree, rate_degree, 0};
+    static constexpr std::array<int, 3> highest_of{space_degree, rate_degree,
+                                                   moves ? 0 : -1};
 
     /** How many hold dt^0 and dt^1; then comes dt^2. */
     static constexpr std::size_t timeless = count_monomials(dim, space_degree);
-    static constexpr std::size_t linear = count_monomials(dim, rate_degree);
-    static constexpr std::size_t count = timeless + linear + 1;
+    static constexpr std::size_t linear = moves ? count_monomials(dim, rate_degree) : 0;
+    static constexpr std::size_t count = timeless + (moves ? linear + 1 : 0);
     /** Pairs of monomials of which the product is one: those of space alone, as many as
      * monomials of twice as many variables; with dt in either; with dt^2. */
-    static constexpr std::size_t n_products = count_monomials(2 * dim, space_degree)
-                                              + 2 * count_monomials(2 * dim, rate_degree)
-                                              + 3;
+    static constexpr std::size_t n_products
+        = count_monomials(2 * dim, space_degree)
+          + (moves ? 2 * count_monomials(2 * dim, rate_degree) + 3 : 0);
 
     static constexpr std::array<Exponents, count> list()
     {
@@ -210,8 +213,9 @@ namespace meltfront::cases::manufactured
       result.c[i] = a.c[i] * b.c[0];
     for(std::size_t i = 0; i < Terms::linear; ++i)
       result.c[Terms::timeless + i] = a.c[Terms::timeless + i] * b.c[0] + a.c[i] * b.c[1];
-    result.c[Terms::count - 1] = a.c[Terms::count - 1] * b.c[0]
-                                 + a.c[Terms::timeless] * b.c[1] + a.c[0] * b.c[2];
+    if constexpr(Terms::moves)
+      result.c[Terms::count - 1] = a.c[Terms::count - 1] * b.c[0]
+                                   + a.c[Terms::timeless] * b.c[1] + a.c[0] * b.c[2];
     return result;
   }
 
@@ -249,8 +253,11 @@ namespace meltfront::cases::manufactured
   Jet<Terms> operator+(Jet<Terms> a, const TimeJet &b)
   {
     a.c[0] += b.c[0];
-    a.c[Terms::timeless] += b.c[1];
-    a.c.back() += b.c[2];
+    if constexpr(Terms::moves)
+    {
+      a.c[Terms::timeless] += b.c[1];
+      a.c.back() += b.c[2];
+    }
     return a;
   }
 

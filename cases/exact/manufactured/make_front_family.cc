@@ -23,9 +23,12 @@ namespace meltfront::cases
     using FrontJet = Jet<Monomials<dim>>;
     template <int dim>
     using CurvatureJet = Jet<Monomials<dim, 5, 3>>;
+    /** At one time, up to second derivatives. */
+    template <int dim>
+    using StillJet = Jet<Monomials<dim, 2, -1>>;
 
     /** Where the coefficients stand of x_i x_j^n dt^time. */
-    template <int dim>
+    template <typename Terms, int dim>
     constexpr auto places(int n, int time)
     {
       std::array<std::array<std::size_t, dim>, dim> table{};
@@ -35,32 +38,42 @@ namespace meltfront::cases
           std::array<int, 3> exponents{};
           exponents[i] = 1;
           exponents[j] += n;
-          table[i][j] = Monomials<dim>::index({exponents, time});
+          table[i][j] = Terms::index({exponents, time});
         }
       return table;
+    }
+
+    template <int dim, typename Terms>
+    FrontDerivatives second_derivatives_of(const Jet<Terms> &f)
+    {
+      static constexpr auto second = places<Terms, dim>(1, 0);
+      FrontDerivatives result;
+      result.value = f.c[0];
+      for(int i = 0; i < dim; ++i)
+      {
+        result.gradient[i] = f.c[1 + i];
+        result.laplacian += 2 * f.c[second[i][i]];
+        for(int j = 0; j < dim; ++j)
+          result.hessian[i][j] = (i == j ? 2 : 1) * f.c[second[i][j]];
+      }
+      return result;
     }
 
     template <int dim>
     FrontDerivatives derivatives_of(const FrontJet<dim> &f)
     {
       using Terms = Monomials<dim>;
-      static constexpr auto second = places<dim>(1, 0), second_rate = places<dim>(1, 1),
-                            third = places<dim>(2, 0);
-      FrontDerivatives result;
-      result.value = f.c[0];
+      static constexpr auto second_rate = places<Terms, dim>(1, 1),
+                            third = places<Terms, dim>(2, 0);
+      FrontDerivatives result = second_derivatives_of<dim>(f);
       result.rate = f.c[Terms::timeless];
       result.acceleration = 2 * f.c[Terms::count - 1];
       for(int i = 0; i < dim; ++i)
       {
-        result.gradient[i] = f.c[1 + i];
         result.gradient_rate[i] = f.c[Terms::timeless + 1 + i];
-        result.laplacian += 2 * f.c[second[i][i]];
         result.laplacian_rate += 2 * f.c[second_rate[i][i]];
         for(int j = 0; j < dim; ++j)
-        {
-          result.hessian[i][j] = (i == j ? 2 : 1) * f.c[second[i][j]];
           result.laplacian_gradient[i] += (i == j ? 6 : 2) * f.c[third[i][j]];
-        }
       }
       return result;
     }
@@ -131,6 +144,12 @@ namespace meltfront::cases
       FrontDerivatives derivatives(const Position &position, double time) const override
       {
         return derivatives_of<dim>(expansion<FrontJet<dim>>(position, time));
+      }
+
+      FrontDerivatives second_derivatives(const Position &position,
+                                          double time) const override
+      {
+        return second_derivatives_of<dim>(expansion<StillJet<dim>>(position, time));
       }
 
       double signed_distance(const Position &position, double time) const override

@@ -243,7 +243,7 @@ namespace meltfront::cases
 
   double ManufacturedSolution::curvature(const Position &position, double time) const
   {
-    return the_family->derivatives(position, time).curvature();
+    return the_family->second_derivatives(position, time).curvature();
   }
 
   double ManufacturedSolution::solid_volume(double time) const

@@ -16,7 +16,8 @@ namespace meltfront::cases::manufactured
                            const Position &p, double time, double tolerance)
     {
       const auto x = in_fifty_digits<dim>(p);
-      const FrontDerivatives f = family.derivatives(p, time);
+      const FrontDerivatives f = family.derivatives(p, time),
+                             second = family.second_derivatives(p, time);
       const auto expect = [&](double value, std::vector<std::vector<int>> sum)
       {
         Real exact = 0;
@@ -36,18 +37,24 @@ namespace meltfront::cases::manufactured
         return sum;
       };
       expect(f.value, {{}});
+      expect(second.value, {{}});
       expect(family.level_set(p, time), {{}});
       expect(f.rate, {{3}});
       expect(f.acceleration, {{3, 3}});
       expect(f.laplacian, laplacian({}));
+      expect(second.laplacian, laplacian({}));
       expect(f.laplacian_rate, laplacian({3}));
       for(int i = 0; i < dim; ++i)
       {
         expect(f.gradient[i], {{i}});
+        expect(second.gradient[i], {{i}});
         expect(f.gradient_rate[i], {{i, 3}});
         expect(f.laplacian_gradient[i], laplacian({i}));
         for(int j = 0; j < dim; ++j)
+        {
           expect(f.hessian[i][j], {{i, j}});
+          expect(second.hessian[i][j], {{i, j}});
+        }
       }
     }
   } // namespace
