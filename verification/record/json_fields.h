@@ -28,7 +28,7 @@ namespace meltfront::verification
   template <typename T>
   void read_stored(const nlohmann::json &json, T &value);
 
-  struct FieldWriter
+  struct JsonFieldWriter
   {
     nlohmann::json &json;
 
@@ -43,7 +43,7 @@ namespace meltfront::verification
     }
   };
 
-  struct FieldReader
+  struct JsonFieldReader
   {
     const nlohmann::json &json;
 
@@ -57,7 +57,7 @@ namespace meltfront::verification
   };
 
   template <typename T>
-  concept HasFields = requires(const FieldWriter &visit, const T &object)
+  concept HasFields = requires(const JsonFieldWriter &visit, const T &object)
   {
     fields(visit, object);
   };
@@ -70,7 +70,7 @@ namespace meltfront::verification
     else if constexpr(HasFields<T>)
     {
       nlohmann::json json = nlohmann::json::object();
-      fields(FieldWriter{json}, value);
+      fields(JsonFieldWriter{json}, value);
       return json;
     }
     else if constexpr(
@@ -93,7 +93,7 @@ namespace meltfront::verification
   void read_stored(const nlohmann::json &json, T &value)
   {
     if constexpr(HasFields<T>)
-      fields(FieldReader{json}, value);
+      fields(JsonFieldReader{json}, value);
     else if constexpr(std::same_as<T, double>)
       value = number_in(json);
     else if constexpr(std::same_as<T, std::vector<double>>)

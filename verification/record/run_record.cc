@@ -229,12 +229,12 @@ namespace meltfront::verification
     json = nlohmann::json::object();
     if(record.status == RunStatus::finished)
       add_table_row(json, record);
-    fields(FieldWriter{json}, record);
+    fields(JsonFieldWriter{json}, record);
   }
 
   void from_json(const nlohmann::json &json, RunRecord &record)
   {
     record = {};
-    fields(FieldReader{json}, record);
+    fields(JsonFieldReader{json}, record);
   }
 } // namespace meltfront::verification

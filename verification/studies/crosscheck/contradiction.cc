@@ -34,10 +34,10 @@ namespace meltfront::verification
       return ladders;
     }
 
-    std::vector<Level> levels_of(const std::vector<const LevelRun *> &ladder,
-                                 const std::string &quantity)
+    std::vector<CourseLevel> levels_of(const std::vector<const LevelRun *> &ladder,
+                                       const std::string &quantity)
     {
-      std::vector<Level> levels;
+      std::vector<CourseLevel> levels;
       for(const LevelRun *run : ladder)
         if(const auto found = run->course.quantities.find(quantity);
            found != run->course.quantities.end() && std::isfinite(found->second.back()))
@@ -88,7 +88,7 @@ namespace meltfront::verification
       if(!quantity.starts_with(temperature)
          || std::abs(mean.value - material.melting_temperature) > mean.bar)
         return 0;
-      const std::vector<Level> levels
+      const std::vector<CourseLevel> levels
           = levels_of(ladder, "solid fraction" + quantity.substr(temperature.size()));
       if(levels.size() < 2 || !std::isfinite(levels.back().values[time]))
         return 0;
@@ -157,7 +157,7 @@ namespace meltfront::verification
         Comparison comparison{quantity, quarter / 4., scale_of(quantity, span, material)};
         const std::size_t time = quarter * course_intervals / 4;
         for(const auto &[method, ladder] : ladders)
-          if(const std::vector<Level> levels = levels_of(ladder, quantity);
+          if(const std::vector<CourseLevel> levels = levels_of(ladder, quantity);
              levels.size() > 1 && std::isfinite(levels.back().values[time]))
           {
             Estimate estimate = estimate_at(levels, time, comparison.scale);

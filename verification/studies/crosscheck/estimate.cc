@@ -14,7 +14,7 @@ namespace meltfront::verification
     constexpr std::size_t counted_levels = 4;
 
     /** Root mean square of the difference of two levels from one time to another. */
-    double difference(const Level &one, const Level &other, std::size_t from,
+    double difference(const CourseLevel &one, const CourseLevel &other, std::size_t from,
                       std::size_t to)
     {
       double sum = 0;
@@ -29,7 +29,7 @@ namespace meltfront::verification
     }
 
     /** Of two levels around a time. */
-    double around(const Level &one, const Level &other, std::size_t time)
+    double around(const CourseLevel &one, const CourseLevel &other, std::size_t time)
     {
       const std::size_t last = one.values.size() - 1, reach = last / 8;
       return difference(one, other, time - std::min(time, reach),
@@ -37,12 +37,12 @@ namespace meltfront::verification
     }
   } // namespace
 
-  Estimate estimate_at(const std::vector<Level> &coarse_to_fine, std::size_t time,
+  Estimate estimate_at(const std::vector<CourseLevel> &coarse_to_fine, std::size_t time,
                        double scale)
   {
-    const std::span<const Level> levels
+    const std::span<const CourseLevel> levels
         = std::span(coarse_to_fine).last(std::min(counted_levels, coarse_to_fine.size()));
-    const Level &finest = levels.back();
+    const CourseLevel &finest = levels.back();
     if(levels.size() < 2)
       return {finest.values[time], std::numeric_limits<double>::infinity()};
     BarRecipe recipe{scale, levels.size() > 2 ? highest_order : order_of_two_levels,

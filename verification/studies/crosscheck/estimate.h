@@ -7,7 +7,7 @@
 namespace meltfront::verification
 {
   /** A quantity over the times of a course, at one resolution. */
-  struct Level
+  struct CourseLevel
   {
     double spacing = 0; ///< h (m)
     std::vector<double> values;
@@ -57,7 +57,7 @@ namespace meltfront::verification
    * @param coarse_to_fine at least one, of the same times; only the finest four count
    * @param scale of the quantity
    */
-  Estimate estimate_at(const std::vector<Level> &coarse_to_fine, std::size_t time,
+  Estimate estimate_at(const std::vector<CourseLevel> &coarse_to_fine, std::size_t time,
                        double scale);
 } // namespace meltfront::verification
 

@@ -11,7 +11,7 @@ namespace meltfront::verification
     constexpr std::size_t times = 25;
 
     /** Values 1 + factor h^order. */
-    Level level(int n, double factor, double order)
+    CourseLevel level(int n, double factor, double order)
     {
       const double h = 1. / n;
       return {h, std::vector<double>(times, 1 + factor * std::pow(h, order))};
@@ -37,7 +37,7 @@ namespace meltfront::verification
 
     TEST(Estimate, EqualEndValuesAreNoConvergenceWhereTheCourseDiffers)
     {
-      std::vector<Level> levels{level(20, 0, 1), level(40, 0, 1), level(80, 0, 1)};
+      std::vector<CourseLevel> levels{level(20, 0, 1), level(40, 0, 1), level(80, 0, 1)};
       for(std::size_t k = 0; k + 1 < times; ++k)
         for(std::size_t i = 0; i < levels.size(); ++i)
           levels[i].values[k] += (k % 2 == 0 ? 1 : -1) * 0.4 * levels[i].spacing;
@@ -48,7 +48,7 @@ namespace meltfront::verification
 
     TEST(Estimate, LevelsThatDoNotConvergeGiveThreeTimesTheirDifference)
     {
-      std::vector<Level> levels{level(20, 0, 1), level(40, 0, 1), level(80, 0, 1)};
+      std::vector<CourseLevel> levels{level(20, 0, 1), level(40, 0, 1), level(80, 0, 1)};
       for(double &value : levels[2].values)
         value += 0.1;
       levels[0].values.assign(times, 1.02);
@@ -71,8 +71,8 @@ namespace meltfront::verification
     {
       // a h + b h^2 with a h_1 + b h_1^2 = a h_2 + b h_2^2 at the end, far from the
       // truth.
-      std::vector<Level> levels{level(20, 0, 1), level(34, 0, 1)};
-      for(Level &of : levels)
+      std::vector<CourseLevel> levels{level(20, 0, 1), level(34, 0, 1)};
+      for(CourseLevel &of : levels)
         for(std::size_t k = 0; k < times; ++k)
         {
           const double early = 1 - k / (times - 1.), h = of.spacing;
@@ -88,18 +88,18 @@ namespace meltfront::verification
     TEST(Estimate, FinestOfFiveLevelsCount)
     {
       // The coarsest lies before the range in which errors fall as they should.
-      const std::vector<Level> finest{level(40, 3, 2), level(80, 3, 2), level(160, 3, 2),
-                                      level(320, 3, 2)};
-      std::vector<Level> all{level(20, 90, 0)};
+      const std::vector<CourseLevel> finest{level(40, 3, 2), level(80, 3, 2),
+                                            level(160, 3, 2), level(320, 3, 2)};
+      std::vector<CourseLevel> all{level(20, 90, 0)};
       all.insert(all.end(), finest.begin(), finest.end());
       EXPECT_DOUBLE_EQ(estimate_at(all, 6, 1).bar, estimate_at(finest, 6, 1).bar);
     }
 
     TEST(Estimate, LevelsThatFellInALeapAreNotBelievedBecauseTheFinestAgree)
     {
-      const std::vector<Level> finest{level(80, 0, 1), level(160, 0, 1),
-                                      level(320, 0, 1)};
-      std::vector<Level> all{level(40, 3, 1)};
+      const std::vector<CourseLevel> finest{level(80, 0, 1), level(160, 0, 1),
+                                            level(320, 0, 1)};
+      std::vector<CourseLevel> all{level(40, 3, 1)};
       all.insert(all.end(), finest.begin(), finest.end());
       EXPECT_GT(estimate_at(all, 6, 1).bar, 20 * estimate_at(finest, 6, 1).bar);
     }
