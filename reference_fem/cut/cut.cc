@@ -34,11 +34,12 @@ namespace meltfront::reference_fem
         const std::vector<BoundaryKind> walls{
             BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
             BoundaryKind::heat_transfer, BoundaryKind::radiation};
-        const bool conservative = !given.declarations().empty()
-                                  && cases::read_options(cut::RunOptions(), given).scheme
-                                         == cut::Scheme::conservative;
+        const cut::RunOptions options
+            = given.declarations().empty()
+                  ? cut::RunOptions()
+                  : cases::read_options(cut::RunOptions(), given);
         std::vector<FrontOrigin> origins{FrontOrigin::initial_front, FrontOrigin::source};
-        if(conservative)
+        if(cut::chosen_scheme(options).scheme == cut::Scheme::conservative)
           origins.push_back(FrontOrigin::wall);
         return {
             {.form = {},
@@ -81,7 +82,7 @@ namespace meltfront::reference_fem
              const cases::Resolution &resolution) const override
       {
         const auto options = cases::read_options(cut::RunOptions(), resolution.options);
-        if(options.scheme == cut::Scheme::conservative)
+        if(cut::chosen_scheme(options).scheme == cut::Scheme::conservative)
           return std::make_unique<cut::conservative::ConservativeRun>(scene, effects,
                                                                       resolution);
         if(options.start == cut::StartFrom::enthalpy)

@@ -223,9 +223,10 @@ namespace meltfront::reference_fem::cut::conservative
       }
     }
 
-    /** Flux (W/m) through the front of an annulus of solid whose inner rim is held one
-     * kelvin below it, and by how much, of the exact one, linear elements overestimate it
-     * at least: a subspace's Dirichlet energy is never below the minimum. */
+    /** By how much the flux through the front of an annulus of solid, whose inner rim is
+     * held one kelvin below it, is too large, of the exact one; and by how much it would
+     * be if all elements were linear: a subspace's Dirichlet energy is never below the
+     * minimum. */
     struct SteadyFlux
     {
       double error, missed;
@@ -278,16 +279,16 @@ namespace meltfront::reference_fem::cut::conservative
       return {found / exact - 1, mesh.spacing * mesh.spacing / 8 * curvature};
     }
 
-    TEST(PhaseAssembly, SteadyFluxIsTooLargeByTheEnergyThatLinearElementsMiss)
+    TEST(PhaseAssembly, SteadyFluxIsTooLargeByTheEnergyThatElementsMiss)
     {
       std::vector<double> errors;
       const std::vector<int> n{24, 32, 48, 64};
       for(const int cells : n)
       {
         const SteadyFlux flux = steady_flux(cells, {.nitsche = 40, .ghost = 0.04});
-        // The rest, 1.03 to 1.07, is the ghost penalty's.
-        EXPECT_GE(flux.error, flux.missed) << cells;
-        EXPECT_LE(flux.error, 1.1 * flux.missed) << cells;
+        // Bilinear ones, which are all but those at rim and front, miss a third of it.
+        EXPECT_GE(flux.error, flux.missed / 3) << cells;
+        EXPECT_LE(flux.error, 0.7 * flux.missed) << cells;
         errors.push_back(flux.error);
       }
       EXPECT_GE(test_support::fitted_order(n, errors), 1.9);
