@@ -19,7 +19,7 @@ namespace meltfront::reference_fem::cut
   /** How heat and front are carried through time. */
   enum class Scheme
   {
-    automatic,   ///< conservative where its options are asked for or none of the other's
+    automatic,   ///< conservative, but where an option of the extension is set
     extension,   ///< BDF2 on phases that reach beyond the front
     conservative ///< the heat of each hat function and the solid's area, SDIRK
   };
@@ -63,6 +63,8 @@ namespace meltfront::reference_fem::cut
   /** The name of an option that is set and that only the extension knows; else empty. */
   std::string option_of_extension(const RunOptions &options);
 
+  /** The scheme of a run: what the option says, or what `automatic` makes of the others.
+   */
   SchemeChoice chosen_scheme(const RunOptions &options);
 } // namespace meltfront::reference_fem::cut
 

@@ -52,7 +52,9 @@ namespace meltfront::reference_fem::cut::conservative
 
   /**
    * Assembles the terms of CutFEM in each phase (Hansbo, Larson and Zahedi 2016; Myrbaeck
-   * and Zahedi 2024) for linear triangles,
+   * and Zahedi 2024) for linear triangles; squares that neither front, rim nor wall
+   * touches conduct as bilinear elements, which are linear on the same sides and miss a
+   * third of the energy of harmonic functions that two triangles miss:
    *
    *   M(theta, w) = int_p rho c theta w
    *   S(theta, w) = - int_p k grad theta . grad w + N(theta, g; w) + int_p q w

@@ -179,8 +179,8 @@ namespace meltfront::reference_fem::tests
 
     std::string scheme_in_record(const OptionTexts &options)
     {
-      Scene scene = disks({{0.03, 0.01, 0}}, 0.001);
-      OptionTexts given{{"scheme", "automatic"}};
+      Scene scene = disks({{0.03, 0.01, 0}}, 1e-4);
+      OptionTexts given{{"scheme", "automatic"}, {"fewest_steps", "1"}};
       given.insert(given.end(), options.begin(), options.end());
       for(const Parameter &parameter : run_cut(scene, 40, given).description.parameters)
         if(parameter.name == "scheme")

@@ -254,7 +254,9 @@ namespace meltfront::verification::claims
       case FrontOrigin::source:
         return line_sink(0.6, form.symmetric(), false);
       default:
-        return cold_wall(origin == FrontOrigin::partly_melted, form.density_of_liquid());
+        return cold_wall(origin == FrontOrigin::partly_melted, form.density_of_liquid(),
+                         form.takes(DomainShape::slab) ? DomainShape::slab
+                                                       : DomainShape::box);
       }
     }
 
