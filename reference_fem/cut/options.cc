@@ -1,15 +1,20 @@
 #include <reference_fem/cut/options.h>
 
+#include <fmt/format.h>
+
+#include <utility>
+
 namespace meltfront::reference_fem::cut
 {
   void RunOptions::bind(cases::OptionBinder &options)
   {
     options.add(
         "scheme", scheme,
-        "Extension: BDF2, elements of any degree, refined meshes. Conservative: heat "
-        "balanced by construction, linear triangles; knows passes, cfl, "
-        "fewest_steps, seed_cells, start, penalty and ghost_penalty.",
-        cases::in_order<Scheme>({"extension", "conservative"}));
+        "Conservative: heat balanced by construction, degree 1, uniform mesh; knows "
+        "passes, cfl, fewest_steps, seed_cells, start, penalty and ghost_penalty. "
+        "Extension: BDF2, degree 2, refined meshes. Automatic: extension where one of "
+        "its own options is set, else conservative.",
+        cases::in_order<Scheme>({"automatic", "extension", "conservative"}));
     options.add(
         "passes", passes,
         "Solves per stage of the conservative scheme, at most, each for temperatures "
@@ -61,5 +66,30 @@ namespace meltfront::reference_fem::cut
                 "Penalty on jumps of the normal derivative between the cells at the "
                 "front.",
                 1e-4, 1e2);
+  }
+
+  std::string option_of_extension(const RunOptions &options)
+  {
+    const RunOptions standing;
+    const std::pair<const char *, bool> given[]{
+        {"degree", options.degree != standing.degree},
+        {"refinement", options.refinement != standing.refinement},
+        {"level_set_degree", options.level_set_degree != standing.level_set_degree},
+        {"solves", options.solves != standing.solves},
+        {"speed_smoothing", options.speed_smoothing != standing.speed_smoothing}};
+    for(const auto &[name, is_set] : given)
+      if(is_set)
+        return name;
+    return {};
+  }
+
+  SchemeChoice chosen_scheme(const RunOptions &options)
+  {
+    if(options.scheme != Scheme::automatic)
+      return {options.scheme, "as the option scheme says"};
+    if(const std::string name = option_of_extension(options); !name.empty())
+      return {Scheme::extension,
+              fmt::format("automatic: the option {} is its own", name)};
+    return {Scheme::conservative, "automatic: no option is the extension's own"};
   }
 } // namespace meltfront::reference_fem::cut

@@ -7,6 +7,8 @@
 #include <reference_fem/cut/front_band.h>
 #include <reference_fem/cut/phase_problem.h>
 
+#include <string>
+
 namespace meltfront::reference_fem::cut
 {
   /** Neither the elements nor BDF2 obey the maximum principle, nor does the projection of
@@ -17,6 +19,7 @@ namespace meltfront::reference_fem::cut
   /** How heat and front are carried through time. */
   enum class Scheme
   {
+    automatic,   ///< conservative, but where an option of the extension is set
     extension,   ///< BDF2 on phases that reach beyond the front
     conservative ///< the heat of each hat function and the solid's area, SDIRK
   };
@@ -34,7 +37,7 @@ namespace meltfront::reference_fem::cut
   {
     void bind(cases::OptionBinder &options);
 
-    Scheme scheme = Scheme::extension;
+    Scheme scheme = Scheme::automatic;
     int passes = 12;
     int degree = 1, level_set_degree = 2;
     int refinement = 0;
@@ -49,6 +52,20 @@ namespace meltfront::reference_fem::cut
     int start_refinement = 2;
     Stabilisation stabilisation;
   };
+
+  /** A scheme, and why it is the one. */
+  struct SchemeChoice
+  {
+    Scheme scheme; ///< not automatic
+    std::string why;
+  };
+
+  /** The name of an option that is set and that only the extension knows; else empty. */
+  std::string option_of_extension(const RunOptions &options);
+
+  /** The scheme of a run: what the option says, or what `automatic` makes of the others.
+   */
+  SchemeChoice chosen_scheme(const RunOptions &options);
 } // namespace meltfront::reference_fem::cut
 
 #endif

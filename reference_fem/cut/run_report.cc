@@ -17,6 +17,7 @@ namespace meltfront::reference_fem::cut
         = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
     result.unknowns = unknowns_at_start;
     result.parameters = {
+        {"scheme", fmt::format("extension ({})", chosen_scheme(options).why), ""},
         {"elements",
          fmt::format("degree {}, each phase on the cells that it cuts", options.degree),
          ""},

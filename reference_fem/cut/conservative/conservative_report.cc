@@ -16,8 +16,14 @@ namespace meltfront::reference_fem::cut::conservative
         = (scene.end_time - scene.start_time) / static_cast<double>(options.fewest_steps);
     result.unknowns = unknowns;
     result.parameters = {
-        {"scheme", "conservative: the state is the heat of each hat function", ""},
-        {"elements", "linear triangles, each phase on those that it cuts", ""},
+        {"scheme",
+         fmt::format("conservative, the state is the heat of each hat function ({})",
+                     chosen_scheme(options).why),
+         ""},
+        {"elements",
+         "squares; linear triangles where front, rims or walls are; each phase on those "
+         "that it cuts",
+         ""},
         {"mesh", fmt::format("{} squares cut in two", mesh.squares.size()), ""},
         {"front",
          "linear level set, area law in the same hats, Nitsche's condition, ghost "

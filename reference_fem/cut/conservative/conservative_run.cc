@@ -45,21 +45,11 @@ namespace meltfront::reference_fem::cut::conservative
 
     RunOptions checked(const RunOptions &options)
     {
-      if(options.degree != 1)
-        throw cases::Refusal("fem-cut: scheme = conservative has linear elements: degree "
-                             "= 1 would be right");
-      if(options.refinement != 0)
-        throw cases::Refusal("fem-cut: scheme = conservative runs on a uniform mesh: "
-                             "refinement = 0 would be right");
-      const RunOptions standing;
-      const std::pair<const char *, bool> unknown[]{
-          {"level_set_degree", options.level_set_degree != standing.level_set_degree},
-          {"solves", options.solves != standing.solves},
-          {"speed_smoothing", options.speed_smoothing != standing.speed_smoothing}};
-      for(const auto &[name, given] : unknown)
-        if(given)
-          throw cases::Refusal(fmt::format(
-              "fem-cut: the option {} is not one of scheme = conservative", name));
+      if(const std::string name = option_of_extension(options); !name.empty())
+        throw cases::Refusal(
+            fmt::format("fem-cut: scheme = conservative has linear elements on a uniform "
+                        "mesh and no option {}: leave it as it stands",
+                        name));
       return options;
     }
   } // namespace

@@ -88,7 +88,8 @@ namespace meltfront::reference_fem::cut::conservative
         = contents_of_hats(mesh, scene.domain, scene.material, snapshot);
     try
     {
-      state = front_of_areas(mesh, contents, reach_of_distance * mesh.spacing);
+      state = front_of_areas(mesh, contents, latent_heat_of_volume(),
+                             reach_of_distance * mesh.spacing);
     }
     catch(const std::runtime_error &error)
     {
@@ -96,11 +97,6 @@ namespace meltfront::reference_fem::cut::conservative
           "fem-cut does not take over the front of fem-enthalpy at t = {:.6g}: {}", time,
           error.what()));
     }
-    state.heat = contents.heat;
-    // What has begun to melt or to freeze elsewhere appears from its heat.
-    for(std::size_t node = 0; node < state.debt.size(); ++node)
-      state.heat[state.level_set[node] < 0 ? 0 : 1][node]
-          -= latent_heat_of_volume() * std::exchange(state.debt[node], 0);
     settle_hats();
     let_phases_appear();
     increment.assign(mesh.nodes.size(), 0);
@@ -114,10 +110,17 @@ namespace meltfront::reference_fem::cut::conservative
     check();
   }
 
-  /** Of the site that is nearest to a node, in the node's phase; those beyond the front
-   * follow from the heat. */
+  /** Of the site that is nearest to a node, in the node's phase; at corners of triangles
+   * that the front cuts all temperatures follow from the heat: of one side's from sites
+   * and the other's from heat the line between them would pass the melting temperature.
+   */
   void ConservativeRun::take_over_temperatures(const cases::Snapshot &snapshot)
   {
+    const Front front(mesh, state.level_set);
+    std::vector<char> at_front(mesh.nodes.size(), false);
+    for(const CutTriangle &cut : front.cut)
+      for(const unsigned int node : cut.place->nodes)
+        at_front[node] = true;
     Values nearest(mesh.nodes.size(), 2 * mesh.spacing);
     for(std::size_t site = 0; site < snapshot.temperature.size(); ++site)
     {
@@ -128,7 +131,7 @@ namespace meltfront::reference_fem::cut::conservative
                             [&](unsigned int node)
                             {
                               const double distance = place.distance(mesh.nodes[node]);
-                              if(!(distance < nearest[node]))
+                              if(at_front[node] || !(distance < nearest[node]))
                                 return;
                               nearest[node] = distance;
                               const bool solid = state.level_set[node] < 0;

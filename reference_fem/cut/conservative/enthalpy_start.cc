@@ -220,7 +220,7 @@ namespace meltfront::reference_fem::cut::conservative
   } // namespace
 
   FrontState front_of_areas(const TriangleMesh &mesh, const HatContents &contents,
-                            double reach)
+                            double latent_heat, double reach)
   {
     /** Of the smoothing, alike in all directions: along the front, what the enthalpy
      * method's nodes know of it from one to the next is evened out over some cells. */
@@ -247,8 +247,10 @@ namespace meltfront::reference_fem::cut::conservative
     const double missing = sum(contents.solid_area) - sum(solid) - sum(elsewhere);
     FrontState result = fitted_front(mesh, frame, solid, reach);
     add_debt_along(Front(mesh, result.level_set), missing, result.debt);
+    result.heat = contents.heat;
     for(std::size_t node = 0; node < elsewhere.size(); ++node)
-      result.debt[node] += elsewhere[node];
+      result.heat[result.level_set[node] < 0 ? 0 : 1][node]
+          -= latent_heat * elsewhere[node];
     return result;
   }
 

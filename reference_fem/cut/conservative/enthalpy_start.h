@@ -42,13 +42,16 @@ namespace meltfront::reference_fem::cut::conservative
 
   /**
    * The front whose solid has given areas by hat, but for what the smoothing of its law
-   * moves along the front and between neighbours; their sum is kept. Debt is what has
-   * melted or frozen two spacings from it and farther, where no phase is to be seen yet.
+   * moves along the front and between neighbours; their sum is kept. What the areas miss
+   * beside a rim is debt of the front, for its law to make good; what has melted or
+   * frozen two spacings from it and farther, where no phase is to be seen yet, is heat of
+   * the phase that is there.
+   * @param latent_heat of the volume (J/m^3)
    * @param reach of the distance (m)
    * @throws std::runtime_error where there is none
    */
   FrontState front_of_areas(const TriangleMesh &mesh, const HatContents &contents,
-                            double reach);
+                            double latent_heat, double reach);
 
   /**
    * The part of a run before its front is resolved, made by `fem-enthalpy` in the same

@@ -64,7 +64,13 @@ namespace meltfront::reference_fem::cut::conservative
     , mesh(mesh)
     , sources(sources)
     , constants(constants)
+    , inner_square(mesh.squares.size())
   {
+    for(std::size_t square = 0; square < mesh.squares.size(); ++square)
+      inner_square[square]
+          = mesh.triangles[2 * square].whole && mesh.triangles[2 * square + 1].whole;
+    for(const WallPiece &wall : mesh.walls)
+      inner_square[wall.triangle / 2] = false;
     forget_stage();
   }
 
@@ -146,17 +152,51 @@ namespace meltfront::reference_fem::cut::conservative
                   for(std::size_t i = 0; i < 3; ++i)
                     context.result.mass.constant[triangle.nodes[i]] += offset * hat[i];
                 });
-      const double conduction = context.material.conductivity * area;
+      // The other half of a square that conducts as a whole adds nothing.
+      const double conduction
+          = conducts_as_square(context, t / 2) ? 0 : context.material.conductivity * area;
       for(std::size_t i = 0; i < 3; ++i)
         for(std::size_t j = 0; j < 3; ++j)
         {
           const int column = context.unknown(triangle.nodes[j]);
           context.result.mass.add(triangle.nodes[i], column, mass[i][j]);
-          context.result.interior.add(
-              triangle.nodes[i], column,
-              -conduction * (triangle.gradients[i] * triangle.gradients[j]));
+          if(conduction > 0)
+            context.result.interior.add(
+                triangle.nodes[i], column,
+                -conduction * (triangle.gradients[i] * triangle.gradients[j]));
         }
     }
+    for(unsigned int square = 0; square < mesh.squares.size(); ++square)
+      if(conducts_as_square(context, square))
+        add_square(context, mesh.squares[square]);
+  }
+
+  bool PhaseAssembly::conducts_as_square(const Context &context,
+                                         unsigned int square) const
+  {
+    const auto &location = context.front.location;
+    return inner_square[square] && location[2 * square] == location[2 * square + 1]
+           && CutGeometry::is(location[2 * square], context.phase)
+           && location[2 * square] != Location::cut;
+  }
+
+  void PhaseAssembly::add_square(const Context &context,
+                                 const std::array<unsigned int, 4> &nodes) const
+  {
+    const Gradient diagonal = mesh.nodes[nodes[3]] - mesh.nodes[nodes[0]];
+    const double slope = diagonal[1] / diagonal[0];
+    // Of linear functions along a side: slopes, and values.
+    const auto slopes = [](bool same) { return same ? 1. : -1.; };
+    const auto values = [](bool same) { return same ? 1. / 3 : 1. / 6; };
+    for(unsigned int i = 0; i < 4; ++i)
+      for(unsigned int j = 0; j < 4; ++j)
+      {
+        const bool x = i % 2 == j % 2, y = i / 2 == j / 2;
+        context.result.interior.add(
+            nodes[i], context.unknown(nodes[j]),
+            -context.material.conductivity
+                * (slope * slopes(x) * values(y) + values(x) * slopes(y) / slope));
+      }
   }
 
   void PhaseAssembly::add_released(const Context &context)

@@ -26,7 +26,9 @@ namespace meltfront::reference_fem::tests
 
   Course run_cut(const Scene &scene, int n, const OptionTexts &options)
   {
-    return course_of(*make_fem_cut(), scene, n, options);
+    OptionTexts given{{"scheme", "extension"}};
+    given.insert(given.end(), options.begin(), options.end());
+    return course_of(*make_fem_cut(), scene, n, given);
   }
 
   Scene sink_in_disk(const std::shared_ptr<const LineSink> &exact)

@@ -16,7 +16,7 @@ namespace meltfront::reference_fem::tests
   /** Whether the solid only grows. */
   bool grows(const Course &course);
 
-  /** A run of `fem-cut`. */
+  /** A run of `fem-cut`, by the extension unless the options name a scheme. */
   Course run_cut(const cases::Scene &scene, int n, const OptionTexts &options = {});
 
   /** Time at which the runs of sink_in_disk() end (s). */

@@ -177,6 +177,30 @@ namespace meltfront::reference_fem::tests
                 std::string::npos);
     }
 
+    std::string scheme_in_record(const OptionTexts &options)
+    {
+      Scene scene = disks({{0.03, 0.01, 0}}, 1e-4);
+      OptionTexts given{{"scheme", "automatic"}, {"fewest_steps", "1"}};
+      given.insert(given.end(), options.begin(), options.end());
+      for(const Parameter &parameter : run_cut(scene, 40, given).description.parameters)
+        if(parameter.name == "scheme")
+          return parameter.value;
+      return {};
+    }
+
+    TEST(FemCut, TheSchemeFollowsFromTheOptionsAndIsTold)
+    {
+      EXPECT_TRUE(scheme_in_record({}).starts_with("conservative"));
+      for(const OptionTexts &own :
+          {OptionTexts{{"degree", "2"}}, {{"refinement", "1"}}, {{"solves", "3"}}})
+      {
+        const std::string told = scheme_in_record(own);
+        EXPECT_TRUE(told.starts_with("extension")) << told;
+        EXPECT_NE(told.find(own.front().first), std::string::npos) << told;
+      }
+      EXPECT_TRUE(scheme_in_record({{"scheme", "extension"}}).starts_with("extension"));
+    }
+
     TEST(FemCut, RefusesWhatItCannotStartFrom)
     {
       const auto exact = std::make_shared<LineSink>(water(), 0.15, 10);

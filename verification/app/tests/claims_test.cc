@@ -136,12 +136,18 @@ namespace meltfront::verification::claims
         if(const auto *shared = dynamic_cast<const cases::SharedMethod *>(method.get());
            shared && has_option(*method, "engine"))
           result.push_back({method.get(), shared->capabilities_on_ranks()});
-        for(const cases::Capabilities &capabilities : method->capabilities())
-        {
-          result.push_back({method.get(), capabilities});
-          if(method->name() == "fem-cut")
-            result.push_back({method.get(), capabilities, "conservative"});
-        }
+        if(method->name() == "fem-cut")
+          for(const std::string scheme : {"extension", "conservative"})
+          {
+            cases::Options options(method->option_declarations());
+            options.set("scheme", scheme);
+            for(const cases::Capabilities &capabilities :
+                method->capabilities_with(options))
+              result.push_back({method.get(), capabilities, scheme});
+          }
+        else
+          for(const cases::Capabilities &capabilities : method->capabilities())
+            result.push_back({method.get(), capabilities});
       }
       return result;
     }
@@ -248,7 +254,9 @@ namespace meltfront::verification::claims
       case FrontOrigin::source:
         return line_sink(0.6, form.symmetric(), false);
       default:
-        return cold_wall(origin == FrontOrigin::partly_melted, form.density_of_liquid());
+        return cold_wall(origin == FrontOrigin::partly_melted, form.density_of_liquid(),
+                         form.takes(DomainShape::slab) ? DomainShape::slab
+                                                       : DomainShape::box);
       }
     }
 

@@ -1,11 +1,14 @@
 #include <cases/error.h>
 #include <cases/exact/planar_neumann.h>
+#include <cases/overshoot.h>
 #include <reference_fem/cut/conservative/appearance.h>
 #include <reference_fem/cut/conservative/step_frame.h>
+#include <reference_fem/cut/options.h>
 #include <reference_fem/cut/tests/cut_support.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -85,6 +88,34 @@ namespace meltfront::reference_fem::tests
       const Course course = run_from_one_phase(scene, 24);
       EXPECT_LE(course.worst_budget_defect(), round_off);
       EXPECT_TRUE(grows(course));
+    }
+
+    /** A pipe of liquid at its melting temperature that freezes from both walls. */
+    Scene freezing_pipe(double end)
+    {
+      Material material = material_of_starts();
+      material.latent_heat = 1.2;
+      material.solid.conductivity = 2;
+      material.solid.specific_heat_capacity = 0.9;
+      Scene scene = ball(material, 2, 1.3, 0, end);
+      scene.domain.shape = DomainShape::shell;
+      scene.domain.inner_radius = 0.4;
+      hold(scene, Side::inner, -1.2);
+      set_boundary(scene, Side::outer,
+                   {.kind = BoundaryKind::flux, .value = Field::uniform(-0.4)});
+      return scene;
+    }
+
+    TEST(EnthalpyStart, TemperaturesKeepTheirBoundsAtTheHandingOver)
+    {
+      constexpr int n = 56;
+      const Scene scene = freezing_pipe(0.0156);
+      const Course course
+          = run_cut(scene, n, {{"scheme", "conservative"}, {"fewest_steps", "4"}});
+      const double allowed
+          = allowed_overshoot(cut::overshoot, 2.6 / n, scene.domain) * 1.2;
+      EXPECT_LE(std::ranges::max(course.highest), allowed);
+      EXPECT_LE(course.worst_budget_defect(), round_off);
     }
 
     TEST(Appearance, AThinLayerAppearsWhereMoreIsBeyondMeltingThanTolerated)

@@ -388,12 +388,13 @@ namespace meltfront::verification::claims
     return trial;
   }
 
-  Trial cold_wall(bool partly_melted, double displaced)
+  Trial cold_wall(bool partly_melted, double displaced, DomainShape shape)
   {
     constexpr double cold = -1;
     const double far = partly_melted ? 0 : 0.5;
     Trial trial;
-    trial.scene = scene_on(domain_of(DomainShape::slab, 1, false));
+    const int dimension = shape == DomainShape::slab ? 1 : 2;
+    trial.scene = scene_on(domain_of(shape, dimension, false));
     cases::Scene &scene = trial.scene;
     scene.material.latent_heat = 2;
     scene.material.liquid.density = displaced;
@@ -414,7 +415,7 @@ namespace meltfront::verification::claims
     trial.judge = temperature_judge([neumann, end = scene.end_time](const Position &p)
                                     { return neumann->temperature(p, end); },
                                     partly_melted ? (1 + front) / 2 : front);
-    trial.n = resolution_of(1);
+    trial.n = resolution_of(dimension);
     return trial;
   }
 

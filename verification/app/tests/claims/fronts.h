@@ -26,7 +26,8 @@ namespace meltfront::verification::claims
 
   /** Liquid that a cold wall begins to freeze (Neumann); half of it solid, at the melting
    * point, where `partly_melted`. */
-  Trial cold_wall(bool partly_melted, double displaced = 1);
+  Trial cold_wall(bool partly_melted, double displaced = 1,
+                  cases::DomainShape shape = cases::DomainShape::slab);
 
   /** A disk of solid whose melt has become as warm as its curved front. */
   EffectTrials capillary_trials();

@@ -35,7 +35,11 @@ namespace meltfront::verification::claims
     if(method == "fem-fitted")
       adapt_fitted(form, trial);
     if(method == "fem-cut")
-      trial.n = !trial.scene.sources.empty() ? 40 : trial.scene.domain.round() ? 24 : 16;
+    {
+      // A layer on a wall is followed from three cells on.
+      const bool begins = !trial.scene.sources.empty() || !trial.scene.initial.front;
+      trial.n = begins ? 40 : trial.scene.domain.round() ? 24 : 16;
+    }
     if(method == "rkpm-tracked" && form == "along a line" && dimension > 1)
       trial.n = 28;
     if(method == "sph-mixture" && shape == DomainShape::ball && dimension == 3)
