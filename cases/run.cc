@@ -1,9 +1,13 @@
 #include <cases/run.h>
 #include <cases/scene.h>
+#include <cases/shared_run.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 
+#include <algorithm>
+#include <array>
+#include <istream>
 #include <stdexcept>
 #include <utility>
 
@@ -47,10 +51,23 @@ namespace meltfront::cases
 
   void Run::resume(std::istream &state)
   {
-    boost::archive::binary_iarchive archive(state);
-    for(Stopwatch::Seconds *spent : {&setup_before, &stepping_before})
-      archive >> spent->wall >> spent->cpu;
-    restore(archive);
+    const auto *shared = dynamic_cast<const SharedRun *>(this);
+    do
+    {
+      boost::archive::binary_iarchive archive(state);
+      std::array<Stopwatch::Seconds, 2> spent;
+      for(Stopwatch::Seconds &part : spent)
+        archive >> part.wall >> part.cpu;
+      restore(archive);
+      if(shared && !shared->takes_over_times())
+        continue;
+      for(const auto &[before, part] :
+          {std::pair(&setup_before, spent[0]), std::pair(&stepping_before, spent[1])})
+      {
+        before->wall = std::max(before->wall, part.wall);
+        before->cpu += part.cpu;
+      }
+    } while(state.peek() != std::istream::traits_type::eof());
     setup = watch.elapsed();
     begun = resumed = true;
   }

@@ -14,6 +14,7 @@ namespace meltfront::cases
    * Sites of which a snapshot on one of several ranks (processes of MPI) consists: its
    * own ones first, so many, then those of other ranks that its cells have, with weight
    * zero; the cells are those of the rank. Sums (heat, mass) are those of all ranks.
+   * Sites and cells are the same in all snapshots of a run.
    */
   struct RankPart
   {
@@ -24,13 +25,21 @@ namespace meltfront::cases
 
   /**
    * A run that several ranks share: all of them make it, take it to its end and fail at
-   * the same time.
+   * the same time. Each goes on from what it saved itself; on another number of ranks
+   * than before, Run::restore() is called on each with the states of all in turn.
    */
   class SharedRun : public Run
   {
   public:
     /** What the snapshots hold that it hands over. */
     virtual RankPart part() const = 0;
+
+    /** Whether the times spent until the state that was restored last count as spent by
+     * this rank: by one of all. */
+    virtual bool takes_over_times() const
+    {
+      return true;
+    }
   };
 
   /** What a method is that can share a run among several ranks. Those that are not are
@@ -42,6 +51,12 @@ namespace meltfront::cases
 
     /** As Method::capabilities(), of what it takes on several ranks. */
     virtual Capabilities capabilities_on_ranks() const = 0;
+
+    /** Whether a run of one process is made like those that ranks share. */
+    virtual bool shares_on_one(const Options &) const
+    {
+      return false;
+    }
 
     /** As Method::demand(), of all ranks together. */
     virtual Demand demand_on_ranks(const Scene &scene, const EffectSet &effects,

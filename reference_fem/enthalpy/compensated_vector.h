@@ -37,6 +37,12 @@ namespace meltfront::reference_fem
       return leading[i];
     }
 
+    /** All of them. */
+    const std::vector<double> &rounded() const
+    {
+      return leading;
+    }
+
     void set(std::size_t i, double value)
     {
       leading[i] = value;

@@ -70,10 +70,7 @@ namespace meltfront::reference_fem
       std::vector<cases::Capabilities>
       capabilities_with(const cases::Options &options) const override
       {
-        if(options.declarations().empty()
-           || options.get_string("engine") != "distributed")
-          return capabilities();
-        return {rank_capabilities()};
+        return shares_on_one(options) ? std::vector{rank_capabilities()} : capabilities();
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override
@@ -116,6 +113,12 @@ namespace meltfront::reference_fem
       cases::Capabilities capabilities_on_ranks() const override
       {
         return rank_capabilities();
+      }
+
+      bool shares_on_one(const cases::Options &options) const override
+      {
+        return !options.declarations().empty()
+               && options.get_string("engine") == "distributed";
       }
 
       cases::Demand demand_on_ranks(const cases::Scene &scene, const cases::EffectSet &,

@@ -85,6 +85,13 @@ namespace meltfront::reference_fem
       constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
       // A front within a cell or two of its place gets there by itself, and exactly.
       constexpr int by_itself = 2;
+      // Of Newton's steps one in so many counts the slope of the jump.
+      // Coarse corrections move fronts better.
+      bool has_coarser_meshes = false;
+      if constexpr(Solver::moves_fronts)
+        has_coarser_meshes = solver().has_coarser_meshes();
+      const int slopes_apart = has_coarser_meshes ? 4 : 2;
+      int first_correction = by_itself; // of the iterations
       StepOutcome outcome;
       direction.resize(u.size());
       processes.update(u);
@@ -107,16 +114,22 @@ namespace meltfront::reference_fem
             const cases::ScopedTimer timer(cost.seconds);
             move_nodes(c, rhs, u, heat);
             if constexpr(Solver::moves_fronts)
-              if(solver().has_coarser_meshes() && outcome.iterations >= by_itself)
+            {
+              if(has_coarser_meshes && outcome.iterations < first_correction
+                 && fronts_go_far())
+                first_correction = outcome.iterations;
+              if(has_coarser_meshes && outcome.iterations >= first_correction)
               {
                 solver().correct_coarsely(c, u, heat);
                 recover_heat(c, rhs, u, heat);
                 move_nodes(c, rhs, u, heat);
               }
+            }
           }
-        const bool front_moves = Solver::moves_fronts && !state.settled
-                                 && outcome.iterations >= by_itself
-                                 && (outcome.iterations - by_itself) % 2 == 0;
+        const bool front_moves
+            = Solver::moves_fronts && !state.settled
+              && outcome.iterations >= first_correction
+              && (outcome.iterations - first_correction) % slopes_apart == 0;
         const double heat_per_kelvin = solver().linearise(c, u, heat);
         if constexpr(Solver::moves_fronts)
           if(front_moves)
@@ -271,15 +284,22 @@ namespace meltfront::reference_fem
       };
       near_front.assign(u.size(), 0);
       at_fronts.clear();
+      n_off_region = n_at_front = 0;
       for(std::size_t i = 0; i < n_own(); ++i)
-        if(neighbours_elsewhere(i)
-           || (problem.free[i]
-               && !solver().same_side(
-                   i, u[i], solver().excess_at_enthalpy(i, heat[i] / problem.volume[i]))))
+      {
+        const bool at_front = neighbours_elsewhere(i);
+        const bool off_region
+            = problem.free[i]
+              && !solver().same_side(
+                  i, u[i], solver().excess_at_enthalpy(i, heat[i] / problem.volume[i]));
+        n_at_front += at_front;
+        n_off_region += off_region;
+        if(at_front || off_region)
         {
           near_front[i] = 1;
           at_fronts.push_back(static_cast<unsigned int>(i));
         }
+      }
       const auto mark = [&](unsigned int i)
       {
         if(i < n_own() && !near_front[i])
@@ -304,6 +324,15 @@ namespace meltfront::reference_fem
       std::sort(at_fronts.begin(),
                 at_fronts.begin() + static_cast<std::ptrdiff_t>(swept));
       return swept;
+    }
+
+    /** Whether there are more nodes off the region of their heat than fronts have beside
+     * them, some three layers, when nodes at fronts were found last. */
+    bool fronts_go_far() const
+    {
+      double off_region = double(n_off_region), at_front = double(n_at_front);
+      processes.add_up(off_region, at_front);
+      return off_region > at_front;
     }
 
     /** Symmetric sweeps of nonlinear Gauss-Seidel, there and back.
@@ -331,6 +360,9 @@ namespace meltfront::reference_fem
 
     std::vector<unsigned int> at_fronts; ///< find_nodes_at_fronts()
     std::vector<char> near_front;        ///< by node: whether it is among them
+    /** Of the own nodes those that are not in the region of their heat, and those that
+     * have a neighbour in another region than their own. */
+    std::size_t n_off_region = 0, n_at_front = 0;
   };
 } // namespace meltfront::reference_fem
 

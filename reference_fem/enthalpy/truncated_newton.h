@@ -55,9 +55,11 @@ namespace meltfront::reference_fem
    * a Newton step for the nodes off the jump (u != 0); a projection, so that no node
    * passes the jump; and an exact line search on J. Plain semismooth Newton cycles once
    * the front crosses several cells in a step, and this iteration moves a front by some
-   * cells only. So from the second iteration on, while nodes are not in the region of
-   * their heat, a CoarseCorrection moves it first, and every other Newton step counts the
-   * latent heat that a moving front takes as a slope of the graph's jump. Without a jump
+   * cells only. So from the second iteration on, and at once where more nodes are not in
+   * the region of their heat than lie beside fronts, a CoarseCorrection moves it first
+   * while there are such nodes, and every fourth Newton step (every other one where there
+   * is no coarser mesh) counts the latent heat that a moving front takes as a slope of
+   * the graph's jump. Without a jump
    * J is smooth, and Newton's method with the line search needs neither sweep nor
    * projection.
    *

@@ -3,12 +3,18 @@
 
 #include <deal.II/base/data_out_base.h>
 
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <span>
+#include <sstream>
 #include <tuple>
 
 namespace meltfront::verification
@@ -70,14 +76,16 @@ namespace meltfront::verification
     template <int dim>
     using Patches = std::vector<dealii::DataOutBase::Patch<dim, 3>>;
 
-    /** One patch per cell of dimension dim, given by its vertices; for dim = 0 one per
-     * site. */
+    template <int dim>
+    constexpr std::size_t vertices_of_cell = std::size_t(1) << dim;
+
+    /** One patch for each of n cells of dimension dim, given by its vertices, from one
+     * on; for dim = 0 for each site. */
     template <int dim, typename Index>
-    Patches<dim> make_patches(const Fields &fields, std::span<const Index> cells)
+    Patches<dim> make_patches(const Fields &fields, std::span<const Index> cells,
+                              std::size_t first, std::size_t n)
     {
-      constexpr std::size_t vertices = std::size_t(1) << dim;
-      const std::size_t n
-          = dim == 0 ? fields.positions[0].size() : cells.size() / vertices;
+      constexpr std::size_t vertices = vertices_of_cell<dim>;
       Patches<dim> patches(n);
       for(std::size_t i = 0; i < n; ++i)
       {
@@ -85,7 +93,8 @@ namespace meltfront::verification
         patches[i].data.reinit(fields.names.size(), vertices);
         for(std::size_t v = 0; v < vertices; ++v)
         {
-          const std::size_t site = dim == 0 ? i : cells[vertices * i + v];
+          const std::size_t site
+              = dim == 0 ? first + i : cells[vertices * (first + i) + v];
           for(int d = 0; d < 3; ++d)
             if(!fields.positions[d].empty())
               patches[i].vertices[v][d] = fields.positions[d][site];
@@ -96,17 +105,34 @@ namespace meltfront::verification
       return patches;
     }
 
+    /** In pieces of the file, since deal.II takes some 700 bytes for each cell of one. */
     template <int dim, typename Index>
     void write_frame(const cases::Snapshot &snapshot, std::span<const Index> cells,
                      std::ostream &out)
     {
+      using dealii::DataOutBase::VtkFlags;
+      constexpr std::size_t cells_of_piece = 1 << 17;
       std::vector<double> zeros;
       const Fields fields = fields_of(snapshot, zeros);
-      dealii::DataOutBase::VtkFlags flags(snapshot.time, snapshot.step);
+      const std::size_t n
+          = dim == 0 ? fields.positions[0].size() : cells.size() / vertices_of_cell<dim>;
+      VtkFlags flags(snapshot.time, snapshot.step);
       // The best one, deal.II's default, takes twenty times as long as many a run.
-      flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
-      dealii::DataOutBase::write_vtu(make_patches<dim>(fields, cells), fields.names,
-                                     fields.vectors, flags, out);
+      flags.compression_level = VtkFlags::best_speed;
+      dealii::DataOutBase::write_vtu_header(out, flags);
+      std::size_t first = 0;
+      do
+      {
+        const std::size_t end = std::min(n, first + cells_of_piece);
+        dealii::DataOutBase::write_vtu_main(
+            make_patches<dim>(fields, cells, first, end - first), fields.names,
+            fields.vectors, flags, out);
+        // Time and step stand in front of the pieces.
+        flags.time = VtkFlags().time;
+        flags.cycle = VtkFlags().cycle;
+        first = end;
+      } while(first < n);
+      dealii::DataOutBase::write_vtu_footer(out);
     }
 
     void write_sites(const cases::Snapshot &snapshot, std::ostream &out)
@@ -164,18 +190,56 @@ namespace meltfront::verification
     , bond(bond)
     , piece(piece)
   {
+    if(!piece.goes_on)
+      remove_other_frames();
+  }
+
+  /** Fields of an earlier run in the same directory, or of a later time, would mix with
+   * this one's. */
+  void FieldWriter::remove_other_frames() const
+  {
     if(piece.rank > 0)
       return;
-    // Fields of an earlier run in the same directory would mix with this one's.
     for(const auto &entry : std::filesystem::directory_iterator(directory))
     {
       const std::string name = entry.path().filename().string();
-      for(const std::string collection : {"fields", "bonds"})
-        if(name == collection + ".pvd"
-           || (name.starts_with(collection + "-")
-               && (name.ends_with(".vtu") || name.ends_with(".pvtu"))))
+      for(const auto &[collection, frames_of] :
+          {std::pair<std::string, const Frames &>("fields", written),
+           std::pair<std::string, const Frames &>("bonds", bonds_written)})
+      {
+        const bool is_frame = name.starts_with(collection + "-")
+                              && (name.ends_with(".vtu") || name.ends_with(".pvtu"));
+        // Files of one frame are alike up to the first dot.
+        const bool stays = std::ranges::any_of(frames_of,
+                                               [&](const auto &frame)
+                                               {
+                                                 const std::string &file = frame.second;
+                                                 return name.starts_with(
+                                                     file.substr(0, file.find('.') + 1));
+                                               });
+        if(name == collection + ".pvd" || (is_frame && !stays))
           std::filesystem::remove_all(entry.path());
+      }
     }
+  }
+
+  void FieldWriter::begin(const cases::RunDescription &)
+  {
+    remove_other_frames();
+  }
+
+  std::string FieldWriter::state() const
+  {
+    std::ostringstream out;
+    boost::archive::binary_oarchive(out) << next_frame << written << bonds_written;
+    return std::move(out).str();
+  }
+
+  void FieldWriter::go_on_from(const std::string &state)
+  {
+    std::istringstream in(state);
+    boost::archive::binary_iarchive(in) >> next_frame >> written >> bonds_written;
+    remove_other_frames();
   }
 
   bool FieldWriter::wants(long, double time)
@@ -203,8 +267,7 @@ namespace meltfront::verification
   }
 
   template <typename Write>
-  void FieldWriter::write(const std::string &collection,
-                          std::vector<std::pair<double, std::string>> &list,
+  void FieldWriter::write(const std::string &collection, Frames &list,
                           const cases::Snapshot &snapshot, const Write &write_frame) const
   {
     const std::string name = fmt::format("{}-{:04}", collection, list.size());

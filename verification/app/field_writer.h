@@ -1,7 +1,7 @@
 #ifndef meltfront_verification_app_field_writer_h
 #define meltfront_verification_app_field_writer_h
 
-#include <cases/method.h>
+#include <verification/ranks/part_observer.h>
 
 #include <string>
 #include <utility>
@@ -17,13 +17,15 @@ namespace meltfront::verification
    * of the front, with its curvature. Bonds between solid particles are lines in files of
    * their own, `bonds.pvd`, since a file holds cells of one dimension.
    */
-  class FieldWriter : public cases::Observer
+  class FieldWriter : public PartObserver
   {
   public:
-    /** Which of the ranks that share a run this writer is for. */
+    /** Which of the ranks that share a run this writer is for, and whether it may go on
+     * from a state, so that earlier frames are left until it is told. */
     struct Piece
     {
       int rank = 0, ranks = 1;
+      bool goes_on = false;
     };
 
     /**
@@ -41,16 +43,23 @@ namespace meltfront::verification
     {
     }
 
+    void begin(const cases::RunDescription &description) override;
     bool wants(long step, double time) override;
 
     /** @throws cases::OutputError if a file cannot be written. */
     void observe(const cases::Snapshot &snapshot) override;
 
+    std::string state() const override;
+    void go_on_from(const std::string &state) override;
+
   private:
+    using Frames = std::vector<std::pair<double, std::string>>; ///< times and files
+
+    void remove_other_frames() const;
+
     /** Write one file of a collection; the collection is whole after each. */
     template <typename Write>
-    void write(const std::string &collection,
-               std::vector<std::pair<double, std::string>> &list,
+    void write(const std::string &collection, Frames &list,
                const cases::Snapshot &snapshot, const Write &write_frame) const;
 
     std::string directory;
@@ -60,7 +69,7 @@ namespace meltfront::verification
     double bond;
     Piece piece;
     int next_frame = 0;
-    std::vector<std::pair<double, std::string>> written, bonds_written;
+    Frames written, bonds_written;
   };
 } // namespace meltfront::verification
 

@@ -157,7 +157,8 @@ namespace meltfront::verification
       {
         return std::make_unique<FieldWriter>(
             plan.directory, scene.start_time, scene.end_time, arguments.frames, 0,
-            FieldWriter::Piece{session.rank(), session.size()});
+            FieldWriter::Piece{session.rank(), session.size(),
+                               !arguments.resume.empty()});
       };
       std::unique_ptr<FieldWriter> fields;
       session.on_first(
@@ -191,17 +192,26 @@ namespace meltfront::verification
       return program;
     }
 
-    /** The case and the arguments of a run that was left in a directory. @throws
-     * cases::InputError if there is none, or it was of another number of ranks */
-    std::pair<cases::Case, RunArguments> left_run(const RunArguments &arguments,
-                                                  int ranks)
+    /** A run that was left in a directory. */
+    struct LeftRun
+    {
+      cases::Case the_case;
+      RunArguments arguments;
+      bool shared; ///< as ranks share one, be it one of them
+    };
+
+    /** @throws cases::InputError if there is none, or several ranks are to go on with one
+     * that ranks do not share */
+    LeftRun left_run(const RunArguments &arguments, int ranks)
     {
       const nlohmann::json request
           = CheckpointFolder::in(arguments.resume).request(this_program());
-      if(const int before = request.value("ranks", 1); before != ranks)
+      const bool shared = request.value("shared", false);
+      if(ranks > 1 && !shared)
         throw cases::InputError(fmt::format(
-            "{} was begun on {} rank{} and is gone on with on as many, not on {}",
-            arguments.resume, before, before == 1 ? "" : "s", ranks));
+            "{} was begun by what makes runs of one process, and {} ranks cannot go on "
+            "with it: resume it without mpirun",
+            arguments.resume, ranks));
       RunArguments result = arguments;
       result.output = arguments.resume;
       try
@@ -212,7 +222,7 @@ namespace meltfront::verification
         request.at("seed").get_to(result.seed);
         request.at("threads").get_to(result.threads);
         request.at("frames").get_to(result.frames);
-        return {request.at("case").get<StoredCase>(), result};
+        return {request.at("case").get<StoredCase>(), result, shared};
       }
       catch(const nlohmann::json::exception &problem)
       {
@@ -222,7 +232,7 @@ namespace meltfront::verification
     }
 
     nlohmann::json request_of(const RunPlan &plan, const RunArguments &arguments,
-                              int ranks)
+                              bool shared)
     {
       return {{"case", stored_case(plan.the_case)},
               {"method", plan.method.name()},
@@ -231,7 +241,7 @@ namespace meltfront::verification
               {"seed", plan.resolution.seed},
               {"threads", plan.resolution.threads},
               {"frames", arguments.frames},
-              {"ranks", ranks},
+              {"shared", shared},
               {"program", this_program()}};
     }
 
@@ -273,9 +283,19 @@ namespace meltfront::verification
       }
       return set;
     }
-    /** Make a run and tell what came of it. @return an ExitStatus */
+    /** Whether a run of one process is made as ranks share one: so several can go on with
+     * it. */
+    bool shares_on_one(const RunPlan &plan)
+    {
+      const auto *shared = dynamic_cast<const cases::SharedMethod *>(&plan.method);
+      return kept_run(plan) && shared && shared->shares_on_one(plan.resolution.options);
+    }
+
+    /** Make a run and tell what came of it.
+     * @param shared it goes on with one that ranks shared
+     * @return an ExitStatus */
     int run_case(const cases::Case &c, const RunArguments &arguments,
-                 const std::string &directory, const RankSession *session)
+                 const std::string &directory, const RankSession *session, bool shared)
     {
       const cases::Method &method = method_named(arguments.method);
       RunPlan plan{c,
@@ -286,6 +306,12 @@ namespace meltfront::verification
                    directory,
                    sort_settings(arguments.settings).of_method};
       const auto set = apply_settings(plan.settings, method, plan.resolution.options);
+      std::optional<RankSession> alone;
+      if(!session && (shared || shares_on_one(plan)))
+        session = &alone.emplace();
+      if(session && !output_words(cases::output_of(c)).empty())
+        throw cases::InputError(fmt::format(
+            "{}: probes and lines are not written of runs that ranks share", c.file));
       const int ranks = session ? session->size() : 1;
       plan.label = run_label(method.name(), set, arguments.threads, ranks);
       std::optional<DirectoryLock> lock;
@@ -294,7 +320,7 @@ namespace meltfront::verification
         lock.emplace(directory);
         const CheckpointFolder folder = CheckpointFolder::in(directory);
         if(arguments.resume.empty())
-          folder.begin(kept_run(plan) ? request_of(plan, arguments, ranks)
+          folder.begin(kept_run(plan) ? request_of(plan, arguments, session != nullptr)
                                       : nlohmann::json());
         else
           folder.last(); // throws where the run could not go on from it
@@ -329,8 +355,9 @@ namespace meltfront::verification
     {
       if(!arguments.settings.empty())
         throw cases::InputError("--resume takes no --set: the run goes on as it began");
-      const auto [c, of_left_run] = left_run(arguments, session ? session->size() : 1);
-      return run_case(c, of_left_run, arguments.resume, session);
+      const LeftRun left = left_run(arguments, session ? session->size() : 1);
+      return run_case(left.the_case, left.arguments, arguments.resume, session,
+                      left.shared);
     }
     if(arguments.case_name.empty() || arguments.method.empty())
       throw cases::InputError("run needs a case and --method, or --resume DIRECTORY");
@@ -349,11 +376,8 @@ namespace meltfront::verification
                          directory_of);
     };
     const cases::Case c = cases::load_case(session ? session->on_first(vary) : vary());
-    if(session && !output_words(cases::output_of(c)).empty())
-      throw cases::InputError(fmt::format(
-          "{}: probes and lines are written by runs of one process only", c.file));
     const std::string directory = directory_of(c.scene.name);
     make_directory(directory);
-    return run_case(c, arguments, directory, session);
+    return run_case(c, arguments, directory, session, false);
   }
 } // namespace meltfront::verification

@@ -55,27 +55,50 @@ namespace meltfront::verification
       return result;
     }
 
-    /** Each rank's own of the texts that the first one has. */
-    std::string scattered(MPI_Comm communicator, const std::vector<std::string> &texts)
+    /** The texts that the first rank has in turn, and how long each is. */
+    struct Joined
     {
-      std::string all;
-      std::vector<std::size_t> lengths;
-      for(const std::string &text : texts)
+      std::string text; ///< on the first rank
+      Lengths of;
+
+      Joined(MPI_Comm communicator, const std::vector<std::string> &texts)
+        : of(dealii::Utilities::MPI::broadcast(communicator, lengths(texts)))
       {
-        all += text;
-        lengths.push_back(text.size());
+        for(const std::string &one : texts)
+          text += one;
       }
-      const Lengths of(dealii::Utilities::MPI::broadcast(communicator, lengths));
+
+      static std::vector<std::size_t> lengths(const std::vector<std::string> &texts)
+      {
+        std::vector<std::size_t> result;
+        for(const std::string &one : texts)
+          result.push_back(one.size());
+        return result;
+      }
+    };
+
+    /** Each rank's own. */
+    std::string scattered(MPI_Comm communicator, const Joined &all)
+    {
       const auto rank = dealii::Utilities::MPI::this_mpi_process(communicator);
-      std::string own(std::size_t(of.length[rank]), ' ');
-      MPI_Scatterv(all.data(), of.length.data(), of.begin.data(), MPI_CHAR, own.data(),
-                   of.length[rank], MPI_CHAR, 0, communicator);
+      std::string own(std::size_t(all.of.length[rank]), ' ');
+      MPI_Scatterv(all.text.data(), all.of.length.data(), all.of.begin.data(), MPI_CHAR,
+                   own.data(), all.of.length[rank], MPI_CHAR, 0, communicator);
       return own;
+    }
+
+    /** All, to each rank. */
+    std::string handed_out(MPI_Comm communicator, Joined &&all)
+    {
+      const int length = all.of.begin.back() + all.of.length.back();
+      all.text.resize(static_cast<std::size_t>(length));
+      MPI_Bcast(all.text.data(), length, MPI_CHAR, 0, communicator);
+      return std::move(all.text);
     }
   } // namespace
 
   GatheringKeeper::GatheringKeeper(MPI_Comm communicator, cases::StateKeeper *whole,
-                                   LoggedObserver &part)
+                                   PartObserver &part)
     : communicator(communicator)
     , whole(whole)
     , part(part)
@@ -85,28 +108,26 @@ namespace meltfront::verification
   std::unique_ptr<std::istream> GatheringKeeper::state_to_resume()
   {
     std::vector<std::string> states;
+    std::string state_of_part;
     together(communicator,
              [&]
              {
                const auto state = whole ? whole->state_to_resume() : nullptr;
                if(state)
-                 boost::archive::binary_iarchive(*state) >> states;
+                 boost::archive::binary_iarchive(*state) >> states >> state_of_part;
              });
-    const bool resumes = dealii::Utilities::MPI::broadcast(communicator, !states.empty());
-    if(!resumes)
-    {
-      together(communicator, [this] { part.go_on_behind(0); });
+    const auto before
+        = dealii::Utilities::MPI::broadcast(communicator, unsigned(states.size()));
+    if(before == 0)
       return nullptr;
-    }
-    auto own = std::make_unique<std::istringstream>(scattered(communicator, states));
-    together(communicator,
-             [&]
-             {
-               std::uintmax_t observed_bytes = 0;
-               boost::archive::binary_iarchive(*own) >> observed_bytes;
-               part.go_on_behind(observed_bytes);
-             });
-    return own;
+    state_of_part = dealii::Utilities::MPI::broadcast(communicator, state_of_part);
+    together(communicator, [&] { part.go_on_from(state_of_part); });
+    Joined all(communicator, states);
+    states = {};
+    const bool as_many = before == dealii::Utilities::MPI::n_mpi_processes(communicator);
+    return std::make_unique<std::istringstream>(
+        as_many ? scattered(communicator, all)
+                : handed_out(communicator, std::move(all)));
   }
 
   void GatheringKeeper::offer(long step, double time,
@@ -115,13 +136,7 @@ namespace meltfront::verification
     const auto states_of_ranks = [&]
     {
       std::ostringstream own;
-      together(communicator,
-               [&]
-               {
-                 const std::uintmax_t observed_bytes = part.bytes();
-                 boost::archive::binary_oarchive(own) << observed_bytes;
-                 save(own);
-               });
+      together(communicator, [&] { save(own); });
       return gathered(communicator, std::move(own).str());
     };
     const auto tell = [this](bool due)
@@ -141,7 +156,9 @@ namespace meltfront::verification
                             {
                               due = tell(true);
                               const std::vector<std::string> states = states_of_ranks();
-                              boost::archive::binary_oarchive(out) << states;
+                              const std::string state_of_part = part.state();
+                              boost::archive::binary_oarchive(out)
+                                  << states << state_of_part;
                             });
                if(!due)
                  tell(false);

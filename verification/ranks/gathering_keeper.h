@@ -1,7 +1,7 @@
 #ifndef meltfront_verification_ranks_gathering_keeper_h
 #define meltfront_verification_ranks_gathering_keeper_h
 
-#include <verification/run/checkpoint/logged_observer.h>
+#include <verification/ranks/part_observer.h>
 
 #include <mpi.h>
 
@@ -10,7 +10,8 @@ namespace meltfront::verification
   /**
    * Keeps states of a run that ranks share: the first rank's keeper decides when, and is
    * given what all ranks write, each its part. So one file, written whole or not at all,
-   * holds the same moment of all ranks. It can be gone on from on as many ranks.
+   * holds the same moment of all ranks. On as many ranks each goes on from its own part,
+   * on another number of them each from what it needs of all parts.
    *
    * All of it is called on all ranks at the same time.
    */
@@ -19,10 +20,9 @@ namespace meltfront::verification
   public:
     /**
      * @param whole keeps the states of all; null on all ranks but the first
-     * @param part what this rank's part of the run is told to
+     * @param part observes this rank's part of the run
      */
-    GatheringKeeper(MPI_Comm communicator, cases::StateKeeper *whole,
-                    LoggedObserver &part);
+    GatheringKeeper(MPI_Comm communicator, cases::StateKeeper *whole, PartObserver &part);
 
     std::unique_ptr<std::istream> state_to_resume() override;
     void offer(long step, double time,
@@ -31,7 +31,7 @@ namespace meltfront::verification
   private:
     MPI_Comm communicator;
     cases::StateKeeper *whole;
-    LoggedObserver &part;
+    PartObserver &part;
   };
 } // namespace meltfront::verification
 

@@ -65,7 +65,7 @@ namespace meltfront::verification
     {
       /** @param whole null on all ranks but the first
        * @param evidence of the checkpoints, on the first rank */
-      RankKeepers(MPI_Comm communicator, cases::Observer *whole, cases::Observer &part,
+      RankKeepers(MPI_Comm communicator, cases::Observer *whole, PartObserver &part,
                   const std::optional<KeptRun> &kept,
                   std::map<std::string, double> &evidence)
       {
@@ -73,14 +73,10 @@ namespace meltfront::verification
           return;
         if(whole)
           of_whole.emplace(kept->folder, kept->interval, *whole, evidence);
-        const auto rank = dealii::Utilities::MPI::this_mpi_process(communicator);
-        of_part.emplace(kept->folder.observations_of_rank(static_cast<int>(rank)), part);
-        of_all.emplace(communicator, of_whole ? of_whole->state_keeper() : nullptr,
-                       *of_part);
+        of_all.emplace(communicator, of_whole ? of_whole->state_keeper() : nullptr, part);
       }
 
       std::optional<CheckpointKeeper> of_whole;
-      std::optional<LoggedObserver> of_part;
       std::optional<GatheringKeeper> of_all;
     };
 
@@ -88,13 +84,12 @@ namespace meltfront::verification
     {
     public:
       RankObserver(MPI_Comm communicator, const MethodOnRanks &method,
-                   cases::Observer *whole, cases::Observer &part, TimeLimit &limit,
+                   cases::Observer *whole, PartObserver &part, TimeLimit &limit,
                    const std::optional<KeptRun> &kept,
                    std::map<std::string, double> &evidence)
         : RankKeepers(communicator, whole, part, kept, evidence)
-        , GatheringObserver(method, communicator, of_whole ? &*of_whole : whole,
-                            of_part ? &*of_part : &part, limit,
-                            of_all ? &*of_all : nullptr)
+        , GatheringObserver(method, communicator, of_whole ? &*of_whole : whole, &part,
+                            limit, of_all ? &*of_all : nullptr)
       {
       }
     };
@@ -102,9 +97,8 @@ namespace meltfront::verification
     /** What the first rank does: run_one(), the observer being that of all. */
     RankEnd lead(MPI_Comm communicator, const cases::Case &c, const MethodOnRanks &method,
                  const cases::Resolution &resolution, const std::string &label,
-                 const std::map<std::string, std::string> &provenance,
-                 cases::Observer &part, TimeLimit &limit,
-                 const std::optional<KeptRun> &kept)
+                 const std::map<std::string, std::string> &provenance, PartObserver &part,
+                 TimeLimit &limit, const std::optional<KeptRun> &kept)
     {
       RepeatPolicy once;
       once.most = 1;
@@ -138,7 +132,7 @@ namespace meltfront::verification
     /** What the others do: solve, and keep how that ended. */
     RankEnd follow(MPI_Comm communicator, const cases::Case &c,
                    const MethodOnRanks &method, const cases::Resolution &resolution,
-                   cases::Observer &part, TimeLimit &limit,
+                   PartObserver &part, TimeLimit &limit,
                    const std::optional<KeptRun> &kept)
     {
       RankEnd end;
@@ -218,8 +212,8 @@ namespace meltfront::verification
                          const MethodOnRanks &method, const cases::Resolution &resolution,
                          const std::string &label,
                          const std::map<std::string, std::string> &provenance,
-                         cases::Observer &part, double time_limit,
-                         const std::string &file, const std::optional<KeptRun> &kept)
+                         PartObserver &part, double time_limit, const std::string &file,
+                         const std::optional<KeptRun> &kept)
   {
     constexpr double patience = 10; // s
     // Messages of its own, so that a rank that waits elsewhere is not taken for met.

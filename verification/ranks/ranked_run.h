@@ -3,6 +3,7 @@
 
 #include <cases/case.h>
 #include <verification/ranks/method_on_ranks.h>
+#include <verification/ranks/part_observer.h>
 #include <verification/ranks/ranks.h>
 #include <verification/record/run_record.h>
 #include <verification/run/checkpoint/checkpoint_folder.h>
@@ -37,8 +38,8 @@ namespace meltfront::verification
                          const MethodOnRanks &method, const cases::Resolution &resolution,
                          const std::string &label,
                          const std::map<std::string, std::string> &provenance,
-                         cases::Observer &part, double time_limit,
-                         const std::string &file, const std::optional<KeptRun> &kept);
+                         PartObserver &part, double time_limit, const std::string &file,
+                         const std::optional<KeptRun> &kept);
 } // namespace meltfront::verification
 
 #endif

@@ -54,6 +54,15 @@ namespace meltfront::verification
   {
   }
 
+  RankSession::RankSession()
+  {
+    static char name[] = "meltfront";
+    static char *words[] = {name, nullptr};
+    int argc = 1;
+    char **argv = words;
+    started = std::make_unique<Started>(argc, argv);
+  }
+
   RankSession::~RankSession() = default;
 
   int RankSession::rank() const

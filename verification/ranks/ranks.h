@@ -19,6 +19,8 @@ namespace meltfront::verification
   {
   public:
     RankSession(int &argc, char **&argv);
+    /** Of this process alone, which was not started as one of several. */
+    RankSession();
     ~RankSession();
 
     /** Of this process; the first, 0, prints and writes. */

@@ -14,7 +14,8 @@ namespace meltfront::verification
   /**
    * Brings the ranks' parts of snapshots together on the first rank: sites in the order
    * of their numbers and cells in that of their first sites, so that nothing depends on
-   * which rank has what. The mesh is sent again only where it has changed.
+   * which rank has what. The mesh is sent once. Messages are of a megabyte: the first
+   * rank holds the whole, and next to nothing beside it.
    */
   class WholeSnapshot
   {
@@ -31,14 +32,14 @@ namespace meltfront::verification
     cases::Snapshot gather(const cases::Snapshot &snapshot, const cases::RankPart &part);
 
   private:
-    std::vector<double> in_order(std::span<const double> own) const;
+    void take_in_order(std::span<const double> own, std::vector<double> &whole) const;
     void gather_mesh(const cases::Snapshot &snapshot, const cases::RankPart &part);
+    void gather_cells(const cases::Snapshot &snapshot, const cases::RankPart &part,
+                      const std::vector<std::uint64_t> &numbers);
 
     MPI_Comm communicator;
-    std::vector<std::uint64_t> numbers_sent; ///< by this rank, of sites
-    std::vector<unsigned int> cells_sent;
-
-    std::vector<std::size_t> order; ///< of the sites as they come, rank by rank
+    bool mesh_is_here = false;
+    std::vector<unsigned int> place; ///< of the sites as they come, rank by rank
     std::array<std::vector<double>, 3> positions;
     std::vector<double> weights, temperature, solid_fraction;
     std::vector<unsigned int> cells;

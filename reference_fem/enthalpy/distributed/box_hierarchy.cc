@@ -20,8 +20,6 @@ namespace meltfront::reference_fem
     using cases::BoundaryKind, cases::Position, cases::Side;
     using Place = BoxLattice::Place;
 
-    constexpr unsigned int nowhere = dealii::numbers::invalid_unsigned_int;
-
     /** The part of a cell that a point of a quadrature stands for. */
     struct CellPoint
     {
@@ -121,6 +119,8 @@ namespace meltfront::reference_fem
       result.dimension = lattice.dimension;
       result.spacing = scene.domain.side() / lattice.cells[0];
       result.conduction = level.conduction.expanded();
+      result.volume.reserve(n_own);
+      result.positions.reserve(n_own);
       for(unsigned int i = 0; i < n_own; ++i)
       {
         const Place node = level.place(i);
@@ -148,35 +148,26 @@ namespace meltfront::reference_fem
       }
     }
 
-    /** Own nodes, then the others of own cells, which are those whose lower corner is
-     * an own node. */
+    /** Own nodes, then ghosts, so that the number of a site is that of its node. Own
+     * cells are those whose lower corner is an own node. */
     void BoxOfRank::place_sites(Discretisation &result) const
     {
-      std::vector<unsigned int> site_of(level.n_with_ghosts(), nowhere);
-      const auto add_site = [&](unsigned int node, double weight)
+      const std::size_t n_sites = level.n_with_ghosts();
+      result.site_weights.resize(n_sites);
+      std::ranges::copy(result.volume, result.site_weights.begin());
+      for(int d = 0; d < lattice.dimension; ++d)
+        result.site_positions[d].resize(n_sites);
+      for(unsigned int i = 0; i < n_sites; ++i)
       {
-        site_of[node] = static_cast<unsigned int>(result.node_of_site.size());
-        result.node_of_site.push_back(node);
-        result.site_weights.push_back(weight);
-        const Position position = lattice.position(level.place(node));
+        const Position position = lattice.position(level.place(i));
         for(int d = 0; d < lattice.dimension; ++d)
-          result.site_positions[d].push_back(position[d]);
-      };
-      for(unsigned int i = 0; i < n_own; ++i)
-        add_site(i, result.volume[i]);
-      for(unsigned int i = 0; i < n_own; ++i)
-      {
-        const Place cell = level.place(i);
-        if(!lattice.begins_cell(cell))
-          continue;
-        for(unsigned int a = 0; a < lattice.n_corners(); ++a)
-        {
-          const unsigned int node = level.local(BoxLattice::corner(cell, a));
-          if(site_of[node] == nowhere)
-            add_site(node, 0);
-          result.cells.push_back(site_of[node]);
-        }
+          result.site_positions[d][i] = position[d];
       }
+      result.cells.reserve(std::size_t(n_own) * lattice.n_corners());
+      for(unsigned int i = 0; i < n_own; ++i)
+        if(const Place cell = level.place(i); lattice.begins_cell(cell))
+          for(unsigned int a = 0; a < lattice.n_corners(); ++a)
+            result.cells.push_back(level.local(BoxLattice::corner(cell, a)));
     }
 
     /** Those of the own nodes. */

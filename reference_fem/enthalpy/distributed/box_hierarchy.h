@@ -23,7 +23,8 @@ namespace meltfront::reference_fem
   /**
    * A rank's part of the finest mesh as effects see it. The Discretisation has the rank's
    * own nodes only (volumes, positions, wall nodes, so that the effects' loops and sums
-   * are the rank's part), but the sites of its own cells, some of which are ghosts.
+   * are the rank's part). Sites are these and then the ghosts, in the rank's numbers
+   * (node_of_site stays empty), cells those whose lower corner is an own node.
    *
    * @param finest outlives what is made, as the scene does
    */

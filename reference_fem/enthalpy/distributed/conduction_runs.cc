@@ -77,6 +77,10 @@ namespace meltfront::reference_fem
   {
     ConductionMatrix result;
     result.diagonal = diagonal;
+    result.row_start.reserve(diagonal.size() + 1);
+    const std::size_t n_conductances = static_cast<std::size_t>(count) - diagonal.size();
+    result.column.reserve(n_conductances);
+    result.conductance.reserve(n_conductances);
     for(const Run &run : runs)
       for(unsigned int t = 0; t < run.rows; ++t)
       {

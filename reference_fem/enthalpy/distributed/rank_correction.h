@@ -37,9 +37,11 @@ namespace meltfront::reference_fem
              &states[l].right_side, &states[l].heat, &states[l].work})
           if(l > 0 || field == &states[l].heat || field == &states[l].work)
             field->resize(levels[l].n_with_ghosts());
+      const Traffic of_steps = traffic; // which setting up, once a process, is no part of
       take(volume, states[0].work);
       for(std::size_t l = 1; l < levels.size(); ++l)
         restrict_to(l, l == 1 ? states[0].work : states[l - 1].volume, states[l].volume);
+      traffic = of_steps;
     }
 
     /** Of the own nodes. */

@@ -74,6 +74,12 @@ namespace meltfront::reference_fem
                  : ghosts.nth_index_in_set(node - static_cast<unsigned int>(n_own()));
     }
 
+    /** Numbers on the lattice of the own nodes. */
+    const dealii::IndexSet &own_numbers() const
+    {
+      return own;
+    }
+
     /** Those that are nodes of the next coarser mesh, by their numbers there. */
     dealii::IndexSet own_on_coarser() const;
 

@@ -52,8 +52,9 @@ namespace meltfront::reference_fem
     const RankLevel &finest = levels.front();
     const std::unique_ptr<Mesh> geometry = make_rank_mesh(scene, finest);
     mesh = geometry->discretise();
-    for(const unsigned int node : mesh.node_of_site)
-      site_numbers.push_back(finest.number(node));
+    site_numbers.resize(finest.n_with_ghosts());
+    for(unsigned int i = 0; i < site_numbers.size(); ++i)
+      site_numbers[i] = finest.number(i);
     n_nodes = finest.lattice.n_nodes();
     free = finest.free;
     n_free = static_cast<std::uint64_t>(
@@ -70,11 +71,14 @@ namespace meltfront::reference_fem
     if(effects.contains(Effect::robin_wall) || effects.contains(Effect::radiating_wall))
       exchange.emplace(scene, mesh, free);
     enthalpy = enthalpy_before = initial_enthalpy(scene, *geometry, mesh, free);
+    if(!release) // which alone asks for them from now on
+      mesh.positions = {};
     auto linear = make_rank_solver(levels, traffic);
     linear_solver = linear.get();
     solver = make_rank_newton(problem(), levels, scene.material, effects,
                               std::move(linear), traffic);
-    u = CompensatedVector(finest.n_with_ghosts());
+    u = u_accepted = CompensatedVector(finest.n_with_ghosts());
+    u_before.resize(u.size());
     for(std::size_t i = 0; i < enthalpy.size(); ++i)
       u.set(i, solver->kirchhoff_at_enthalpy(i, enthalpy[i]));
     for(std::vector<double> *part : u.parts())
@@ -272,7 +276,7 @@ namespace meltfront::reference_fem
         continue;
       }
       queue.pop();
-      u_before = u_accepted;
+      u_before = u_accepted.rounded();
       u_accepted = u;
       statistics.graph_inconsistency
           = std::max(statistics.graph_inconsistency, outcome.graph_inconsistency);

@@ -48,6 +48,11 @@ namespace meltfront::reference_fem
       return {enthalpy.size(), site_numbers};
     }
 
+    bool takes_over_times() const override
+    {
+      return takes_over;
+    }
+
     // In rank_report.cc:
     cases::RunDescription describe() const override;
     cases::Cost cost() const override;
@@ -63,7 +68,8 @@ namespace meltfront::reference_fem
     void save(boost::archive::binary_oarchive &state) const override;
     void restore(boost::archive::binary_iarchive &state) override;
     template <class Archive>
-    void pass_state(Archive &state);
+    void pass_common_state(Archive &state);
+    std::vector<std::vector<double> *> state_of_nodes();
     cases::Snapshot snapshot(long step, double time) override; // in rank_report.cc
 
     /** What a quantity that is summed over time was at the last two times. */
@@ -111,6 +117,8 @@ namespace meltfront::reference_fem
       }
     };
     Earlier costs_so_far() const;
+    void take_costs(const Earlier &left, const Traffic &traffic_of_part,
+                    unsigned int rank_of_part);
 
     const cases::Scene &scene;
     const cases::EffectSet &effects;
@@ -136,7 +144,8 @@ namespace meltfront::reference_fem
     std::optional<WallFlux> flux;
     std::optional<WallExchange> exchange;
 
-    CompensatedVector u, u_accepted, u_before;     ///< with ghosts, W/m
+    CompensatedVector u, u_accepted;               ///< with ghosts, W/m
+    std::vector<double> u_before;                  ///< the same, rounded
     std::vector<double> enthalpy, enthalpy_before; ///< of own nodes, J/m^3
     std::vector<double> rhs, heat;                 ///< of own nodes, J
     History boundary_heat, released_heat;
@@ -147,6 +156,8 @@ namespace meltfront::reference_fem
     long step_number = 0, iterations = 0, capped_steps = 0;
     StepStatistics statistics;
     Earlier earlier;
+    long parts_restored = 0;
+    bool takes_over = true; ///< see takes_over_times()
     std::vector<double> site_temperature, site_solid_fraction;
   };
 

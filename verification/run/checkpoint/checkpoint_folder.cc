@@ -38,11 +38,6 @@ namespace meltfront::verification
     return path + "/observed.bin";
   }
 
-  std::string CheckpointFolder::observations_of_rank(int rank) const
-  {
-    return fmt::format("{}/observed-{}.bin", path, rank);
-  }
-
   void CheckpointFolder::begin(const nlohmann::json &request) const
   {
     if(last())

@@ -53,9 +53,8 @@ namespace meltfront::verification
      * another run's */
     std::optional<Checkpoint> last() const;
 
-    /** What the run told its observer, or one of several ranks its own. */
+    /** What the run told its observer. */
     std::string observations() const;
-    std::string observations_of_rank(int rank) const;
 
     void remove() const;
 

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -299,6 +300,47 @@ namespace meltfront::reference_fem::tests
         EXPECT_EQ(resumed.cost.evidence, whole.cost.evidence);
         for(std::size_t e = 0; e < whole.cost.effects.size(); ++e)
           EXPECT_EQ(resumed.cost.effects[e].calls, whole.cost.effects[e].calls);
+      }
+    }
+  }
+
+  // On as many ranks each goes on from its part of the state, on others from all parts.
+  TEST(RankRun, GoesOnOnAnotherNumberOfRanks)
+  {
+    const OptionTexts few_steps{{"steps", "10"}};
+    for(const auto &scene : {walls_of_all_kinds(), line_sink_square()})
+    {
+      const Shown whole = on_ranks(scene, 32, all_ranks(), few_steps);
+      for(const auto &[before, after] :
+          {std::pair(all_ranks(), 1), std::pair(1, all_ranks())})
+      {
+        Shown left, resumed;
+        Watch leaves(left), goes_on(resumed);
+        leaves.left_after = 5;
+        EXPECT_THROW(watch_on_ranks(scene, 32, before, few_steps, leaves), Interruption);
+        goes_on.state = leaves.state;
+        if(before > 1)
+        {
+          goes_on.state.clear();
+          for(const std::string &part :
+              dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, leaves.state))
+            goes_on.state += part;
+        }
+        watch_on_ranks(scene, 32, after, few_steps, goes_on);
+        const auto rest = whole.time.size() - resumed.time.size();
+        ASSERT_EQ(rest, 6u);
+        const double scale = std::abs(*std::ranges::max_element(
+            whole.latent, {}, [](double latent) { return std::abs(latent); }));
+        for(std::size_t k = rest; k < whole.time.size(); ++k)
+        {
+          EXPECT_EQ(resumed.time[k - rest], whole.time[k]);
+          EXPECT_NEAR(resumed.latent[k - rest], whole.latent[k], 1e-10 * scale);
+          EXPECT_LE(resumed.defect[k - rest], 1e-12);
+        }
+        EXPECT_EQ(resumed.cost.steps, whole.cost.steps);
+        // Ranks that iterate otherwise touch a little more or less.
+        EXPECT_NEAR(double(resumed.cost.work), double(whole.cost.work),
+                    0.1 * double(whole.cost.work));
       }
     }
   }
