@@ -85,12 +85,12 @@ namespace meltfront::reference_fem
       constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
       // A front within a cell or two of its place gets there by itself, and exactly.
       constexpr int by_itself = 2;
-      // Of Newton's steps one in so many counts the slope of the jump.
-      // Coarse corrections move fronts better.
+      // Newton's steps that count the slope of the jump: one every other iteration, the
+      // second of them later where coarse corrections move fronts better.
       bool has_coarser_meshes = false;
       if constexpr(Solver::moves_fronts)
         has_coarser_meshes = solver().has_coarser_meshes();
-      const int slopes_apart = has_coarser_meshes ? 4 : 2;
+      const int second_slope = has_coarser_meshes ? 4 : 2;
       int first_correction = by_itself; // of the iterations
       StepOutcome outcome;
       direction.resize(u.size());
@@ -126,10 +126,10 @@ namespace meltfront::reference_fem
               }
             }
           }
-        const bool front_moves
-            = Solver::moves_fronts && !state.settled
-              && outcome.iterations >= first_correction
-              && (outcome.iterations - first_correction) % slopes_apart == 0;
+        const int corrections = outcome.iterations - first_correction;
+        const bool front_moves = Solver::moves_fronts && !state.settled
+                                 && corrections >= 0 && corrections % 2 == 0
+                                 && (corrections == 0 || corrections >= second_slope);
         const double heat_per_kelvin = solver().linearise(c, u, heat);
         if constexpr(Solver::moves_fronts)
           if(front_moves)
@@ -326,13 +326,13 @@ namespace meltfront::reference_fem
       return swept;
     }
 
-    /** Whether there are more nodes off the region of their heat than fronts have beside
-     * them, some three layers, when nodes at fronts were found last. */
+    /** Whether there are more than twice as many nodes off the region of their heat as
+     * fronts have beside them, some six layers, when nodes at fronts were found last. */
     bool fronts_go_far() const
     {
       double off_region = double(n_off_region), at_front = double(n_at_front);
       processes.add_up(off_region, at_front);
-      return off_region > at_front;
+      return off_region > 2 * at_front;
     }
 
     /** Symmetric sweeps of nonlinear Gauss-Seidel, there and back.

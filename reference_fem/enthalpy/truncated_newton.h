@@ -55,13 +55,13 @@ namespace meltfront::reference_fem
    * a Newton step for the nodes off the jump (u != 0); a projection, so that no node
    * passes the jump; and an exact line search on J. Plain semismooth Newton cycles once
    * the front crosses several cells in a step, and this iteration moves a front by some
-   * cells only. So from the second iteration on, and at once where more nodes are not in
-   * the region of their heat than lie beside fronts, a CoarseCorrection moves it first
-   * while there are such nodes, and every fourth Newton step (every other one where there
-   * is no coarser mesh) counts the latent heat that a moving front takes as a slope of
-   * the graph's jump. Without a jump
-   * J is smooth, and Newton's method with the line search needs neither sweep nor
-   * projection.
+   * cells only. So from the second iteration on, and at once where twice as many nodes
+   * are not in the region of their heat as lie beside fronts, a CoarseCorrection moves it
+   * first while there are such nodes. Of Newton's steps the one with the first
+   * correction, the fourth after it (the second where there is no coarser mesh) and every
+   * other one from there count the latent heat that a moving front takes as a slope of
+   * the graph's jump. Without a jump J is smooth, and Newton's method with the line
+   * search needs neither sweep nor projection.
    *
    * The enthalpy is then volume_i H_i = rhs_i - c (K u)_i, so heat is conserved whatever
    * u is; what tells whether the step is solved is that H_i and u_i lie on the graph.
