@@ -206,7 +206,8 @@ namespace meltfront::verification
     {
       const nlohmann::json request
           = CheckpointFolder::in(arguments.resume).request(this_program());
-      const bool shared = request.value("shared", false);
+      const bool shared
+          = request.contains("shared") && request.at("shared") == nlohmann::json(true);
       if(ranks > 1 && !shared)
         throw cases::InputError(fmt::format(
             "{} was begun by what makes runs of one process, and {} ranks cannot go on "

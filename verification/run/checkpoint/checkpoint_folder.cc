@@ -66,7 +66,17 @@ namespace meltfront::verification
     {
       throw cases::InputError(damaged.what());
     }
-    const nlohmann::json before = result.value("program", nlohmann::json());
+    const auto damaged_unless = [&](bool sound)
+    {
+      if(!sound)
+        throw cases::InputError(
+            fmt::format("{}/request.json is damaged: it does not hold what was asked for "
+                        "and by which program",
+                        path));
+    };
+    damaged_unless(result.is_object());
+    const nlohmann::json before = result.value("program", nlohmann::json::object());
+    damaged_unless(before.is_object());
     for(const auto &[name, value] : program.items())
       if(before.value(name, nlohmann::json()) != value)
         throw cases::InputError(fmt::format(

@@ -188,8 +188,11 @@ namespace meltfront::verification
     {
       EXPECT_EQ(folder.request({{"compiler", "g++"}}), request);
       EXPECT_THROW(folder.request({{"compiler", "clang"}}), cases::InputError);
-      std::ofstream(file("request.json")) << "{";
-      EXPECT_THROW(folder.request({}), cases::InputError);
+      for(const char *damaged : {"{", "\"case\"", "3", "{}", R"({"program": "g++"})"})
+      {
+        std::ofstream(file("request.json")) << damaged;
+        EXPECT_THROW(folder.request({{"compiler", "g++"}}), cases::InputError) << damaged;
+      }
       folder.remove();
       EXPECT_THROW(folder.request({}), cases::InputError);
     }
