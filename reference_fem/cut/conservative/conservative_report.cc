@@ -94,25 +94,48 @@ namespace meltfront::reference_fem::cut::conservative
                                                                       : Phase::liquid;
   }
 
+  /** @param missed what the linear function of the triangle misses there, made as much
+   * less as keeps the temperature on its phase's side of the melting temperature and
+   * within the bounds that the scene gives (K) */
+  double ConservativeRun::shown_temperature(unsigned int triangle, const Point &place,
+                                            Phase phase, double missed) const
+  {
+    const double melting = scene.material.melting_temperature;
+    const double linear
+        = melting + assembly.temperature(phase, triangle, place, temperatures, powers);
+    const double lower = phase == Phase::solid ? bounds.lower : melting,
+                 upper = phase == Phase::solid ? melting : bounds.upper;
+    return std::clamp(linear + missed, std::min(linear, lower), std::max(linear, upper));
+  }
+
   unsigned int ConservativeRun::add_site(unsigned int triangle, const Point &point,
-                                         double weight, Phase phase)
+                                         double weight, Phase phase, double missed)
   {
     const Point place = in_domain(point);
-    return sites.add(
-        place, weight,
-        scene.material.melting_temperature
-            + assembly.temperature(phase, triangle, place, temperatures, powers),
-        phase == Phase::solid);
+    return sites.add(place, weight, shown_temperature(triangle, place, phase, missed),
+                     phase == Phase::solid);
   }
 
   void ConservativeRun::collect_sites()
   {
     const Front front(mesh, state.level_set);
+    const Guess now{temperatures, state.level_set, segments_of(front), powers};
+    const std::array<CurvatureFit, 2> fits{
+        assembly.curvature_fit(Phase::solid, now),
+        assembly.curvature_fit(Phase::liquid, now),
+    };
     sites.clear();
     for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
       for(const Phase phase : phases)
-        integrate(front.part(t, phase), [&](const Point &point, double weight)
-                  { add_site(t, point, weight, phase); });
+      {
+        const Polygon &part = front.part(t, phase);
+        if(part.empty())
+          continue;
+        const Triangle &triangle = mesh.triangles[t];
+        const Remainder bend(fits[index(phase)](triangle), triangle, mesh.nodes);
+        integrate(part, [&](const Point &point, double weight)
+                  { add_site(t, point, weight, phase, bend.value(point)); });
+      }
     constexpr unsigned int none = static_cast<unsigned int>(-1);
     std::vector<unsigned int> site_of_node(mesh.nodes.size(), none);
     for(unsigned int s = 0; s < mesh.squares.size(); ++s)
@@ -125,7 +148,7 @@ namespace meltfront::reference_fem::cut::conservative
         {
           const unsigned int t = mesh.triangle_at(in_domain(mesh.nodes[node]));
           site_of_node[node] = add_site(t, mesh.nodes[node], 0,
-                                        phase_at(t, in_domain(mesh.nodes[node])));
+                                        phase_at(t, in_domain(mesh.nodes[node])), 0);
         }
         sites.cells.push_back(site_of_node[node]);
       }

@@ -132,7 +132,7 @@ namespace meltfront::reference_fem::cut::conservative
         state.heat,
         state.debt,
         increment,
-        temperatures};
+        {temperatures, state.level_set, segments_of(frame.front), powers}};
     for(double &value : data.increment)
       value *= last_step > 0 ? gamma * duration / last_step : 0;
     step.first = solve_stage(assembly, scene, mesh, frame, data, options.passes);
@@ -149,7 +149,7 @@ namespace meltfront::reference_fem::cut::conservative
       data.change[node] += per_area * step.first.flux[node];
       data.increment[node] = step.first.increment[node] / gamma;
     }
-    data.guess = step.first.temperatures;
+    data.guess = step.first.guess;
     step.second = solve_stage(assembly, scene, mesh, frame, data, options.passes);
     solves += step.first.solves + step.second.solves;
     most_solves = std::max(most_solves, step.first.solves + step.second.solves);
@@ -229,13 +229,13 @@ namespace meltfront::reference_fem::cut::conservative
                    + second * (step.second.released_power + step.second.source_power);
     state.heat = std::move(step.second.heat);
     state.debt = std::move(step.second.debt);
-    temperatures = std::move(step.second.temperatures);
+    temperatures = std::move(step.second.guess.temperatures);
     increment = std::move(step.second.increment);
     powers = std::move(step.powers);
     last_step = duration;
     time = end;
     ++step_number;
-    state.level_set = std::move(step.second.level_set);
+    state.level_set = std::move(step.second.guess.level_set);
     turn_small_bodies();
     restore_slopes();
     state.level_set = with_distances(mesh, Front(mesh, state.level_set), state.level_set,
@@ -326,7 +326,8 @@ namespace meltfront::reference_fem::cut::conservative
   {
     constexpr double begins = 0.5;
     const std::array<double, 2> tolerated = tolerated_heat();
-    return largest_excess(mesh, tolerated, step.second.level_set, step.second.heat) > 1
+    return largest_excess(mesh, tolerated, step.second.guess.level_set, step.second.heat)
+               > 1
            && largest_excess(mesh, tolerated, state.level_set, state.heat) < begins;
   }
 

@@ -74,7 +74,9 @@ namespace meltfront::reference_fem::cut::conservative
     Point in_domain(const Point &point) const;
     Phase phase_at(unsigned int triangle, const Point &point) const;
     unsigned int add_site(unsigned int triangle, const Point &point, double weight,
-                          Phase phase);
+                          Phase phase, double missed);
+    double shown_temperature(unsigned int triangle, const Point &place, Phase phase,
+                             double missed) const;
     void collect_sites();
     std::vector<cases::EffectCost> effect_costs() const;
 

@@ -3,7 +3,9 @@
 
 #include <cases/effect_meter.h>
 #include <cases/scene.h>
+#include <reference_fem/cut/conservative/curvature.h>
 #include <reference_fem/cut/conservative/line_sources.h>
+#include <reference_fem/cut/conservative/square_element.h>
 #include <reference_fem/cut/conservative/step_frame.h>
 
 #include <array>
@@ -25,10 +27,6 @@ namespace meltfront::reference_fem::cut::conservative
     double time;                ///< s
     std::vector<double> powers; ///< of line sources (W/m)
   };
-
-  /** Nodal temperatures over the melting temperature, by phase; of the solid without the
-   * singular part of sources. Meaningful at nodes of active triangles. */
-  using Temperatures = std::array<Values, 2>;
 
   /** What the terms cost that effects call for. */
   struct Meters
@@ -52,9 +50,8 @@ namespace meltfront::reference_fem::cut::conservative
 
   /**
    * Assembles the terms of CutFEM in each phase (Hansbo, Larson and Zahedi 2016; Myrbaeck
-   * and Zahedi 2024) for linear triangles; squares that neither front, rim nor wall
-   * touches conduct as bilinear elements, which are linear on the same sides and miss a
-   * third of the energy of harmonic functions that two triangles miss:
+   * and Zahedi 2024) for linear triangles, and a compact scheme of fourth order on
+   * squares that neither front, rim nor wall touches (SquareElement):
    *
    *   M(theta, w) = int_p rho c theta w
    *   S(theta, w) = - int_p k grad theta . grad w + N(theta, g; w) + int_p q w
@@ -66,6 +63,11 @@ namespace meltfront::reference_fem::cut::conservative
    * faces of the pass alone the terms would jump where the front passes a node, and
    * passes would go to and fro about it. Sums over all w: S(theta, 1) is what crosses
    * front and walls and is released.
+   *
+   * In triangles theta stands for the linear function plus the parabola that this misses
+   * (Remainder), with second derivatives from the guess: a correction that lags by a
+   * pass. Without it a strip of linear triangles along the front makes fluxes too large
+   * by h^2/8 int |D^2 T|^2/int |grad T|^2, of which the strip's share is of third order.
    */
   class PhaseAssembly
   {
@@ -74,13 +76,13 @@ namespace meltfront::reference_fem::cut::conservative
                   const LineSources &sources, const Constants &constants);
 
     /**
-     * @param guess temperatures of the pass before, about which radiation is linear
+     * @param guess temperatures of the pass before, about which radiation is linear and
+     * which tell second derivatives
      * @param follow whether g = psi (grad phi . grad theta)/|grad phi|^2 with the guess'
      * gradient follows the level set's increment psi; else g = 0
      */
     PhaseOperators assemble(Phase phase, const StepFrame &frame, const Front &front,
-                            const StageTime &stage, const Temperatures &guess,
-                            bool follow);
+                            const StageTime &stage, const Guess &guess, bool follow);
 
     /** Call before the terms of another time: what is released, and which triangles have
      * been cut, is kept for a stage. */
@@ -90,6 +92,9 @@ namespace meltfront::reference_fem::cut::conservative
     double temperature(Phase phase, unsigned int triangle, const Point &point,
                        const Temperatures &temperatures,
                        const std::vector<double> &powers) const;
+
+    /** Second derivatives of a phase's temperature; refers to the guess. */
+    CurvatureFit curvature_fit(Phase phase, const Guess &guess) const;
 
     const cases::PhaseProperties &properties(Phase phase) const;
 
@@ -103,10 +108,17 @@ namespace meltfront::reference_fem::cut::conservative
 
   private:
     struct Context;
+    std::vector<Curvature> curvatures(const Context &context) const;
+    std::vector<FrontSample> front_samples(Phase phase, const Guess &guess) const;
+    Remainder remainder(const Context &context, unsigned int triangle) const;
+    void mark_parted(Phase phase, const Front &front);
+    bool has_ghost_penalty(const Context &context, const InnerEdge &edge) const;
     void add_bulk(const Context &context) const;
-    bool conducts_as_square(const Context &context, unsigned int square) const;
-    void add_square(const Context &context,
-                    const std::array<unsigned int, 4> &nodes) const;
+    void add_triangle(const Context &context, unsigned int number) const;
+    void add_singular_heat(const Context &context, unsigned int triangle) const;
+    unsigned int open_sides(const Context &context, unsigned int square) const;
+    double laplacian(unsigned int square, const Values &values) const;
+    void add_square(const Context &context, unsigned int square) const;
     void add_released(const Context &context);
     void add_ghost_penalty(const Context &context);
     void add_front(const Context &context) const;
@@ -115,12 +127,12 @@ namespace meltfront::reference_fem::cut::conservative
     void add_wall(const Context &context, const WallPiece &wall,
                   const Segment &segment) const;
     void add_exchange(const Context &context, const cases::Boundary &boundary,
-                      const Triangle &triangle, const Point &point, double weight,
+                      unsigned int triangle, const Point &point, double weight,
                       double given, double offset) const;
     template <typename Visit>
     void visit_source_flux(const Context &context, const Segment &segment,
                            const Gradient &normal, const Visit &visit) const;
-    void hold(const Context &context, const Triangle &triangle, const Point &point,
+    void hold(const Context &context, unsigned int triangle, const Point &point,
               double weight, const Gradient &normal, double offset, double follow,
               Operator &result) const;
 
@@ -129,6 +141,8 @@ namespace meltfront::reference_fem::cut::conservative
     const LineSources &sources;
     const Constants constants;
     std::vector<char> inner_square;              ///< neither cut by a rim nor at a wall
+    std::vector<char> inside;                    ///< by node: in a triangle that is whole
+    std::vector<SquareElement> square_elements;  ///< by open sides, bit by bit
     std::vector<std::array<double, 3>> released; ///< by triangle, of those not cut (W/m)
     std::vector<char> released_known;
     std::array<std::vector<char>, 2> was_parted; ///< by phase and triangle

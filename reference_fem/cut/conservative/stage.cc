@@ -31,7 +31,7 @@ namespace meltfront::reference_fem::cut::conservative
     public:
       StagePass(PhaseAssembly &assembly, const cases::Scene &scene,
                 const StepFrame &frame, const Front &front, const StageData &data,
-                const Temperatures &guess)
+                const Guess &guess)
         : frame(frame)
         , front(front)
         , data(data)
@@ -155,7 +155,7 @@ namespace meltfront::reference_fem::cut::conservative
     for(std::size_t node = 0; node < predicted.size(); ++node)
       if(frame.displacement[node] < 0)
         predicted[node] = 0;
-    result.temperatures = data.guess;
+    Guess guess = data.guess;
     assembly.forget_stage();
     const double per_area
         = data.duration / (scene.material.solid.density * scene.material.latent_heat);
@@ -168,11 +168,11 @@ namespace meltfront::reference_fem::cut::conservative
     bool to_and_fro = false, last = false;
     for(int pass = 1; !last; ++pass)
     {
-      StagePass stage(assembly, scene, frame, *move.front, data, result.temperatures);
+      StagePass stage(assembly, scene, frame, *move.front, data, guess);
       stage.solve(move.increment);
       ++result.solves;
       result.entries += static_cast<long>(stage.entries.size());
-      result.temperatures = temperatures(frame, stage.solution);
+      guess.temperatures = temperatures(frame, stage.solution);
       const Values flux = stage.flux();
       if(moves)
       {
@@ -185,6 +185,9 @@ namespace meltfront::reference_fem::cut::conservative
             = pass > 2 && before <= small * mesh.spacing && move.largest > before / 2;
         before = move.largest;
       }
+      guess.level_set = frame.moved(move.increment, mesh.spacing);
+      guess.front = segments_of(*move.front);
+      guess.powers = data.time.powers;
       last = pass == most || (moves && (result.settled || to_and_fro));
       if(!last)
         continue;
@@ -197,7 +200,7 @@ namespace meltfront::reference_fem::cut::conservative
     for(const double power : data.time.powers)
       result.source_power += power;
     result.limited = move.limited;
-    result.level_set = frame.moved(move.increment, mesh.spacing);
+    result.guess = std::move(guess);
     result.increment = std::move(move.increment);
     result.debt = std::move(move.debt);
     return result;
@@ -208,7 +211,7 @@ namespace meltfront::reference_fem::cut::conservative
                                const std::array<Values, 2> &heat)
   {
     const std::size_t nodes = frame.level_set.size();
-    const Temperatures nothing{Values(nodes), Values(nodes)};
+    const Guess nothing{{Values(nodes), Values(nodes)}, {}, {}, {}};
     std::vector<Eigen::Triplet<double>> entries;
     LocalVector load = LocalVector::Zero(frame.unknowns);
     for(const Phase phase : phases)

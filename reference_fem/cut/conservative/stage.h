@@ -15,14 +15,14 @@ namespace meltfront::reference_fem::cut::conservative
     std::array<Values, 2> heat; ///< carried to it, by phase and hat (J/m)
     Values change;              ///< of the solid's area, carried to it, by hat (m^2)
     Values increment;           ///< of the level set since the step's begin, predicted
-    Temperatures guess;
+    Guess guess;
   };
 
   struct StageResult
   {
-    Values increment, level_set;
+    Values increment;
+    Guess guess;                ///< temperatures and front, as they were found
     std::array<Values, 2> heat; ///< J/m
-    Temperatures temperatures;
     Values flux; ///< heat that the phases take up through the front, by hat (W/m)
     Values debt; ///< what the front's law is off by, by hat (m^2)
     double wall_power = 0, released_power = 0, source_power = 0; ///< W/m

@@ -46,7 +46,7 @@ namespace meltfront::reference_fem::tests
       hold(scene, Side::x_min, -1);
       set_boundary(scene, Side::x_max, exact_wall(exact));
       std::vector<double> errors;
-      const std::vector<int> n{20, 28, 40};
+      const std::vector<int> n{40, 48, 56, 80};
       for(const int cells : n)
       {
         const Course course = run_from_one_phase(scene, cells);
@@ -54,7 +54,8 @@ namespace meltfront::reference_fem::tests
         errors.push_back(
             std::abs(course.solid.back() / 0.4 - exact->front(scene.end_time)));
       }
-      EXPECT_LE(errors.back(), 1e-3);
+      // What is left is the enthalpy method's, which goes before.
+      EXPECT_LE(errors.front(), 1e-4);
       EXPECT_GE(fitted_order(n, errors), 1);
     }
 
