@@ -89,6 +89,7 @@ namespace meltfront::particles::rkpm_tracked
                                          ///< over the spacing
     bool jittered = false;
     double jitter = 0.2; ///< of inner nodes, over the spacing
+    double wall_spacing = 0.0625; ///< beside walls that give heat, over that within
     Start start = Start::automatic;
     bool exact_history = true; ///< before the start, where the start is exact
     Displaced displaced = Displaced::liquid;

@@ -30,15 +30,30 @@ namespace meltfront::particles::rkpm_tracked
   LineCollocation::LineCollocation(const LineProblem &problem,
                                    const LineSettings &settings)
     : problem(problem)
-    , interpolation_distance(std::max(settings.interpolation_distance, coincidence)
-                             * problem.spacing)
-    , stencils(settings.basis_order, settings.dilation * problem.spacing)
+    , interpolation_distance(std::max(settings.interpolation_distance, coincidence))
+    , dilation(settings.dilation)
+    , stencils(settings.basis_order)
     , regular(problem.nodes.size())
   {
     cloud.dimension = 1;
     cloud.position[0] = problem.nodes;
     for(std::size_t i = 0; i < problem.nodes.size(); ++i)
-      stencils.evaluate(problem.nodes[i], cloud, regular[i]);
+      evaluate_stencil(problem.nodes[i], regular[i]);
+    if(problem.balanced())
+      make_regular_faces();
+  }
+
+  void LineCollocation::evaluate_stencil(double place, LineStencil &stencil)
+  {
+    stencils.evaluate(place, dilation * problem.spacing_at(place), cloud, stencil);
+  }
+
+  void LineCollocation::make_regular_faces()
+  {
+    const std::vector<double> &x = problem.nodes;
+    regular_faces.resize(x.size() - 1);
+    for(std::size_t i = 0; i + 1 < x.size(); ++i)
+      evaluate_stencil((x[i] + x[i + 1]) / 2, regular_faces[i]);
   }
 
   void LineCollocation::nodes_moved(std::span<const double> before)
@@ -54,8 +69,10 @@ namespace meltfront::particles::rkpm_tracked
       for(std::size_t j = from; j < std::min(regular[i].end() + 1, x.size()); ++j)
         touched = touched || moved(j);
       if(touched)
-        stencils.evaluate(x[i], cloud, regular[i]);
+        evaluate_stencil(x[i], regular[i]);
     }
+    if(problem.balanced())
+      make_regular_faces();
   }
 
   std::pair<std::size_t, std::size_t>
@@ -80,11 +97,15 @@ namespace meltfront::particles::rkpm_tracked
     first = all_first;
     end = all_end;
     // A node on a wall stays, however near the front is.
+    const double near_lower
+        = interpolation_distance * problem.spacing_at(interval.lower);
+    const double near_upper
+        = interpolation_distance * problem.spacing_at(interval.upper);
     while(interval.lower_front && first < end && first + 1 < x.size()
-          && x[first] - interval.lower < interpolation_distance)
+          && x[first] - interval.lower < near_lower)
       ++first;
     while(interval.upper_front && end > first && end > 1
-          && interval.upper - x[end - 1] < interpolation_distance)
+          && interval.upper - x[end - 1] < near_upper)
       --end;
     std::vector<double> &place = cloud.position[0];
     place.clear();
@@ -121,7 +142,7 @@ namespace meltfront::particles::rkpm_tracked
         return row;
       }
     }
-    stencils.evaluate(place, cloud, row);
+    evaluate_stencil(place, row);
     return row;
   }
 
@@ -132,7 +153,7 @@ namespace meltfront::particles::rkpm_tracked
     const double x = cloud.position[0][point];
     const cases::PhaseProperties &phase = problem.phase(interval.solid);
     const double diffusivity = phase.diffusivity();
-    const int bends = problem.curvature_terms();
+    const int bends = problem.balanced() ? 0 : problem.curvature_terms();
     double slope = bends > 0 ? -diffusivity * bends / x : 0.;
     if(terms.displaced_speed != 0)
     {
@@ -160,9 +181,11 @@ namespace meltfront::particles::rkpm_tracked
   {
     const std::size_t points = cloud.size();
     right_side.resize(points);
+    if(problem.balanced())
+      measure_cells();
     for(std::size_t p = 0; p < points; ++p)
     {
-      const LineStencil &row = stencil(p);
+      const LineStencil &row = problem.balanced() ? balance(p) : stencil(p);
       const bool lower_end = p == 0, upper_end = p + 1 == points;
       if((lower_end && interval.lower_front) || (upper_end && interval.upper_front))
       {
@@ -177,7 +200,7 @@ namespace meltfront::particles::rkpm_tracked
       {
         const int side = upper_end ? 1 : 0;
         walls[static_cast<std::size_t>(problem.walls[side].kind)].measure(
-            [&] { add_wall_row(p, side, interval, terms.time); });
+            [&] { add_wall_row(p, side, interval, terms); });
       }
       else
         add_row(p, interval, terms);
@@ -258,10 +281,11 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t i = first; i < end; ++i)
       temperature[i] = right_side[i - first + offset];
     interpolate_absorbed(interval, temperature);
-    EndSlopes slopes = end_slopes();
+    EndSlopes slopes
+        = problem.balanced() ? balanced_slopes(interval, terms) : end_slopes();
     for(std::size_t side = 0; side < 2; ++side)
       if(terms.approach[side] > 0)
-        slopes[side] *= slope_over_resolved(interval, side, terms.approach[side]);
+        slopes[side] *= slope_over_resolved(interval, side, terms);
     for(std::size_t side = 0; side < 2; ++side)
       slopes[side] += (side == 0 ? 1 : -1) * unseen[side].density * unseen[side].reach
                       / problem.phase(interval.solid).conductivity;
@@ -305,20 +329,30 @@ namespace meltfront::particles::rkpm_tracked
    * meets. It comes in where the layer is about as thin as the spacing.
    */
   double LineCollocation::slope_over_resolved(const LineInterval &interval,
-                                              std::size_t side, double approach) const
+                                              std::size_t side,
+                                              const StepTerms &terms) const
   {
-    const double rate = approach / problem.phase(interval.solid).diffusivity();
-    const double share = std::clamp((rate * problem.spacing - resolved_peclet)
-                                        / (unresolved_peclet - resolved_peclet),
-                                    0., 1.);
+    const double diffusivity = problem.phase(interval.solid).diffusivity();
+    const double rate = terms.approach[side] / diffusivity;
+    const double front = side == 0 ? interval.lower : interval.upper;
+    const double share
+        = std::clamp((rate * problem.spacing_at(front) - resolved_peclet)
+                         / (unresolved_peclet - resolved_peclet),
+                     0., 1.);
     if(share == 0)
       return 1;
-    const LineStencil &row = rows[side == 0 ? 0 : cloud.size() - 1];
-    const double front = side == 0 ? interval.lower : interval.upper;
+    std::vector<double> layer(cloud.size());
+    for(std::size_t p = 0; p < layer.size(); ++p)
+      layer[p] = -std::expm1(-rate * std::abs(cloud.position[0][p] - front));
     double sum = 0;
-    for(std::size_t j = 0; j < row.size(); ++j)
-      sum -= row.slope[j]
-             * std::expm1(-rate * std::abs(cloud.position[0][row.first + j] - front));
+    if(problem.balanced())
+      sum = balanced_front_slope(side, terms.rate[side], diffusivity, layer);
+    else
+    {
+      const LineStencil &row = rows[side == 0 ? 0 : cloud.size() - 1];
+      for(std::size_t j = 0; j < row.size(); ++j)
+        sum += row.slope[j] * layer[row.first + j];
+    }
     const double factor = (side == 0 ? rate : -rate) / sum;
     return factor > 0 ? 1 + share * share * (3 - 2 * share) * (factor - 1) : 1;
   }

@@ -90,7 +90,8 @@ namespace meltfront::particles::rkpm_tracked
         = interval(problem, state, side == 0 ? 0 : state.n_intervals() - 1);
     const double share
         = problem.walls[side].fixed() ? layer_over_spacing : flux_layer_over_spacing;
-    const double thickness = std::min(share * problem.spacing,
+    const double wall = side == 0 ? phase.lower : phase.upper;
+    const double thickness = std::min(share * problem.spacing_at(wall),
                                       layer_over_room * (phase.upper - phase.lower));
     if(side == 0)
     {

@@ -29,6 +29,8 @@ namespace meltfront::particles::rkpm_tracked
 
     /** Steps shorter than this share of the run fail. */
     constexpr double shortest_step_over_run = 1e-13;
+    double envd(const char *n, double d) { const char *v = std::getenv(n); return v ? std::atof(v) : d; }
+    const double growth_steps = envd("GS", 12), layer_steps = envd("LS", 6);
     constexpr int scheme_order(TimeScheme scheme)
     {
       return static_cast<int>(scheme);
@@ -166,6 +168,11 @@ namespace meltfront::particles::rkpm_tracked
                                 : step * std::min(1., step / duration);
         result.temperature_span
             = temperature_span(bounds, initial, scene.material.melting_temperature);
+        if(problem.balanced())
+        {
+          result.share_of_age = growth_steps / parameters.steps;
+          result.layer_growth = std::min(0.1, layer_steps / parameters.steps);
+        }
         result.shortest_step = shortest_step_over_run * duration;
         result.bounds = bounds;
         const double between = bounds.upper - bounds.lower;

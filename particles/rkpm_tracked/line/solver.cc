@@ -62,7 +62,11 @@ namespace meltfront::particles::rkpm_tracked
 
   double LineSolver::least_thickness() const
   {
-    return least_thickness_over_spacing * problem.spacing;
+    double least = problem.spacing;
+    for(const double beside_wall : problem.wall_spacing)
+      if(beside_wall > 0)
+        least = std::min(least, beside_wall);
+    return least_thickness_over_spacing * least;
   }
 
   void LineSolver::restart(LineState state)
@@ -70,7 +74,7 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<EndSlopes> slopes(state.n_intervals());
     for(std::size_t p = 0; p < slopes.size(); ++p)
       slopes[p] = collocation.slopes(interval(problem, state, p), state.temperature);
-    find_speeds(state, slopes);
+    find_speeds(state, slopes, &LineWall::value_after);
     history.restart(std::move(state));
     slope_known = false;
   }
@@ -87,8 +91,8 @@ namespace meltfront::particles::rkpm_tracked
           wall.value_after(state.time), state.temperature);
   }
 
-  void LineSolver::find_speeds(LineState &state,
-                               const std::vector<EndSlopes> &slopes) const
+  void LineSolver::find_speeds(LineState &state, const std::vector<EndSlopes> &slopes,
+                               WallValue given) const
   {
     const double released = problem.front_density() * problem.material.latent_heat;
     const auto conductivity
@@ -103,6 +107,13 @@ namespace meltfront::particles::rkpm_tracked
     const std::size_t last = state.n_intervals() - 1;
     state.wall_flux
         = {-conductivity(0) * slopes[0][0], conductivity(last) * slopes[last][1]};
+    for(const std::size_t side : {0, 1})
+      if(const LineWall &wall = problem.walls[side]; cases::exchanges_heat(wall.kind))
+        state.wall_flux[side]
+            = cases::heat_through(wall.law, (wall.*given)(state.time),
+                                  side == 0 ? state.temperature.front()
+                                            : state.temperature.back())
+                  .flux;
   }
 
   void LineSolver::close_thin_layer(const LineInterval &interval, double growth,
@@ -157,6 +168,8 @@ namespace meltfront::particles::rkpm_tracked
       if(!problem.metastable && problem.displacement(phase.solid) == 0)
         terms.approach = {phase.lower_front ? std::max(trial.rate[p - 1], 0.) : 0.,
                           phase.upper_front ? std::max(-trial.rate[p], 0.) : 0.};
+      terms.rate = {phase.lower_front ? trial.rate[p - 1] : 0.,
+                    phase.upper_front ? trial.rate[p] : 0.};
       slopes[p] = collocation.solve(phase, terms, state.temperature);
       const auto [first, end] = collocation.nodes_of(phase);
       const std::size_t wall = phase.lower_front ? 1 : 0;
@@ -165,7 +178,7 @@ namespace meltfront::particles::rkpm_tracked
         close_thin_layer(phase, phase.upper_front ? trial.rate[p] : -trial.rate[p - 1],
                          slopes[p]);
     }
-    find_speeds(state, slopes);
+    find_speeds(state, slopes, &LineWall::value);
     trial.defect.resize(n_fronts);
     for(std::size_t j = 0; j < n_fronts; ++j)
       trial.defect[j] = state.speed[j] - trial.rate[j];
@@ -195,9 +208,11 @@ namespace meltfront::particles::rkpm_tracked
   bool LineSolver::limit(std::vector<double> &fronts) const
   {
     const std::vector<double> &before = history.newest().fronts;
-    const double move = cfl * problem.spacing;
     for(std::size_t j = 0; j < fronts.size(); ++j)
+    {
+      const double move = cfl * problem.spacing_at(before[j]);
       fronts[j] = std::clamp(fronts[j], before[j] - move, before[j] + move);
+    }
     bool closing = false;
     const double apart = least_thickness();
     double bound = problem.nodes.front();

@@ -104,7 +104,9 @@ namespace meltfront::particles::rkpm_tracked
     };
 
     void evaluate(Trial &trial);
-    void find_speeds(LineState &state, const std::vector<EndSlopes> &slopes) const;
+    using WallValue = std::function<double(double)> LineWall::*;
+    void find_speeds(LineState &state, const std::vector<EndSlopes> &slopes,
+                     WallValue given) const;
     void close_thin_layer(const LineInterval &interval, double growth,
                           EndSlopes &slopes) const;
     void find_history(std::size_t number, const LineInterval &interval);

@@ -17,6 +17,9 @@ namespace meltfront::particles::rkpm_tracked
     double first_step = 0;       ///< after a start without history and after events (s)
     double temperature_span = 1; ///< that events are found to a share of (K)
     double shortest_step = 0;    ///< a step that must be shorter fails (s)
+    /** Longest step over the time since a start or an event. */
+    double share_of_age = std::numeric_limits<double>::infinity();
+    double layer_growth = 0.1;   ///< of a thin layer in a step, over its thickness
     cases::TemperatureBounds bounds{}; ///< of all temperatures (K)
     /** A step of a formula of high order that is long beside the time in which a phase
      * evens out overshoots, whatever the spacing: it is made anew with half its length
@@ -115,6 +118,7 @@ namespace meltfront::particles::rkpm_tracked
     StepRules rules;
     Note note;
     double next_step;             ///< the longest that may come next (s)
+    double begun = 0;             ///< time of the last start or event (s)
     double growth;                ///< of steps from one to the next
     std::array<double, 2> wanted; ///< excess at which a layer appears at a wall (K)
     long kept = 0;
