@@ -27,7 +27,7 @@ namespace meltfront::particles::rkpm_tracked
         return row;
       }
     }
-    evaluate_stencil(place, row);
+    evaluate_face(place, row);
     return row;
   }
 
@@ -45,6 +45,25 @@ namespace meltfront::particles::rkpm_tracked
       volumes[p] += own;
       volumes[p + 1] += next;
     }
+  }
+
+  bool LineCollocation::is_held_film(const LineInterval &interval) const
+  {
+    const std::size_t nodes = problem.balanced() ? end - first : all_end - all_first;
+    return interval.lower_front != interval.upper_front && nodes == 1
+           && problem.walls[interval.lower_front ? 1 : 0].fixed();
+  }
+
+  void LineCollocation::measure_cells_of(const LineInterval &interval)
+  {
+    gather(interval);
+    measure_cells();
+  }
+
+  void LineCollocation::write_cells(std::span<double> cells) const
+  {
+    for(std::size_t i = all_first; i < all_end; ++i)
+      cells[i] = i >= first && i < end ? volumes[i - first + offset] : 0;
   }
 
   /** What flows into the cell of a point by conduction, over its volume, in the place of
@@ -84,21 +103,16 @@ namespace meltfront::particles::rkpm_tracked
     return sum;
   }
 
-  /** The slope at a front that balances the cells of a phase: that of the first face, and
-   * the heat of the first cell that the front takes or leaves. */
-  double LineCollocation::balanced_front_slope(std::size_t side, double rate,
-                                               double diffusivity,
+  /** The slope at a front for what flows through the first face; the heat of cells that
+   * the front changes comes to it. */
+  double LineCollocation::balanced_front_slope(std::size_t side,
                                                std::span<const double> values) const
   {
     const std::vector<double> &x = cloud.position[0];
     const std::size_t front = side == 0 ? 0 : x.size() - 1;
     const std::size_t next = side == 0 ? 1 : front - 1;
-    const double secant = (values[next] - values[front]) / (x[next] - x[front]);
-    const double at_front = end_volumes(problem.symmetry, x[front], x[next])[0];
-    return (area(problem.symmetry, (x[front] + x[next]) / 2)
-                * face_slope(side == 0 ? 0 : next, values)
-            + rate / diffusivity * at_front * secant)
-           / area(problem.symmetry, x[front]);
+    return area(problem.symmetry, (x[front] + x[next]) / 2)
+           * face_slope(side == 0 ? 0 : next, values) / area(problem.symmetry, x[front]);
   }
 
   /** The slope at a wall of what flows in through it: it heats the wall's cell or goes on
@@ -124,15 +138,12 @@ namespace meltfront::particles::rkpm_tracked
     const double diffusivity = problem.phase(interval.solid).diffusivity();
     const std::array<bool, 2> front{interval.lower_front, interval.upper_front};
     EndSlopes result{};
-    // A film without nodes at a held wall is closed by what it grows like.
-    const bool film = cloud.size() == 2 && front[0] != front[1]
-                      && problem.walls[front[0] ? 1 : 0].fixed();
+    const bool film = is_held_film(interval);
     for(const std::size_t side : {0, 1})
       if(film)
         result[side] = face_slope(0, right_side);
       else if(front[side])
-        result[side]
-            = balanced_front_slope(side, terms.rate[side], diffusivity, right_side);
+        result[side] = balanced_front_slope(side, right_side);
       else if(side == 1 || !problem.axis)
         result[side] = balanced_wall_slope(side, diffusivity, terms, right_side);
     return result;

@@ -34,6 +34,7 @@ namespace meltfront::particles::rkpm_tracked
     , dilation(settings.dilation)
     , stencils(settings.basis_order)
     , regular(problem.nodes.size())
+    , interpolated(problem.nodes.size())
   {
     cloud.dimension = 1;
     cloud.position[0] = problem.nodes;
@@ -48,12 +49,19 @@ namespace meltfront::particles::rkpm_tracked
     stencils.evaluate(place, dilation * problem.spacing_at(place), cloud, stencil);
   }
 
+  /** A face is half a spacing nearer to the points beside it than these to each other. */
+  void LineCollocation::evaluate_face(double place, LineStencil &stencil)
+  {
+    const double reach = std::max(dilation - 0.5, dilation / 2);
+    stencils.evaluate(place, reach * problem.spacing_at(place), cloud, stencil);
+  }
+
   void LineCollocation::make_regular_faces()
   {
     const std::vector<double> &x = problem.nodes;
     regular_faces.resize(x.size() - 1);
     for(std::size_t i = 0; i + 1 < x.size(); ++i)
-      evaluate_stencil((x[i] + x[i + 1]) / 2, regular_faces[i]);
+      evaluate_face((x[i] + x[i + 1]) / 2, regular_faces[i]);
   }
 
   void LineCollocation::nodes_moved(std::span<const double> before)
@@ -97,16 +105,21 @@ namespace meltfront::particles::rkpm_tracked
     first = all_first;
     end = all_end;
     // A node on a wall stays, however near the front is.
-    const double near_lower
-        = interpolation_distance * problem.spacing_at(interval.lower);
-    const double near_upper
-        = interpolation_distance * problem.spacing_at(interval.upper);
+    const double near_lower = interpolation_distance * problem.spacing_at(interval.lower);
+    const double near_upper = interpolation_distance * problem.spacing_at(interval.upper);
+    const auto leave_out = [&](std::size_t node, double distance, double near)
+    {
+      const bool may_stay = distance > near / 4 && distance < 2 * near;
+      return kept && may_stay ? interpolated[node] : distance < near;
+    };
     while(interval.lower_front && first < end && first + 1 < x.size()
-          && x[first] - interval.lower < near_lower)
+          && leave_out(first, x[first] - interval.lower, near_lower))
       ++first;
     while(interval.upper_front && end > first && end > 1
-          && interval.upper - x[end - 1] < near_upper)
+          && leave_out(end - 1, interval.upper - x[end - 1], near_upper))
       --end;
+    for(std::size_t i = all_first; i < all_end; ++i)
+      interpolated[i] = i < first || i >= end;
     std::vector<double> &place = cloud.position[0];
     place.clear();
     if(interval.lower_front)
@@ -284,8 +297,8 @@ namespace meltfront::particles::rkpm_tracked
     EndSlopes slopes
         = problem.balanced() ? balanced_slopes(interval, terms) : end_slopes();
     for(std::size_t side = 0; side < 2; ++side)
-      if(terms.approach[side] > 0)
-        slopes[side] *= slope_over_resolved(interval, side, terms);
+      if(terms.approach[side] > 0 && !problem.balanced())
+        slopes[side] *= slope_over_resolved(interval, side, terms.approach[side]);
     for(std::size_t side = 0; side < 2; ++side)
       slopes[side] += (side == 0 ? 1 : -1) * unseen[side].density * unseen[side].reach
                       / problem.phase(interval.solid).conductivity;
@@ -329,30 +342,20 @@ namespace meltfront::particles::rkpm_tracked
    * meets. It comes in where the layer is about as thin as the spacing.
    */
   double LineCollocation::slope_over_resolved(const LineInterval &interval,
-                                              std::size_t side,
-                                              const StepTerms &terms) const
+                                              std::size_t side, double approach) const
   {
-    const double diffusivity = problem.phase(interval.solid).diffusivity();
-    const double rate = terms.approach[side] / diffusivity;
+    const double rate = approach / problem.phase(interval.solid).diffusivity();
     const double front = side == 0 ? interval.lower : interval.upper;
-    const double share
-        = std::clamp((rate * problem.spacing_at(front) - resolved_peclet)
-                         / (unresolved_peclet - resolved_peclet),
-                     0., 1.);
+    const double share = std::clamp((rate * problem.spacing_at(front) - resolved_peclet)
+                                        / (unresolved_peclet - resolved_peclet),
+                                    0., 1.);
     if(share == 0)
       return 1;
-    std::vector<double> layer(cloud.size());
-    for(std::size_t p = 0; p < layer.size(); ++p)
-      layer[p] = -std::expm1(-rate * std::abs(cloud.position[0][p] - front));
+    const LineStencil &row = rows[side == 0 ? 0 : cloud.size() - 1];
     double sum = 0;
-    if(problem.balanced())
-      sum = balanced_front_slope(side, terms.rate[side], diffusivity, layer);
-    else
-    {
-      const LineStencil &row = rows[side == 0 ? 0 : cloud.size() - 1];
-      for(std::size_t j = 0; j < row.size(); ++j)
-        sum += row.slope[j] * layer[row.first + j];
-    }
+    for(std::size_t j = 0; j < row.size(); ++j)
+      sum -= row.slope[j]
+             * std::expm1(-rate * std::abs(cloud.position[0][row.first + j] - front));
     const double factor = (side == 0 ? rate : -rate) / sum;
     return factor > 0 ? 1 + share * share * (3 - 2 * share) * (factor - 1) : 1;
   }
@@ -361,7 +364,9 @@ namespace meltfront::particles::rkpm_tracked
                                              std::span<double> temperature) const
   {
     const std::vector<double> &place = cloud.position[0];
-    const std::size_t points = std::min<std::size_t>(place.size(), 3);
+    // Heat is told by straight lines between the points, which these must not change.
+    const std::size_t points
+        = std::min<std::size_t>(place.size(), problem.balanced() ? 2 : 3);
     const auto fill = [&](std::size_t node, std::size_t from)
     {
       const double x = problem.nodes[node];

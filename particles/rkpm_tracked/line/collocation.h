@@ -35,6 +35,7 @@ namespace meltfront::particles::rkpm_tracked
      * where none does, or where its layer is not to be fitted. */
     std::array<double, 2> approach{};
     std::array<double, 2> rate{}; ///< of fronts at the lower and the upper end (m/s)
+    std::array<double, 2> given_flux{}; ///< by walls that give one (W/m^2)
   };
 
   /** Slopes of the temperature at the two ends of an interval (K/m). */
@@ -56,6 +57,25 @@ namespace meltfront::particles::rkpm_tracked
 
     /** Slopes at the ends of an interval for given temperatures. */
     EndSlopes slopes(const LineInterval &interval, std::span<const double> temperature);
+
+    /** From now on nodes that are near a front go on being interpolated or not, as they
+     * were last, or none does so: a front at which one would change that has no place. */
+    void keep_points(bool keep)
+    {
+      kept = keep;
+    }
+
+    /** Whether a phase that was solved for is all between a wall of given temperature and
+     * a front, without a node inside. */
+    bool is_held_film(const LineInterval &interval) const;
+
+    /** Measure the cells of an interval without a solve. */
+    void measure_cells_of(const LineInterval &interval);
+
+    /** What the nodes of the interval stand for that was solved for or measured; those
+     * that are interpolated for nothing.
+     * @param cells of all nodes; those of the interval are written */
+    void write_cells(std::span<double> cells) const;
 
     /** Temperature of a wall (0: lower, 1: upper) beside an interval that exchanges heat
      * with its surroundings, of an ambient temperature, for given temperatures of the
@@ -102,6 +122,7 @@ namespace meltfront::particles::rkpm_tracked
     void gather(const LineInterval &interval);
     void make_regular_faces();
     void evaluate_stencil(double place, LineStencil &stencil);
+    void evaluate_face(double place, LineStencil &stencil);
     const LineStencil &stencil(std::size_t point);
     void add_row(std::size_t point, const LineInterval &interval, const StepTerms &terms);
     void add_wall_row(std::size_t point, int side, const LineInterval &interval,
@@ -112,8 +133,7 @@ namespace meltfront::particles::rkpm_tracked
     void measure_cells();
     const LineStencil &balance(std::size_t point);
     double face_slope(std::size_t face, std::span<const double> values) const;
-    double balanced_front_slope(std::size_t side, double rate, double diffusivity,
-                                std::span<const double> values) const;
+    double balanced_front_slope(std::size_t side, std::span<const double> values) const;
     double balanced_wall_slope(std::size_t side, double diffusivity,
                                const StepTerms &terms,
                                std::span<const double> values) const;
@@ -127,7 +147,7 @@ namespace meltfront::particles::rkpm_tracked
     void gather_values(const LineInterval &interval, std::span<const double> temperature);
     EndSlopes end_slopes() const;
     double slope_over_resolved(const LineInterval &interval, std::size_t side,
-                               const StepTerms &terms) const;
+                               double approach) const;
 
     const LineProblem &problem;
     double interpolation_distance; ///< over the spacing
@@ -137,6 +157,8 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<LineStencil> regular_faces; ///< half-way to the next node, where balanced
     std::size_t all_first = 0, all_end = 0; ///< nodes of the interval
     std::size_t first = 0, end = 0;         ///< those that are collocated
+    bool kept = false;                      ///< nodes are as they were last
+    std::vector<bool> interpolated;         ///< nodes, last
     std::size_t offset = 0;                 ///< of node `first` in the cloud
     ParticleStorage cloud;
     std::vector<LineStencil> rows;  ///< of the cloud's points

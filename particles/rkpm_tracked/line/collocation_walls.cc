@@ -14,8 +14,7 @@ namespace meltfront::particles::rkpm_tracked
   using cases::BoundaryKind;
 
   void LineCollocation::add_wall_row(std::size_t point, int side,
-                                     const LineInterval &interval,
-                                     const StepTerms &terms)
+                                     const LineInterval &interval, const StepTerms &terms)
   {
     const double time = terms.time;
     const LineWall &wall = problem.walls[static_cast<std::size_t>(side)];
@@ -34,7 +33,9 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t j = 0; j < row.size(); ++j)
       values[j] = outward * conductivity * row.slope[j];
     if(wall.kind == BoundaryKind::flux)
-      right_side[point] = wall.value(time);
+      right_side[point] = problem.balanced()
+                              ? terms.given_flux[static_cast<std::size_t>(side)]
+                              : wall.value(time);
     if(cases::exchanges_heat(wall.kind))
     {
       const cases::HeatTransfer transfer = cases::heat_transfer_near(

@@ -76,10 +76,11 @@ namespace meltfront::particles::rkpm_tracked
       double result = spacing;
       for(const std::size_t side : {0, 1})
         if(wall_spacing[side] > 0)
-          result = std::min(result, wall_spacing[side]
-                                        + spacing_growth
-                                              * std::abs(x - (side == 0 ? nodes.front()
-                                                                        : nodes.back())));
+          result = std::min(
+              result,
+              wall_spacing[side]
+                  + spacing_growth
+                        * std::abs(x - (side == 0 ? nodes.front() : nodes.back())));
       return result;
     }
 
@@ -129,6 +130,10 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<double> speed;         ///< of the fronts (m/s)
     std::vector<double> temperature;   ///< at the nodes
     std::array<double, 2> wall_flux{}; ///< heat that comes in through the walls (W/m^2)
+    /** Where rows are balances: what each node stands for in its phase, and the heat that
+     * has come in through the walls, both in the measure of the scene. */
+    std::vector<double> cells;
+    double taken = 0; ///< J
 
     /** Phases lie between fronts and walls, in this order. */
     std::size_t n_intervals() const

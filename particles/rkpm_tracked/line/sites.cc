@@ -54,8 +54,8 @@ namespace meltfront::particles::rkpm_tracked
         continue;
       // What is given is booked as given, not by a slope that meets it in the limit.
       const cases::BoundaryKind kind = problem.walls[side].kind;
-      const bool given
-          = kind == cases::BoundaryKind::insulated || problem.walls[side].mean_flux;
+      const bool given = kind == cases::BoundaryKind::insulated
+                         || (problem.walls[side].mean_flux && !problem.balanced());
       double flux = given ? 0 : state.wall_flux[side];
       const bool solid = state.solid(side == 0 ? 0 : state.n_intervals() - 1);
       if(!state.fronts.empty() && problem.displacement(solid) != 0)

@@ -13,6 +13,9 @@ namespace meltfront::particles::rkpm_tracked
     /** Fronts are solved for to this, over the spacing. */
     constexpr double front_tolerance = 1e-10;
     constexpr int most_iterations = 60;
+    /** From then on the points of phases are kept, where rows are balances: heat of cells
+     * whose nodes come and go with the front is no function that has a zero. */
+    constexpr int free_iterations = 8;
     constexpr double cfl = 1; ///< of a front in a step, over the spacing
     constexpr double least_thickness_over_spacing = 1e-3;
     /** Step of the differences that begin Broyden's matrix, over the spacing. */
@@ -75,6 +78,7 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t p = 0; p < slopes.size(); ++p)
       slopes[p] = collocation.slopes(interval(problem, state, p), state.temperature);
     find_speeds(state, slopes, &LineWall::value_after);
+    find_cells(state);
     history.restart(std::move(state));
     slope_known = false;
   }
@@ -109,11 +113,10 @@ namespace meltfront::particles::rkpm_tracked
         = {-conductivity(0) * slopes[0][0], conductivity(last) * slopes[last][1]};
     for(const std::size_t side : {0, 1})
       if(const LineWall &wall = problem.walls[side]; cases::exchanges_heat(wall.kind))
-        state.wall_flux[side]
-            = cases::heat_through(wall.law, (wall.*given)(state.time),
-                                  side == 0 ? state.temperature.front()
-                                            : state.temperature.back())
-                  .flux;
+        state.wall_flux[side] = cases::heat_through(wall.law, (wall.*given)(state.time),
+                                                    side == 0 ? state.temperature.front()
+                                                              : state.temperature.back())
+                                    .flux;
   }
 
   void LineSolver::close_thin_layer(const LineInterval &interval, double growth,
@@ -149,11 +152,11 @@ namespace meltfront::particles::rkpm_tracked
     const std::size_t n_fronts = state.fronts.size();
     trial.rate.assign(n_fronts, 0.);
     for(std::size_t j = 0; j < n_fronts; ++j)
-    {
-      trial.rate[j] = weights[0] * state.fronts[j];
       for(std::size_t k = 1; k < weights.size(); ++k)
-        trial.rate[j] += weights[k] * history.level(k - 1).fronts[j];
-    }
+        trial.rate[j]
+            += weights[k] * way_between(state.fronts[j], history.level(k - 1).fronts[j]);
+    if(problem.balanced())
+      state.cells.assign(problem.nodes.size(), 0.);
     std::vector<EndSlopes> slopes(state.n_intervals());
     for(std::size_t p = 0; p < slopes.size(); ++p)
     {
@@ -170,13 +173,14 @@ namespace meltfront::particles::rkpm_tracked
                           phase.upper_front ? std::max(-trial.rate[p], 0.) : 0.};
       terms.rate = {phase.lower_front ? trial.rate[p - 1] : 0.,
                     phase.upper_front ? trial.rate[p] : 0.};
+      terms.given_flux = given_flux;
       slopes[p] = collocation.solve(phase, terms, state.temperature);
-      const auto [first, end] = collocation.nodes_of(phase);
-      const std::size_t wall = phase.lower_front ? 1 : 0;
-      if(phase.lower_front != phase.upper_front && end - first == 1
-         && problem.walls[wall].fixed())
+
+      if(collocation.is_held_film(phase))
         close_thin_layer(phase, phase.upper_front ? trial.rate[p] : -trial.rate[p - 1],
                          slopes[p]);
+      if(problem.balanced())
+        add_changed_cells(p, phase, state, slopes[p]);
     }
     find_speeds(state, slopes, &LineWall::value);
     trial.defect.resize(n_fronts);
@@ -296,6 +300,7 @@ namespace meltfront::particles::rkpm_tracked
   StepOutcome LineSolver::iterate(Trial &trial)
   {
     const bool closing = limit(trial.state.fronts);
+    collocation.keep_points(false);
     evaluate(trial);
     return trial.state.fronts.empty()
                ? find_fronts(trial, closing)
@@ -310,6 +315,13 @@ namespace meltfront::particles::rkpm_tracked
     Bracket bracket;
     for(int iteration = 0; iteration < most_iterations; ++iteration)
     {
+      if(problem.balanced() && iteration == free_iterations)
+      {
+        collocation.keep_points(true);
+        evaluate(trial);
+        find_slope(trial);
+        bracket = {};
+      }
       if(!finite(trial.defect) || !finite(trial.state.temperature))
         return StepOutcome::not_finite;
       if(largest(trial.defect) <= tolerance * std::abs(weights[0]))
@@ -351,6 +363,7 @@ namespace meltfront::particles::rkpm_tracked
     trial.state.time = time;
     times = history.times(time);
     weights = differentiation_weights(times);
+    find_given_flux();
     trial.state.fronts = predicted_fronts(time_step);
     const StepOutcome outcome = iterate(trial);
     counted.most_evaluations
@@ -358,6 +371,8 @@ namespace meltfront::particles::rkpm_tracked
     if(outcome == StepOutcome::accepted)
     {
       ++counted.steps;
+      if(problem.balanced())
+        book_walls(trial.state);
       history.push(std::move(trial.state));
     }
     else

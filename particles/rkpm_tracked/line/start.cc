@@ -203,8 +203,8 @@ namespace meltfront::particles::rkpm_tracked
     const double spacing = domain.side() / parameters.cells;
     for(const std::size_t side : {0, 1})
       if(const LineWall &wall = problem.walls[side];
-         problem.balanced() && cases::prescribes_heat(wall.kind)
-         && parameters.wall_spacing < 1)
+         problem.balanced() && parameters.wall_spacing < 1
+         && wall.kind != BoundaryKind::insulated)
         problem.wall_spacing[side] = parameters.wall_spacing * spacing;
     lay_nodes(problem, lower, upper, spacing, parameters.jitter, seed);
     problem.breakpoints = cases::breakpoints_of(scene);

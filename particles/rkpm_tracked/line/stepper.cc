@@ -88,9 +88,10 @@ namespace meltfront::particles::rkpm_tracked
     next_step = rules.first_step;
     for(const std::size_t side : {0, 1})
       if(const double spacing = problem.wall_spacing[side]; spacing > 0)
-        next_step = std::min(next_step, wall_step * spacing * spacing
-                                            / std::max(problem.phase(true).diffusivity(),
-                                                       problem.phase(false).diffusivity()));
+        next_step
+            = std::min(next_step, wall_step * spacing * spacing
+                                      / std::max(problem.phase(true).diffusivity(),
+                                                 problem.phase(false).diffusivity()));
   }
 
   void LineStepper::start(LineState state, std::vector<LineState> older)
@@ -108,6 +109,7 @@ namespace meltfront::particles::rkpm_tracked
   {
     LineState now = state();
     const double heat = set_walls(now);
+    now.taken += heat;
     restart(std::move(now));
     insert_where_called_for();
     return heat;

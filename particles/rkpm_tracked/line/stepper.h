@@ -19,7 +19,7 @@ namespace meltfront::particles::rkpm_tracked
     double shortest_step = 0;    ///< a step that must be shorter fails (s)
     /** Longest step over the time since a start or an event. */
     double share_of_age = std::numeric_limits<double>::infinity();
-    double layer_growth = 0.1;   ///< of a thin layer in a step, over its thickness
+    double layer_growth = 0.1;         ///< of a thin layer in a step, over its thickness
     cases::TemperatureBounds bounds{}; ///< of all temperatures (K)
     /** A step of a formula of high order that is long beside the time in which a phase
      * evens out overshoots, whatever the spacing: it is made anew with half its length
