@@ -174,6 +174,7 @@ namespace meltfront::particles::rkpm_tracked
         if(problem.balanced())
         {
           result.share_of_age = age_in_steps / parameters.steps;
+          result.planned_step = duration / parameters.steps;
           result.layer_growth
               = std::min(most_layer_growth, layer_in_steps / parameters.steps);
         }

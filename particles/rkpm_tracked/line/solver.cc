@@ -152,9 +152,12 @@ namespace meltfront::particles::rkpm_tracked
     const std::size_t n_fronts = state.fronts.size();
     trial.rate.assign(n_fronts, 0.);
     for(std::size_t j = 0; j < n_fronts; ++j)
+    {
+      trial.rate[j] = weights[0] * state.fronts[j];
       for(std::size_t k = 1; k < weights.size(); ++k)
         trial.rate[j]
-            += weights[k] * way_between(state.fronts[j], history.level(k - 1).fronts[j]);
+            += weights[k] * place_before(history.level(k - 1).fronts[j], state.fronts[j]);
+    }
     if(problem.balanced())
       state.cells.assign(problem.nodes.size(), 0.);
     std::vector<EndSlopes> slopes(state.n_intervals());

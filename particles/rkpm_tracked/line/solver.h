@@ -108,7 +108,7 @@ namespace meltfront::particles::rkpm_tracked
                      WallValue given) const;
     void close_thin_layer(const LineInterval &interval, double growth,
                           EndSlopes &slopes) const;
-    double way_between(double now, double before) const;
+    double place_before(double before, double now) const;
     void find_cells(LineState &state);
     void find_given_flux();
     void add_changed_cells(std::size_t number, const LineInterval &interval,

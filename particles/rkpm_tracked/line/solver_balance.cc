@@ -4,14 +4,14 @@
 
 namespace meltfront::particles::rkpm_tracked
 {
-  /** From a front to where it was (m); where rows are balances by what it has passed,
-   * over its area: so the latent heat is that between the places. */
-  double LineSolver::way_between(double now, double before) const
+  /** Where a front was (m); where rows are balances as far away as what it has passed is
+   * wide with its area of now, so that the latent heat is that between the places. */
+  double LineSolver::place_before(double before, double now) const
   {
     if(!problem.balanced() || problem.symmetry == cases::Symmetry::planar)
-      return before - now;
+      return before;
     const auto [own, other] = end_volumes(problem.symmetry, now, before);
-    return (own + other) / area(problem.symmetry, now);
+    return now + (own + other) / area(problem.symmetry, now);
   }
 
   void LineSolver::find_cells(LineState &state)
@@ -44,7 +44,8 @@ namespace meltfront::particles::rkpm_tracked
       {
         given_flux[side] = 0;
         for(std::size_t k = 1; k < weights.size(); ++k)
-          given_flux[side] -= weights[k] * (times[0] - times[k]) * mean(times[k], times[0]);
+          given_flux[side]
+              -= weights[k] * (times[0] - times[k]) * mean(times[k], times[0]);
       }
   }
 

@@ -16,6 +16,7 @@ namespace meltfront::particles::rkpm_tracked
     constexpr double growth_of_order[] = {2., 2., 1.5};
     /** Layers thinner than some spacings are thin: they grow by so much in a step. */
     constexpr double thin_layer = 5;
+    constexpr double most_layer_growth = 0.2;
     /** One that vanishes at a wall of given temperature is to thin by no more, and is
      * left no less than this share. */
     constexpr double layer_decline = 0.25;
@@ -152,8 +153,8 @@ namespace meltfront::particles::rkpm_tracked
     ++events;
     const double speed
         = std::abs(side == 0 ? state().speed.front() : state().speed.back());
-    if(speed * next_step > rules.layer_growth * thickness)
-      next_step = rules.layer_growth * thickness / speed;
+    if(speed * next_step > growth_of_layer(thickness))
+      next_step = growth_of_layer(thickness) / speed;
   }
 
   void LineStepper::remove(std::size_t number)
@@ -176,12 +177,26 @@ namespace meltfront::particles::rkpm_tracked
     restart(std::move(changed));
   }
 
+  /** By how much a thin layer may grow in a step (m). */
+  double LineStepper::growth_of_layer(double thickness) const
+  {
+    const double share = rules.layer_growth;
+    if(!std::isfinite(rules.share_of_age))
+      return share * thickness;
+    const double thinner = thin_layer * problem.spacing / thickness;
+    return std::clamp(share * std::sqrt(thinner), share, most_layer_growth) * thickness;
+  }
+
   double LineStepper::choose_end(double target) const
   {
     const LineState &now = state();
     double step = next_step;
-    if(now.time > begun)
-      step = std::min(step, rules.share_of_age * (now.time - begun));
+    if(const double age = now.time - begun; age > 0 && std::isfinite(rules.share_of_age))
+    {
+      const double share = rules.share_of_age;
+      const double earlier = rules.planned_step / (share * age);
+      step = std::min(step, share * age * std::pow(std::max(earlier, 1.), 0.25));
+    }
     const auto allow = [&step](double move, double speed)
     {
       if(speed * step > move)
@@ -196,13 +211,13 @@ namespace meltfront::particles::rkpm_tracked
       // Against a wall whose temperature is given heat flows as one over the thickness.
       if(below < thin_layer * problem.spacing)
       {
-        allow(rules.layer_growth * below, now.speed.front());
+        allow(growth_of_layer(below), now.speed.front());
         if(problem.walls[0].fixed())
           allow(layer_decline * below, -now.speed.front());
       }
       if(above < thin_layer * problem.spacing)
       {
-        allow(rules.layer_growth * above, -now.speed.back());
+        allow(growth_of_layer(above), -now.speed.back());
         if(problem.walls[1].fixed())
           allow(layer_decline * above, now.speed.back());
       }
