@@ -49,21 +49,6 @@ namespace meltfront::particles::rkpm_tracked
     stencils.evaluate(place, dilation * problem.spacing_at(place), cloud, stencil);
   }
 
-  /** A face is half a spacing nearer to the points beside it than these to each other. */
-  void LineCollocation::evaluate_face(double place, LineStencil &stencil)
-  {
-    const double reach = std::max(dilation - 0.5, dilation / 2);
-    stencils.evaluate(place, reach * problem.spacing_at(place), cloud, stencil);
-  }
-
-  void LineCollocation::make_regular_faces()
-  {
-    const std::vector<double> &x = problem.nodes;
-    regular_faces.resize(x.size() - 1);
-    for(std::size_t i = 0; i + 1 < x.size(); ++i)
-      evaluate_face((x[i] + x[i + 1]) / 2, regular_faces[i]);
-  }
-
   void LineCollocation::nodes_moved(std::span<const double> before)
   {
     const std::vector<double> &x = problem.nodes;
