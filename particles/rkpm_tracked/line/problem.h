@@ -38,10 +38,6 @@ namespace meltfront::particles::rkpm_tracked
     }
   };
 
-  /** Growth of the distance of nodes with the distance from a wall that makes it finer:
-   * each is 1.28 times as long as the one before. */
-  inline constexpr double spacing_growth = 0.25;
-
   /** A Stefan problem in one coordinate: T_t + u T_x = a (T_xx + (d - 1)/x T_x) + f/(rho
    * c) in each phase, T = T_m on fronts, which move with the Stefan speed. */
   struct LineProblem
@@ -51,6 +47,7 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<double> nodes; ///< ascending, the first and last on the walls (m)
     double spacing = 0;        ///< distance of nodes, where no wall makes it finer (m)
     std::array<double, 2> wall_spacing{}; ///< beside walls that make it finer, else 0 (m)
+    double spacing_growth = 0;            ///< with the distance from these walls
     std::array<LineWall, 2> walls;
     bool axis = false; ///< the lower end is an axis or a centre, no wall
     std::function<double(double x, double time)> volumetric_source; ///< W/m^3, or empty

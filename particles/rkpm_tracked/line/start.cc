@@ -70,12 +70,18 @@ namespace meltfront::particles::rkpm_tracked
       return places.position[0];
     }
 
+    /** Cells grow from walls that make them finer over a tenth of the domain's side, so
+     * that all are halved where n is doubled; but where there are few by this at most:
+     * each is then 1.28 times as long as the one before. */
+    constexpr double graded_share = 0.1, most_growth = 0.25;
+
     /** Cells between nodes from a wall that makes them finer to a distance from it, and
      * back: beside the wall their length is growth times the distance beyond that at the
      * wall. */
     struct GradedCells
     {
       double spacing, at_wall; ///< m
+      double spacing_growth;
 
       double graded() const
       {
@@ -105,7 +111,8 @@ namespace meltfront::particles::rkpm_tracked
                    double jitter_over_spacing, std::uint64_t seed)
     {
       const auto &at_wall = problem.wall_spacing;
-      const GradedCells cells{spacing, std::max(at_wall[0], at_wall[1])};
+      const GradedCells cells{spacing, std::max(at_wall[0], at_wall[1]),
+                              problem.spacing_growth};
       const double length = upper - lower;
       if(!(cells.at_wall > 0))
       {
@@ -206,6 +213,8 @@ namespace meltfront::particles::rkpm_tracked
          problem.balanced() && parameters.wall_spacing < 1
          && wall.kind != BoundaryKind::insulated)
         problem.wall_spacing[side] = parameters.wall_spacing * spacing;
+    problem.spacing_growth
+        = std::min(most_growth, spacing / (graded_share * domain.side()));
     lay_nodes(problem, lower, upper, spacing, parameters.jitter, seed);
     problem.breakpoints = cases::breakpoints_of(scene);
     if(scene.volumetric_source)
