@@ -76,6 +76,10 @@ namespace meltfront::particles::rkpm_tracked
                 {{"lattice", false}, {"jittered", true}});
     options.add("jitter", jitter,
                 "Largest displacement of jittered nodes over the spacing.", 0, 0.45);
+    options.add("wall_spacing", wall_spacing,
+                "Distance of nodes beside walls that exchange heat or give a flux, over "
+                "that within; 1: the same.",
+                1e-4, 1);
     options.add(
         "start", start,
         "How a phase begins at a wall: from the similarity solution where a "
@@ -143,6 +147,9 @@ namespace meltfront::particles::rkpm_tracked
     result.clock = choose_clock(scene, result.clock_name);
     if(!result.jittered)
       result.jitter = 0;
+    // Nodes that repel each other do not stay nearer to each other at walls.
+    if(result.relax > 0)
+      result.wall_spacing = 1;
     return result;
   }
 } // namespace meltfront::particles::rkpm_tracked

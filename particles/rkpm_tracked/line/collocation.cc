@@ -30,15 +30,23 @@ namespace meltfront::particles::rkpm_tracked
   LineCollocation::LineCollocation(const LineProblem &problem,
                                    const LineSettings &settings)
     : problem(problem)
-    , interpolation_distance(std::max(settings.interpolation_distance, coincidence)
-                             * problem.spacing)
-    , stencils(settings.basis_order, settings.dilation * problem.spacing)
+    , interpolation_distance(std::max(settings.interpolation_distance, coincidence))
+    , dilation(settings.dilation)
+    , stencils(settings.basis_order)
     , regular(problem.nodes.size())
+    , interpolated(problem.nodes.size())
   {
     cloud.dimension = 1;
     cloud.position[0] = problem.nodes;
     for(std::size_t i = 0; i < problem.nodes.size(); ++i)
-      stencils.evaluate(problem.nodes[i], cloud, regular[i]);
+      evaluate_stencil(problem.nodes[i], regular[i]);
+    if(problem.balanced())
+      make_regular_faces();
+  }
+
+  void LineCollocation::evaluate_stencil(double place, LineStencil &stencil)
+  {
+    stencils.evaluate(place, dilation * problem.spacing_at(place), cloud, stencil);
   }
 
   void LineCollocation::nodes_moved(std::span<const double> before)
@@ -54,8 +62,10 @@ namespace meltfront::particles::rkpm_tracked
       for(std::size_t j = from; j < std::min(regular[i].end() + 1, x.size()); ++j)
         touched = touched || moved(j);
       if(touched)
-        stencils.evaluate(x[i], cloud, regular[i]);
+        evaluate_stencil(x[i], regular[i]);
     }
+    if(problem.balanced())
+      make_regular_faces();
   }
 
   std::pair<std::size_t, std::size_t>
@@ -80,12 +90,21 @@ namespace meltfront::particles::rkpm_tracked
     first = all_first;
     end = all_end;
     // A node on a wall stays, however near the front is.
+    const double near_lower = interpolation_distance * problem.spacing_at(interval.lower);
+    const double near_upper = interpolation_distance * problem.spacing_at(interval.upper);
+    const auto leave_out = [&](std::size_t node, double distance, double near)
+    {
+      const bool may_stay = distance > near / 4 && distance < 2 * near;
+      return kept && may_stay ? interpolated[node] : distance < near;
+    };
     while(interval.lower_front && first < end && first + 1 < x.size()
-          && x[first] - interval.lower < interpolation_distance)
+          && leave_out(first, x[first] - interval.lower, near_lower))
       ++first;
     while(interval.upper_front && end > first && end > 1
-          && interval.upper - x[end - 1] < interpolation_distance)
+          && leave_out(end - 1, interval.upper - x[end - 1], near_upper))
       --end;
+    for(std::size_t i = all_first; i < all_end; ++i)
+      interpolated[i] = i < first || i >= end;
     std::vector<double> &place = cloud.position[0];
     place.clear();
     if(interval.lower_front)
@@ -121,7 +140,7 @@ namespace meltfront::particles::rkpm_tracked
         return row;
       }
     }
-    stencils.evaluate(place, cloud, row);
+    evaluate_stencil(place, row);
     return row;
   }
 
@@ -132,7 +151,7 @@ namespace meltfront::particles::rkpm_tracked
     const double x = cloud.position[0][point];
     const cases::PhaseProperties &phase = problem.phase(interval.solid);
     const double diffusivity = phase.diffusivity();
-    const int bends = problem.curvature_terms();
+    const int bends = problem.balanced() ? 0 : problem.curvature_terms();
     double slope = bends > 0 ? -diffusivity * bends / x : 0.;
     if(terms.displaced_speed != 0)
     {
@@ -160,9 +179,11 @@ namespace meltfront::particles::rkpm_tracked
   {
     const std::size_t points = cloud.size();
     right_side.resize(points);
+    if(problem.balanced())
+      measure_cells();
     for(std::size_t p = 0; p < points; ++p)
     {
-      const LineStencil &row = stencil(p);
+      const LineStencil &row = problem.balanced() ? balance(p) : stencil(p);
       const bool lower_end = p == 0, upper_end = p + 1 == points;
       if((lower_end && interval.lower_front) || (upper_end && interval.upper_front))
       {
@@ -177,7 +198,7 @@ namespace meltfront::particles::rkpm_tracked
       {
         const int side = upper_end ? 1 : 0;
         walls[static_cast<std::size_t>(problem.walls[side].kind)].measure(
-            [&] { add_wall_row(p, side, interval, terms.time); });
+            [&] { add_wall_row(p, side, interval, terms); });
       }
       else
         add_row(p, interval, terms);
@@ -258,9 +279,10 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t i = first; i < end; ++i)
       temperature[i] = right_side[i - first + offset];
     interpolate_absorbed(interval, temperature);
-    EndSlopes slopes = end_slopes();
+    EndSlopes slopes
+        = problem.balanced() ? balanced_slopes(interval, terms) : end_slopes();
     for(std::size_t side = 0; side < 2; ++side)
-      if(terms.approach[side] > 0)
+      if(terms.approach[side] > 0 && !problem.balanced())
         slopes[side] *= slope_over_resolved(interval, side, terms.approach[side]);
     for(std::size_t side = 0; side < 2; ++side)
       slopes[side] += (side == 0 ? 1 : -1) * unseen[side].density * unseen[side].reach
@@ -308,13 +330,13 @@ namespace meltfront::particles::rkpm_tracked
                                               std::size_t side, double approach) const
   {
     const double rate = approach / problem.phase(interval.solid).diffusivity();
-    const double share = std::clamp((rate * problem.spacing - resolved_peclet)
+    const double front = side == 0 ? interval.lower : interval.upper;
+    const double share = std::clamp((rate * problem.spacing_at(front) - resolved_peclet)
                                         / (unresolved_peclet - resolved_peclet),
                                     0., 1.);
     if(share == 0)
       return 1;
     const LineStencil &row = rows[side == 0 ? 0 : cloud.size() - 1];
-    const double front = side == 0 ? interval.lower : interval.upper;
     double sum = 0;
     for(std::size_t j = 0; j < row.size(); ++j)
       sum -= row.slope[j]
@@ -327,7 +349,9 @@ namespace meltfront::particles::rkpm_tracked
                                              std::span<double> temperature) const
   {
     const std::vector<double> &place = cloud.position[0];
-    const std::size_t points = std::min<std::size_t>(place.size(), 3);
+    // Heat is told by straight lines between the points, which these must not change.
+    const std::size_t points
+        = std::min<std::size_t>(place.size(), problem.balanced() ? 2 : 3);
     const auto fill = [&](std::size_t node, std::size_t from)
     {
       const double x = problem.nodes[node];

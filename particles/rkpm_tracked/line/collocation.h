@@ -34,6 +34,8 @@ namespace meltfront::particles::rkpm_tracked
     /** Speeds at which fronts at the lower and the upper end move into the phase (m/s); 0
      * where none does, or where its layer is not to be fitted. */
     std::array<double, 2> approach{};
+    std::array<double, 2> rate{}; ///< of fronts at the lower and the upper end (m/s)
+    std::array<double, 2> given_flux{}; ///< by walls that give one (W/m^2)
   };
 
   /** Slopes of the temperature at the two ends of an interval (K/m). */
@@ -55,6 +57,25 @@ namespace meltfront::particles::rkpm_tracked
 
     /** Slopes at the ends of an interval for given temperatures. */
     EndSlopes slopes(const LineInterval &interval, std::span<const double> temperature);
+
+    /** From now on nodes that are near a front go on being interpolated or not, as they
+     * were last, or none does so: a front at which one would change that has no place. */
+    void keep_points(bool keep)
+    {
+      kept = keep;
+    }
+
+    /** Whether a phase that was solved for is all between a wall of given temperature and
+     * a front, without a node inside. */
+    bool is_held_film(const LineInterval &interval) const;
+
+    /** Measure the cells of an interval without a solve. */
+    void measure_cells_of(const LineInterval &interval);
+
+    /** What the nodes of the interval stand for that was solved for or measured; those
+     * that are interpolated for nothing.
+     * @param cells of all nodes; those of the interval are written */
+    void write_cells(std::span<double> cells) const;
 
     /** Temperature of a wall (0: lower, 1: upper) beside an interval that exchanges heat
      * with its surroundings, of an ambient temperature, for given temperatures of the
@@ -99,10 +120,24 @@ namespace meltfront::particles::rkpm_tracked
 
     UnseenRelease unseen_release(std::size_t side, double time) const;
     void gather(const LineInterval &interval);
+    void make_regular_faces();
+    void evaluate_stencil(double place, LineStencil &stencil);
+    void evaluate_face(double place, LineStencil &stencil);
     const LineStencil &stencil(std::size_t point);
     void add_row(std::size_t point, const LineInterval &interval, const StepTerms &terms);
     void add_wall_row(std::size_t point, int side, const LineInterval &interval,
-                      double time);
+                      const StepTerms &terms);
+    void add_wall_heat(std::size_t point, const LineInterval &interval,
+                       const StepTerms &terms);
+    const LineStencil &face_stencil(std::size_t point);
+    void measure_cells();
+    const LineStencil &balance(std::size_t point);
+    double face_slope(std::size_t face, std::span<const double> values) const;
+    double balanced_front_slope(std::size_t side, std::span<const double> values) const;
+    double balanced_wall_slope(std::size_t side, double diffusivity,
+                               const StepTerms &terms,
+                               std::span<const double> values) const;
+    EndSlopes balanced_slopes(const LineInterval &interval, const StepTerms &terms) const;
     void add_release(const LineInterval &interval, double time);
     void make_rows(const LineInterval &interval, const StepTerms &terms);
     void fill_matrix();
@@ -115,14 +150,20 @@ namespace meltfront::particles::rkpm_tracked
                                double approach) const;
 
     const LineProblem &problem;
-    double interpolation_distance; ///< m
+    double interpolation_distance; ///< over the spacing
+    double dilation;               ///< over the spacing
     LineStencils stencils;
     std::vector<LineStencil> regular;       ///< of each node among all nodes
+    std::vector<LineStencil> regular_faces; ///< half-way to the next node, where balanced
     std::size_t all_first = 0, all_end = 0; ///< nodes of the interval
     std::size_t first = 0, end = 0;         ///< those that are collocated
+    bool kept = false;                      ///< nodes are as they were last
+    std::vector<bool> interpolated;         ///< nodes, last
     std::size_t offset = 0;                 ///< of node `first` in the cloud
     ParticleStorage cloud;
-    std::vector<LineStencil> rows; ///< of the cloud's points
+    std::vector<LineStencil> rows;  ///< of the cloud's points
+    std::vector<LineStencil> faces; ///< half-way to the next point, where balanced
+    std::vector<double> volumes;    ///< of the points' cells, where balanced
     std::vector<std::vector<double>> coefficients;
     std::vector<double> right_side;
     BandMatrix matrix;

@@ -1,5 +1,6 @@
 #include <cases/wall_law.h>
 #include <particles/rkpm_tracked/line/collocation.h>
+#include <particles/rkpm_tracked/line/measure.h>
 
 #include <cmath>
 
@@ -13,8 +14,9 @@ namespace meltfront::particles::rkpm_tracked
   using cases::BoundaryKind;
 
   void LineCollocation::add_wall_row(std::size_t point, int side,
-                                     const LineInterval &interval, double time)
+                                     const LineInterval &interval, const StepTerms &terms)
   {
+    const double time = terms.time;
     const LineWall &wall = problem.walls[static_cast<std::size_t>(side)];
     const LineStencil &row = rows[point];
     std::vector<double> &values = coefficients[point];
@@ -31,7 +33,9 @@ namespace meltfront::particles::rkpm_tracked
     for(std::size_t j = 0; j < row.size(); ++j)
       values[j] = outward * conductivity * row.slope[j];
     if(wall.kind == BoundaryKind::flux)
-      right_side[point] = wall.value(time);
+      right_side[point] = problem.balanced()
+                              ? terms.given_flux[static_cast<std::size_t>(side)]
+                              : wall.value(time);
     if(cases::exchanges_heat(wall.kind))
     {
       const cases::HeatTransfer transfer = cases::heat_transfer_near(
@@ -39,6 +43,29 @@ namespace meltfront::particles::rkpm_tracked
       values[point - row.first] += transfer.coefficient;
       right_side[point] = transfer.coefficient * transfer.ambient;
     }
+    if(problem.balanced())
+      add_wall_heat(point, interval, terms);
+  }
+
+  /** What heats the cell of a wall: the condition at the wall alone would let heat that
+   * no node resolves get lost between it and the first node. */
+  void LineCollocation::add_wall_heat(std::size_t point, const LineInterval &interval,
+                                      const StepTerms &terms)
+  {
+    const double cut = area(problem.symmetry, cloud.position[0][point]);
+    const double share = problem.phase(interval.solid).volumetric_heat_capacity()
+                         * volumes[point] / (cut > 0 ? cut : 1);
+    const std::vector<double> condition = coefficients[point];
+    const double given = right_side[point];
+    add_row(point, interval, terms);
+    std::vector<double> &values = coefficients[point];
+    for(std::size_t j = 0; j < values.size(); ++j)
+      values[j] = condition[j] + share * values[j];
+    right_side[point] = given + share * right_side[point];
+    if(problem.volumetric_source)
+      right_side[point]
+          += share / problem.phase(interval.solid).volumetric_heat_capacity()
+             * problem.volumetric_source(cloud.position[0][point], terms.time);
   }
 
   /** Whether radiating walls have the temperatures about which their laws were

@@ -8,6 +8,8 @@ namespace meltfront::particles::rkpm_tracked
   namespace
   {
     constexpr double layer_over_spacing = 0.05;
+    /** Where rows are balances heat that no wall gives comes with the layer. */
+    constexpr double balanced_layer_over_spacing = 0.01;
     constexpr double layer_over_room = 0.25;
     /** A wall that gives a flux drives a layer of any thickness alike: the thinner the
      * layer, the less latent heat is put in or taken out with it. */
@@ -88,9 +90,11 @@ namespace meltfront::particles::rkpm_tracked
   {
     const LineInterval phase
         = interval(problem, state, side == 0 ? 0 : state.n_intervals() - 1);
-    const double share
-        = problem.walls[side].fixed() ? layer_over_spacing : flux_layer_over_spacing;
-    const double thickness = std::min(share * problem.spacing,
+    const double share = !problem.walls[side].fixed() ? flux_layer_over_spacing
+                         : problem.balanced()         ? balanced_layer_over_spacing
+                                                      : layer_over_spacing;
+    const double wall = side == 0 ? phase.lower : phase.upper;
+    const double thickness = std::min(share * problem.spacing_at(wall),
                                       layer_over_room * (phase.upper - phase.lower));
     if(side == 0)
     {

@@ -88,8 +88,8 @@ namespace meltfront::particles::rkpm_tracked
   {
     const std::vector<double> &x = problem.nodes;
     const double melting = problem.material.melting_temperature;
-    const double apart = least_distance * problem.spacing;
     const double front = below ? interval.lower : interval.upper;
+    const double apart = least_distance * problem.spacing_at(front);
     const double far_end = below ? interval.upper : interval.lower;
     const bool far_front = below ? interval.upper_front : interval.lower_front;
     Support result;

@@ -3,9 +3,12 @@
 
 #include <cases/material.h>
 #include <cases/scene.h>
+#include <cases/wall_law.h>
 #include <particles/rkpm_tracked/tracking_options.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -42,7 +45,9 @@ namespace meltfront::particles::rkpm_tracked
     cases::Symmetry symmetry = cases::Symmetry::planar;
     cases::Material material;
     std::vector<double> nodes; ///< ascending, the first and last on the walls (m)
-    double spacing = 0;        ///< mean distance of nodes (m)
+    double spacing = 0;        ///< distance of nodes, where no wall makes it finer (m)
+    std::array<double, 2> wall_spacing{}; ///< beside walls that make it finer, else 0 (m)
+    double spacing_growth = 0;            ///< with the distance from these walls
     std::array<LineWall, 2> walls;
     bool axis = false; ///< the lower end is an axis or a centre, no wall
     std::function<double(double x, double time)> volumetric_source; ///< W/m^3, or empty
@@ -51,6 +56,30 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<double> breakpoints; ///< at which steps are to end (s)
     Displaced displaced = Displaced::liquid;
     bool metastable = false; ///< phases beyond the melting temperature are meant
+
+    /** Whether rows are balances of cells rather than collocation: where a wall
+     * prescribes heat, all of it is to be found in the domain. */
+    bool balanced() const
+    {
+      return material.solid.density == material.liquid.density
+             && std::ranges::any_of(walls, [](const LineWall &wall)
+                                    { return cases::prescribes_heat(wall.kind); });
+    }
+
+    /** Distance of nodes about a place (m): from what it is beside a wall it grows with
+     * the distance from the wall. */
+    double spacing_at(double x) const
+    {
+      double result = spacing;
+      for(const std::size_t side : {0, 1})
+        if(wall_spacing[side] > 0)
+          result = std::min(
+              result,
+              wall_spacing[side]
+                  + spacing_growth
+                        * std::abs(x - (side == 0 ? nodes.front() : nodes.back())));
+      return result;
+    }
 
     /** d - 1: 0, 1 or 2. */
     int curvature_terms() const
@@ -98,6 +127,10 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<double> speed;         ///< of the fronts (m/s)
     std::vector<double> temperature;   ///< at the nodes
     std::array<double, 2> wall_flux{}; ///< heat that comes in through the walls (W/m^2)
+    /** Where rows are balances: what each node stands for in its phase, and the heat that
+     * has come in through the walls, both in the measure of the scene. */
+    std::vector<double> cells;
+    double taken = 0; ///< J
 
     /** Phases lie between fronts and walls, in this order. */
     std::size_t n_intervals() const

@@ -29,6 +29,11 @@ namespace meltfront::particles::rkpm_tracked
 
     /** Steps shorter than this share of the run fail. */
     constexpr double shortest_step_over_run = 1e-13;
+    /** Where rows are balances time is resolved as space is: a step is this over the
+     * number of steps as long as the time since the last event at most, and a thin layer
+     * grows by no more, over its thickness. */
+    constexpr double age_in_steps = 12, layer_in_steps = 6, most_layer_growth = 0.1;
+
     constexpr int scheme_order(TimeScheme scheme)
     {
       return static_cast<int>(scheme);
@@ -166,6 +171,13 @@ namespace meltfront::particles::rkpm_tracked
                                 : step * std::min(1., step / duration);
         result.temperature_span
             = temperature_span(bounds, initial, scene.material.melting_temperature);
+        if(problem.balanced())
+        {
+          result.share_of_age = age_in_steps / parameters.steps;
+          result.planned_step = duration / parameters.steps;
+          result.layer_growth
+              = std::min(most_layer_growth, layer_in_steps / parameters.steps);
+        }
         result.shortest_step = shortest_step_over_run * duration;
         result.bounds = bounds;
         const double between = bounds.upper - bounds.lower;
@@ -187,7 +199,8 @@ namespace meltfront::particles::rkpm_tracked
         stepper.advance(end, [this](const LineState &begin) { after_step(begin); });
         if(!std::ranges::binary_search(problem.breakpoints, end))
           return;
-        walls += stepper.begin_anew();
+        const double jump = stepper.begin_anew();
+        walls = problem.balanced() ? stepper.state().taken : walls + jump;
       }
 
       double planned_time(int step) const
@@ -211,8 +224,12 @@ namespace meltfront::particles::rkpm_tracked
       {
         const LineState &state = stepper.state();
         const double step = state.time - begin.time;
-        walls += step * (wall_heat(problem, begin) + wall_heat(problem, state)) / 2
-                 + given_wall_heat(problem, begin.time, state.time);
+        walls = problem.balanced()
+                    ? state.taken
+                    : walls
+                          + step * (wall_heat(problem, begin) + wall_heat(problem, state))
+                                / 2
+                          + given_wall_heat(problem, begin.time, state.time);
         released += release(begin.time, state.time);
         try
         {

@@ -1,35 +1,18 @@
+#include <particles/rkpm_tracked/line/measure.h>
 #include <particles/rkpm_tracked/line/sites.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace meltfront::particles::rkpm_tracked
 {
   namespace
   {
-    double area(cases::Symmetry symmetry, double x)
-    {
-      switch(symmetry)
-      {
-      case cases::Symmetry::cylindrical:
-        return 2 * std::numbers::pi * x;
-      case cases::Symmetry::spherical:
-        return 4 * std::numbers::pi * x * x;
-      default:
-        return 1;
-      }
-    }
-
-    /** Integral of a straight line between two points, by two points of Gauss: exact in
-     * up to three dimensions. */
+    /** Integral of a straight line between two points. */
     double integral(cases::Symmetry symmetry, double a, double at_a, double b,
                     double at_b)
     {
-      const double offset = 0.5 / std::numbers::sqrt3;
-      double sum = 0;
-      for(const double s : {0.5 - offset, 0.5 + offset})
-        sum += area(symmetry, a + s * (b - a)) * (at_a + s * (at_b - at_a));
-      return sum * (b - a) / 2;
+      const auto [from_a, from_b] = end_volumes(symmetry, a, b);
+      return from_a * at_a + from_b * at_b;
     }
   } // namespace
 
@@ -71,8 +54,8 @@ namespace meltfront::particles::rkpm_tracked
         continue;
       // What is given is booked as given, not by a slope that meets it in the limit.
       const cases::BoundaryKind kind = problem.walls[side].kind;
-      const bool given
-          = kind == cases::BoundaryKind::insulated || problem.walls[side].mean_flux;
+      const bool given = kind == cases::BoundaryKind::insulated
+                         || (problem.walls[side].mean_flux && !problem.balanced());
       double flux = given ? 0 : state.wall_flux[side];
       const bool solid = state.solid(side == 0 ? 0 : state.n_intervals() - 1);
       if(!state.fronts.empty() && problem.displacement(solid) != 0)

@@ -13,6 +13,9 @@ namespace meltfront::particles::rkpm_tracked
     /** Fronts are solved for to this, over the spacing. */
     constexpr double front_tolerance = 1e-10;
     constexpr int most_iterations = 60;
+    /** From then on the points of phases are kept, where rows are balances: heat of cells
+     * whose nodes come and go with the front is no function that has a zero. */
+    constexpr int free_iterations = 8;
     constexpr double cfl = 1; ///< of a front in a step, over the spacing
     constexpr double least_thickness_over_spacing = 1e-3;
     /** Step of the differences that begin Broyden's matrix, over the spacing. */
@@ -62,7 +65,11 @@ namespace meltfront::particles::rkpm_tracked
 
   double LineSolver::least_thickness() const
   {
-    return least_thickness_over_spacing * problem.spacing;
+    double least = problem.spacing;
+    for(const double beside_wall : problem.wall_spacing)
+      if(beside_wall > 0)
+        least = std::min(least, beside_wall);
+    return least_thickness_over_spacing * least;
   }
 
   void LineSolver::restart(LineState state)
@@ -70,7 +77,8 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<EndSlopes> slopes(state.n_intervals());
     for(std::size_t p = 0; p < slopes.size(); ++p)
       slopes[p] = collocation.slopes(interval(problem, state, p), state.temperature);
-    find_speeds(state, slopes);
+    find_speeds(state, slopes, &LineWall::value_after);
+    find_cells(state);
     history.restart(std::move(state));
     slope_known = false;
   }
@@ -87,8 +95,8 @@ namespace meltfront::particles::rkpm_tracked
           wall.value_after(state.time), state.temperature);
   }
 
-  void LineSolver::find_speeds(LineState &state,
-                               const std::vector<EndSlopes> &slopes) const
+  void LineSolver::find_speeds(LineState &state, const std::vector<EndSlopes> &slopes,
+                               WallValue given) const
   {
     const double released = problem.front_density() * problem.material.latent_heat;
     const auto conductivity
@@ -103,6 +111,12 @@ namespace meltfront::particles::rkpm_tracked
     const std::size_t last = state.n_intervals() - 1;
     state.wall_flux
         = {-conductivity(0) * slopes[0][0], conductivity(last) * slopes[last][1]};
+    for(const std::size_t side : {0, 1})
+      if(const LineWall &wall = problem.walls[side]; cases::exchanges_heat(wall.kind))
+        state.wall_flux[side] = cases::heat_through(wall.law, (wall.*given)(state.time),
+                                                    side == 0 ? state.temperature.front()
+                                                              : state.temperature.back())
+                                    .flux;
   }
 
   void LineSolver::close_thin_layer(const LineInterval &interval, double growth,
@@ -141,8 +155,11 @@ namespace meltfront::particles::rkpm_tracked
     {
       trial.rate[j] = weights[0] * state.fronts[j];
       for(std::size_t k = 1; k < weights.size(); ++k)
-        trial.rate[j] += weights[k] * history.level(k - 1).fronts[j];
+        trial.rate[j]
+            += weights[k] * place_before(history.level(k - 1).fronts[j], state.fronts[j]);
     }
+    if(problem.balanced())
+      state.cells.assign(problem.nodes.size(), 0.);
     std::vector<EndSlopes> slopes(state.n_intervals());
     for(std::size_t p = 0; p < slopes.size(); ++p)
     {
@@ -157,15 +174,18 @@ namespace meltfront::particles::rkpm_tracked
       if(!problem.metastable && problem.displacement(phase.solid) == 0)
         terms.approach = {phase.lower_front ? std::max(trial.rate[p - 1], 0.) : 0.,
                           phase.upper_front ? std::max(-trial.rate[p], 0.) : 0.};
+      terms.rate = {phase.lower_front ? trial.rate[p - 1] : 0.,
+                    phase.upper_front ? trial.rate[p] : 0.};
+      terms.given_flux = given_flux;
       slopes[p] = collocation.solve(phase, terms, state.temperature);
-      const auto [first, end] = collocation.nodes_of(phase);
-      const std::size_t wall = phase.lower_front ? 1 : 0;
-      if(phase.lower_front != phase.upper_front && end - first == 1
-         && problem.walls[wall].fixed())
+
+      if(collocation.is_held_film(phase))
         close_thin_layer(phase, phase.upper_front ? trial.rate[p] : -trial.rate[p - 1],
                          slopes[p]);
+      if(problem.balanced())
+        add_changed_cells(p, phase, state, slopes[p]);
     }
-    find_speeds(state, slopes);
+    find_speeds(state, slopes, &LineWall::value);
     trial.defect.resize(n_fronts);
     for(std::size_t j = 0; j < n_fronts; ++j)
       trial.defect[j] = state.speed[j] - trial.rate[j];
@@ -195,9 +215,11 @@ namespace meltfront::particles::rkpm_tracked
   bool LineSolver::limit(std::vector<double> &fronts) const
   {
     const std::vector<double> &before = history.newest().fronts;
-    const double move = cfl * problem.spacing;
     for(std::size_t j = 0; j < fronts.size(); ++j)
+    {
+      const double move = cfl * problem.spacing_at(before[j]);
       fronts[j] = std::clamp(fronts[j], before[j] - move, before[j] + move);
+    }
     bool closing = false;
     const double apart = least_thickness();
     double bound = problem.nodes.front();
@@ -281,6 +303,7 @@ namespace meltfront::particles::rkpm_tracked
   StepOutcome LineSolver::iterate(Trial &trial)
   {
     const bool closing = limit(trial.state.fronts);
+    collocation.keep_points(false);
     evaluate(trial);
     return trial.state.fronts.empty()
                ? find_fronts(trial, closing)
@@ -295,6 +318,13 @@ namespace meltfront::particles::rkpm_tracked
     Bracket bracket;
     for(int iteration = 0; iteration < most_iterations; ++iteration)
     {
+      if(problem.balanced() && iteration == free_iterations)
+      {
+        collocation.keep_points(true);
+        evaluate(trial);
+        find_slope(trial);
+        bracket = {};
+      }
       if(!finite(trial.defect) || !finite(trial.state.temperature))
         return StepOutcome::not_finite;
       if(largest(trial.defect) <= tolerance * std::abs(weights[0]))
@@ -336,6 +366,7 @@ namespace meltfront::particles::rkpm_tracked
     trial.state.time = time;
     times = history.times(time);
     weights = differentiation_weights(times);
+    find_given_flux();
     trial.state.fronts = predicted_fronts(time_step);
     const StepOutcome outcome = iterate(trial);
     counted.most_evaluations
@@ -343,6 +374,8 @@ namespace meltfront::particles::rkpm_tracked
     if(outcome == StepOutcome::accepted)
     {
       ++counted.steps;
+      if(problem.balanced())
+        book_walls(trial.state);
       history.push(std::move(trial.state));
     }
     else

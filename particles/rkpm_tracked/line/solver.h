@@ -43,10 +43,7 @@ namespace meltfront::particles::rkpm_tracked
     void set_wall(LineState &state, std::size_t side);
 
     /** Add what was before the state that the solver was started from, newest first. */
-    void add_older(LineState state)
-    {
-      history.add_older(std::move(state));
-    }
+    void add_older(LineState state);
 
     /** Advance to a time; the state is left alone unless the step is accepted. */
     StepOutcome step_to(double time);
@@ -74,6 +71,8 @@ namespace meltfront::particles::rkpm_tracked
     void nodes_moved(std::span<const double> before, std::deque<LineState> states)
     {
       collocation.nodes_moved(before);
+      for(LineState &moved : states)
+        find_cells(moved);
       history.set(std::move(states));
     }
 
@@ -104,9 +103,17 @@ namespace meltfront::particles::rkpm_tracked
     };
 
     void evaluate(Trial &trial);
-    void find_speeds(LineState &state, const std::vector<EndSlopes> &slopes) const;
+    using WallValue = std::function<double(double)> LineWall::*;
+    void find_speeds(LineState &state, const std::vector<EndSlopes> &slopes,
+                     WallValue given) const;
     void close_thin_layer(const LineInterval &interval, double growth,
                           EndSlopes &slopes) const;
+    double place_before(double before, double now) const;
+    void find_cells(LineState &state);
+    void find_given_flux();
+    void add_changed_cells(std::size_t number, const LineInterval &interval,
+                           LineState &state, EndSlopes &slopes) const;
+    void book_walls(LineState &state) const;
     void find_history(std::size_t number, const LineInterval &interval);
     std::vector<double> predicted_fronts(double time_step) const;
     bool limit(std::vector<double> &fronts) const;
@@ -121,9 +128,10 @@ namespace meltfront::particles::rkpm_tracked
     const LineProblem &problem;
     LineCollocation collocation;
     LineHistory history;
-    std::vector<double> times;        ///< of the step in hand, its end first
-    std::vector<double> weights;      ///< of backward differentiation
-    std::vector<double> rate_history; ///< of each node (K/s)
+    std::vector<double> times;          ///< of the step in hand, its end first
+    std::vector<double> weights;        ///< of backward differentiation
+    std::vector<double> rate_history;   ///< of each node (K/s)
+    std::array<double, 2> given_flux{}; ///< of the step in hand (W/m^2)
     /** Derivatives of the fronts' speeds with respect to the fronts, by rows (1/s). */
     std::vector<double> slope;
     bool slope_known = false;

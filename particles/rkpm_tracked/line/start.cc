@@ -1,6 +1,7 @@
 #include <cases/error.h>
 #include <cases/initial_level.h>
 #include <cases/time_integral.h>
+#include <cases/wall_law.h>
 #include <particles/core/arrangement.h>
 #include <particles/rkpm_tracked/line/similarity_start.h>
 #include <particles/rkpm_tracked/line/start.h>
@@ -67,6 +68,71 @@ namespace meltfront::particles::rkpm_tracked
                [&](const std::array<double, 3> &p)
                { return p[0] != lower && p[0] != upper; });
       return places.position[0];
+    }
+
+    /** Cells grow from walls that make them finer over a tenth of the domain's side, so
+     * that all are halved where n is doubled; but where there are few by this at most:
+     * each is then 1.28 times as long as the one before. */
+    constexpr double graded_share = 0.1, most_growth = 0.25;
+
+    /** Cells between nodes from a wall that makes them finer to a distance from it, and
+     * back: beside the wall their length is growth times the distance beyond that at the
+     * wall. */
+    struct GradedCells
+    {
+      double spacing, at_wall; ///< m
+      double spacing_growth;
+
+      double graded() const
+      {
+        return std::log(spacing / at_wall) / spacing_growth;
+      }
+
+      double to(double distance) const
+      {
+        const double way = (spacing - at_wall) / spacing_growth;
+        return distance < way
+                   ? std::log1p(spacing_growth * distance / at_wall) / spacing_growth
+                   : graded() + (distance - way) / spacing;
+      }
+
+      double distance(double cells) const
+      {
+        const double graded_cells = graded();
+        return cells < graded_cells
+                   ? at_wall * std::expm1(spacing_growth * cells) / spacing_growth
+                   : (spacing - at_wall) / spacing_growth
+                         + (cells - graded_cells) * spacing;
+      }
+    };
+
+    /** Lay the nodes of a problem, finer beside walls that want it. */
+    void lay_nodes(LineProblem &problem, double lower, double upper, double spacing,
+                   double jitter_over_spacing, std::uint64_t seed)
+    {
+      const auto &at_wall = problem.wall_spacing;
+      const GradedCells cells{spacing, std::max(at_wall[0], at_wall[1]),
+                              problem.spacing_growth};
+      const double length = upper - lower;
+      if(!(cells.at_wall > 0))
+      {
+        problem.nodes = arrange_line(lower, upper, spacing, jitter_over_spacing, seed);
+        problem.spacing = length / static_cast<double>(problem.nodes.size() - 1);
+        return;
+      }
+      const bool both = at_wall[0] > 0 && at_wall[1] > 0;
+      const double wanted = both ? 2 * cells.to(length / 2) : cells.to(length);
+      // In a coordinate in which all cells are of length one.
+      problem.nodes = arrange_line(0, wanted, 1, jitter_over_spacing, seed);
+      for(double &node : problem.nodes)
+      {
+        const bool from_lower = both ? node < wanted / 2 : at_wall[0] > 0;
+        node = from_lower ? lower + cells.distance(node)
+                          : upper - cells.distance(wanted - node);
+      }
+      problem.nodes.front() = lower;
+      problem.nodes.back() = upper;
+      problem.spacing = spacing;
     }
 
     bool solid_at(const cases::Scene &scene, double x)
@@ -137,13 +203,19 @@ namespace meltfront::particles::rkpm_tracked
     const double lower = domain.round() ? (ball ? 0 : domain.inner_radius) : 0;
     const double upper = domain.round() ? domain.radius : domain.side();
     problem.axis = ball;
-    problem.nodes = arrange_line(lower, upper, domain.side() / parameters.cells,
-                                 parameters.jitter, seed);
-    problem.spacing = (upper - lower) / static_cast<double>(problem.nodes.size() - 1);
     if(!ball)
       problem.walls[0]
           = wall_of(scene, domain.round() ? Side::inner : Side::x_min, lower);
     problem.walls[1] = wall_of(scene, domain.round() ? Side::outer : Side::x_max, upper);
+    const double spacing = domain.side() / parameters.cells;
+    for(const std::size_t side : {0, 1})
+      if(const LineWall &wall = problem.walls[side];
+         problem.balanced() && parameters.wall_spacing < 1
+         && wall.kind != BoundaryKind::insulated)
+        problem.wall_spacing[side] = parameters.wall_spacing * spacing;
+    problem.spacing_growth
+        = std::min(most_growth, spacing / (graded_share * domain.side()));
+    lay_nodes(problem, lower, upper, spacing, parameters.jitter, seed);
     problem.breakpoints = cases::breakpoints_of(scene);
     if(scene.volumetric_source)
     {

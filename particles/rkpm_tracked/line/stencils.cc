@@ -9,9 +9,8 @@
 
 namespace meltfront::particles::rkpm_tracked
 {
-  LineStencils::LineStencils(int order, double radius)
+  LineStencils::LineStencils(int order)
     : order(order)
-    , radius(radius)
   {
     for(int m = 1; m <= order; ++m)
     {
@@ -33,12 +32,11 @@ namespace meltfront::particles::rkpm_tracked
               static_cast<std::uint32_t>(first - x.begin()));
   }
 
-  void LineStencils::evaluate(double place, const ParticleStorage &cloud,
+  void LineStencils::evaluate(double place, double reach, const ParticleStorage &cloud,
                               LineStencil &stencil)
   {
     const std::vector<double> &x = cloud.position[0];
     const std::size_t wanted = std::min(x.size(), static_cast<std::size_t>(order) + 2);
-    double reach = radius;
     do
       find_window(place, reach, x);
     while(neighbours.size() < wanted && (reach *= rkpm::enlargement_factor) > 0);

@@ -38,22 +38,22 @@ namespace meltfront::particles::rkpm_tracked
   class LineStencils
   {
   public:
-    /** @param radius of the kernel (m) */
-    LineStencils(int order, double radius);
+    explicit LineStencils(int order);
 
     /**
      * Weights at a place.
+     * @param reach of the kernel there (m)
      * @param cloud ascending places, two at least
      * @throws cases::InputError if the points determine no polynomial of first order
      */
-    void evaluate(double place, const ParticleStorage &cloud, LineStencil &stencil);
+    void evaluate(double place, double reach, const ParticleStorage &cloud,
+                  LineStencil &stencil);
 
   private:
     /** The points nearer than a radius: [first, end). */
     void find_window(double place, double radius, const std::vector<double> &x);
 
     int order;
-    double radius;
     std::vector<rkpm::MomentEngine> engines; ///< of order 1, 2, ...
     std::vector<std::uint32_t> neighbours;
   };

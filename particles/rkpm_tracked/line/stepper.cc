@@ -14,10 +14,9 @@ namespace meltfront::particles::rkpm_tracked
     /** Steps of backward differentiation of order 2 and 3 may grow so fast and stay
      * stable (limits: 2.41, 1.53). */
     constexpr double growth_of_order[] = {2., 2., 1.5};
-    /** A layer thinner than some spacings thickens by no more than this in a step, in
-     * which time its age grows by twice as much. */
-    constexpr double layer_growth = 0.1;
+    /** Layers thinner than some spacings are thin: they grow by so much in a step. */
     constexpr double thin_layer = 5;
+    constexpr double most_layer_growth = 0.2;
     /** One that vanishes at a wall of given temperature is to thin by no more, and is
      * left no less than this share. */
     constexpr double layer_decline = 0.25;
@@ -25,6 +24,8 @@ namespace meltfront::particles::rkpm_tracked
     /** Events are found to this share of the temperature's span. */
     constexpr double event_tolerance = 1e-5;
     constexpr double least_excess = 1e-9;
+    /** First step over the time in which heat evens out in a cell beside a wall. */
+    constexpr double wall_step = 0.25;
     constexpr double largest_excess = 1e-2;
     constexpr long most_events = 10000;
     /** A shorter step is taken where it overshoots by less than this share of what the
@@ -83,8 +84,15 @@ namespace meltfront::particles::rkpm_tracked
           "(option "
           "displaced)",
           method_name, name_of(state.solid(0)), state.time));
+    begun = state.time;
     solver.restart(std::move(state));
     next_step = rules.first_step;
+    for(const std::size_t side : {0, 1})
+      if(const double spacing = problem.wall_spacing[side]; spacing > 0)
+        next_step
+            = std::min(next_step, wall_step * spacing * spacing
+                                      / std::max(problem.phase(true).diffusivity(),
+                                                 problem.phase(false).diffusivity()));
   }
 
   void LineStepper::start(LineState state, std::vector<LineState> older)
@@ -102,6 +110,7 @@ namespace meltfront::particles::rkpm_tracked
   {
     LineState now = state();
     const double heat = set_walls(now);
+    now.taken += heat;
     restart(std::move(now));
     insert_where_called_for();
     return heat;
@@ -111,7 +120,8 @@ namespace meltfront::particles::rkpm_tracked
   {
     const double before = heat_of(problem, changed).total();
     for(std::size_t side = 0; side < 2; ++side)
-      solver.set_wall(changed, side);
+      if(problem.walls[side].fixed() || !problem.balanced())
+        solver.set_wall(changed, side);
     return heat_before_layers(problem, changed).total() - before;
   }
 
@@ -143,8 +153,8 @@ namespace meltfront::particles::rkpm_tracked
     ++events;
     const double speed
         = std::abs(side == 0 ? state().speed.front() : state().speed.back());
-    if(speed * next_step > layer_growth * thickness)
-      next_step = layer_growth * thickness / speed;
+    if(speed * next_step > growth_of_layer(thickness))
+      next_step = growth_of_layer(thickness) / speed;
   }
 
   void LineStepper::remove(std::size_t number)
@@ -167,17 +177,33 @@ namespace meltfront::particles::rkpm_tracked
     restart(std::move(changed));
   }
 
+  /** By how much a thin layer may grow in a step (m). */
+  double LineStepper::growth_of_layer(double thickness) const
+  {
+    const double share = rules.layer_growth;
+    if(!std::isfinite(rules.share_of_age))
+      return share * thickness;
+    const double thinner = thin_layer * problem.spacing / thickness;
+    return std::clamp(share * std::sqrt(thinner), share, most_layer_growth) * thickness;
+  }
+
   double LineStepper::choose_end(double target) const
   {
     const LineState &now = state();
     double step = next_step;
+    if(const double age = now.time - begun; age > 0 && std::isfinite(rules.share_of_age))
+    {
+      const double share = rules.share_of_age;
+      const double earlier = rules.planned_step / (share * age);
+      step = std::min(step, share * age * std::pow(std::max(earlier, 1.), 0.25));
+    }
     const auto allow = [&step](double move, double speed)
     {
       if(speed * step > move)
         step = move / speed;
     };
-    for(const double speed : now.speed)
-      allow(rules.cfl * problem.spacing, std::abs(speed));
+    for(std::size_t j = 0; j < now.fronts.size(); ++j)
+      allow(rules.cfl * problem.spacing_at(now.fronts[j]), std::abs(now.speed[j]));
     if(!now.fronts.empty())
     {
       const double below = now.fronts.front() - problem.nodes.front();
@@ -185,13 +211,13 @@ namespace meltfront::particles::rkpm_tracked
       // Against a wall whose temperature is given heat flows as one over the thickness.
       if(below < thin_layer * problem.spacing)
       {
-        allow(layer_growth * below, now.speed.front());
+        allow(growth_of_layer(below), now.speed.front());
         if(problem.walls[0].fixed())
           allow(layer_decline * below, -now.speed.front());
       }
       if(above < thin_layer * problem.spacing)
       {
-        allow(layer_growth * above, -now.speed.back());
+        allow(growth_of_layer(above), -now.speed.back());
         if(problem.walls[1].fixed())
           allow(layer_decline * above, now.speed.back());
       }
@@ -337,7 +363,8 @@ namespace meltfront::particles::rkpm_tracked
       for(const bool solid : {false, true})
       {
         const double diffusivity = problem.phase(solid).diffusivity();
-        const double peclet = std::abs(now.speed[j]) * problem.spacing / diffusivity;
+        const double h = problem.spacing_at(now.fronts[j]);
+        const double peclet = std::abs(now.speed[j]) * h / diffusivity;
         const int strength = peclet > 1 ? 2 : peclet > 0.5 ? 1 : 0;
         if(strength <= warned[solid ? 1 : 0])
           continue;
@@ -347,7 +374,7 @@ namespace meltfront::particles::rkpm_tracked
             "V = {:.3g} m/s, h = {:.3g} m, alpha = {:.3g} m^2/s; 0.5 wants a spacing of "
             "{:.3g} m",
             name_of(solid), strength == 2 ? "not resolved" : "hardly resolved", peclet,
-            now.speed[j], problem.spacing, diffusivity, problem.spacing * 0.5 / peclet);
+            now.speed[j], h, diffusivity, h * 0.5 / peclet);
         note(now.time, text);
         if(strength == 2)
           unresolved = fmt::format("at t = {:.6g} {}", now.time, text);

@@ -17,6 +17,15 @@ namespace meltfront::particles::rkpm_tracked
     double first_step = 0;       ///< after a start without history and after events (s)
     double temperature_span = 1; ///< that events are found to a share of (K)
     double shortest_step = 0;    ///< a step that must be shorter fails (s)
+    /** Longest step over the time since a start or an event, once that is as long that
+     * planned steps may be taken; earlier it may be longer, as less heat is at stake: by
+     * the fourth root of the age each octave of it errs alike where heat comes in like
+     * the root of the time. */
+    double share_of_age = std::numeric_limits<double>::infinity();
+    double planned_step = 0; ///< s
+    /** Of a thin layer in a step, over its thickness; with a share of the age thinner
+     * ones grow faster, by the root of the thickness. */
+    double layer_growth = 0.1;
     cases::TemperatureBounds bounds{}; ///< of all temperatures (K)
     /** A step of a formula of high order that is long beside the time in which a phase
      * evens out overshoots, whatever the spacing: it is made anew with half its length
@@ -100,6 +109,7 @@ namespace meltfront::particles::rkpm_tracked
   private:
     double choose_end(double target) const;
     void shorten(StepOutcome outcome, double time_step);
+    double growth_of_layer(double thickness) const;
     bool vanishes_too_fast(const LineState &before) const;
     bool pass_wall(const std::deque<LineState> &before, double time_step);
     double shorten_to_bounds(const std::deque<LineState> &before, double time_step);
@@ -115,6 +125,7 @@ namespace meltfront::particles::rkpm_tracked
     StepRules rules;
     Note note;
     double next_step;             ///< the longest that may come next (s)
+    double begun = 0;             ///< time of the last start or event (s)
     double growth;                ///< of steps from one to the next
     std::array<double, 2> wanted; ///< excess at which a layer appears at a wall (K)
     long kept = 0;

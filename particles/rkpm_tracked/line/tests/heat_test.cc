@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -63,6 +64,79 @@ namespace meltfront::particles::rkpm_tracked
         set_boundary(scene, Side::x_max, wall);
         EXPECT_LT(lost(run(scene, n), latent_heat), 0.3 / n) << n;
       }
+    }
+
+    // A pulse shorter than heat takes through a cell, while the wall's phase melts and
+    // freezes: 5e-2 of its heat once got lost beside the wall.
+    TEST(LineHeat, AllHeatOfAPulseIsFound)
+    {
+      for(const int n : {20, 40})
+      {
+        cases::Scene scene = slab(material(1, 2, 1), 0, 0.1);
+        scene.initial.temperature = cases::Field::uniform(-0.3);
+        set_boundary(scene, Side::x_min, {});
+        set_boundary(scene, Side::x_max,
+                     {BoundaryKind::flux,
+                      {"",
+                       [](const cases::Position &, double t)
+                       { return t >= 0.02 && t < 0.0204 ? 1000. : 0.; },
+                       false,
+                       {0.02, 0.0204}}});
+        const Course recorder = run(scene, n);
+        EXPECT_GT(*std::ranges::max_element(recorder.solid), 0.99);
+        EXPECT_LT(*std::ranges::min_element(recorder.solid), 0.95);
+        EXPECT_NEAR(recorder.heat.boundary, 0.4, 1e-10);
+        EXPECT_LT(lost(recorder, 1), 2e-5) << n;
+      }
+    }
+
+    // Steps differ, nodes change their phase, the area grows: the heat of all cells still
+    // is what came in, but for that of the layers in which phases appear.
+    TEST(LineHeat, APipeKeepsItsHeatWhateverItsWallsDo)
+    {
+      std::vector<double> solid;
+      for(const int n : {20, 40, 80, 160})
+      {
+        cases::Scene scene = slab(material(1, 1, 1), 0, 0.12);
+        scene.symmetry = cases::Symmetry::cylindrical;
+        scene.domain.shape = cases::DomainShape::shell;
+        scene.domain.dimension = 2;
+        scene.domain.inner_radius = 0.5;
+        scene.domain.radius = 1;
+        scene.material.solid.conductivity = 2;
+        scene.initial.temperature = cases::Field::uniform(0.4);
+        cases::Boundary inner{BoundaryKind::heat_transfer, cases::Field::uniform(-1.5)};
+        inner.heat_transfer_coefficient = 8;
+        set_boundary(scene, Side::inner, inner);
+        set_boundary(scene, Side::outer,
+                     {BoundaryKind::flux, {"", [](const cases::Position &, double t) {
+                                             return -1.5 * std::sin(40 * t);
+                                           }}});
+        const Course recorder = run(scene, n);
+        EXPECT_LT(recorder.worst_budget_defect(), 1e-4) << n;
+        solid.push_back(recorder.solid.back());
+      }
+      // Two phases appear, and a third beside the second.
+      EXPECT_LT(std::abs(solid[1] - solid[3]), 1e-3 * solid[3]);
+      EXPECT_LT(std::abs(solid[2] - solid[3]), std::abs(solid[1] - solid[3]) / 2);
+    }
+
+    // Above a wall that holds a temperature its heat is told by its cell.
+    TEST(LineHeat, AWallThatTurnsColdGivesWhatIsFound)
+    {
+      cases::Scene scene = slab(material(1, 1, 1), 0, 0.15);
+      scene.initial.temperature = cases::Field::uniform(0.3);
+      set_boundary(
+          scene, Side::x_min,
+          {BoundaryKind::fixed_temperature,
+           {"",
+            [](const cases::Position &, double t) { return t < 0.05 ? 0.3 : -0.5; },
+            false,
+            {0.05}}});
+      set_boundary(scene, Side::x_max, flux_wall(-3));
+      const Course recorder = run(scene, 40);
+      EXPECT_GT(recorder.solid.back(), 0.3);
+      EXPECT_LT(recorder.worst_budget_defect(), 2e-4);
     }
 
     // 24/120 of 0.1 is not quite 0.02: a step as short as the difference, after the front

@@ -94,11 +94,11 @@ namespace meltfront::particles::rkpm_tracked
         cloud.add({0.1 * i, 0, 0});
       for(const int order : {2, 3, 4})
       {
-        LineStencils stencils(order, 0.1 * default_dilation(order));
+        LineStencils stencils(order);
         LineStencil stencil;
         for(const double place : cloud.position[0])
         {
-          stencils.evaluate(place, cloud, stencil);
+          stencils.evaluate(place, 0.1 * default_dilation(order), cloud, stencil);
           EXPECT_GE(stencil.size(), static_cast<std::size_t>(order) + 2);
           for(int power = 0; power <= order; ++power)
           {
@@ -119,15 +119,15 @@ namespace meltfront::particles::rkpm_tracked
       two.dimension = 1;
       two.add({0.2, 0, 0});
       two.add({0.2001, 0, 0});
-      LineStencils stencils(3, 0.36);
+      LineStencils stencils(3);
       LineStencil stencil;
-      stencils.evaluate(0.2, two, stencil);
+      stencils.evaluate(0.2, 0.36, two, stencil);
       ASSERT_EQ(stencil.size(), 2U);
       EXPECT_NEAR(stencil.slope[1] * 1e-4, 1., 1e-9);
       EXPECT_NEAR(stencil.slope[0] * 1e-4, -1., 1e-9);
       ParticleStorage three = two;
       three.add({0.3, 0, 0});
-      stencils.evaluate(0.3, three, stencil);
+      stencils.evaluate(0.3, 0.36, three, stencil);
       const auto [slope, second] = apply(stencil, three, 2);
       EXPECT_NEAR(slope, 0.6, 1e-7);
       EXPECT_NEAR(second, 2., 1e-5);

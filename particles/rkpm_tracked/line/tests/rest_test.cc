@@ -91,11 +91,14 @@ namespace meltfront::particles::rkpm_tracked
     {
       // The solid lets q = 2 (430 - 380)/(1 - X) through; so must the wall.
       LineProblem problem = dirichlet_slab(bar_material(), 30);
-      problem.walls[0]
-          = {.kind = cases::BoundaryKind::flux, .value = [](double) { return 160.; }};
+      problem.walls[0] = {.kind = cases::BoundaryKind::flux,
+                          .value = [](double) { return 160.; },
+                          .value_after = [](double) { return 160.; },
+                          .mean_flux = [](double, double) { return 160.; }};
       EXPECT_NEAR(resting_front(problem), 1 - 100. / 160, 1e-7);
       problem.walls[0] = {.kind = cases::BoundaryKind::heat_transfer,
                           .value = [](double) { return 550.; },
+                          .value_after = [](double) { return 550.; },
                           .law = {.kind = cases::BoundaryKind::heat_transfer,
                                   .value = {},
                                   .heat_transfer_coefficient = 2}};
@@ -110,6 +113,7 @@ namespace meltfront::particles::rkpm_tracked
       LineProblem problem = dirichlet_slab(bar_material(), 30);
       problem.walls[0] = {.kind = cases::BoundaryKind::radiation,
                           .value = [](double) { return 550.; },
+                          .value_after = [](double) { return 550.; },
                           .law = {.kind = cases::BoundaryKind::radiation,
                                   .value = {},
                                   .emission_coefficient = 4e-9,

@@ -1,0 +1,166 @@
+#include <particles/rkpm_tracked/line/collocation.h>
+#include <particles/rkpm_tracked/line/measure.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::particles::rkpm_tracked
+{
+  /** A face is half a spacing nearer to the points beside it than these to each other. */
+  void LineCollocation::evaluate_face(double place, LineStencil &stencil)
+  {
+    const double reach = std::max(dilation - 0.5, dilation / 2);
+    stencils.evaluate(place, reach * problem.spacing_at(place), cloud, stencil);
+  }
+
+  void LineCollocation::make_regular_faces()
+  {
+    const std::vector<double> &x = problem.nodes;
+    regular_faces.resize(x.size() - 1);
+    for(std::size_t i = 0; i + 1 < x.size(); ++i)
+      evaluate_face((x[i] + x[i + 1]) / 2, regular_faces[i]);
+  }
+
+  /** Weights of the slope half-way between a point and the next. */
+  const LineStencil &LineCollocation::face_stencil(std::size_t point)
+  {
+    const std::vector<double> &x = cloud.position[0];
+    const double place = (x[point] + x[point + 1]) / 2;
+    LineStencil &row = faces[point];
+    const std::size_t node = first + point - offset;
+    if(point >= offset && node + 1 < end)
+    {
+      const LineStencil &known = regular_faces[node];
+      const bool inside = known.first >= first && known.end() <= end;
+      const bool below = offset == 1 && place - x.front() < known.radius;
+      const bool above
+          = offset + (end - first) < cloud.size() && x.back() - place < known.radius;
+      if(inside && !below && !above)
+      {
+        row = known;
+        row.first = known.first - first + offset;
+        return row;
+      }
+    }
+    evaluate_face(place, row);
+    return row;
+  }
+
+  /** Slopes at all faces, and what the temperature at each point counts for in the heat
+   * of the phase. */
+  void LineCollocation::measure_cells()
+  {
+    const std::vector<double> &x = cloud.position[0];
+    faces.resize(std::max(faces.size(), x.size()));
+    volumes.assign(x.size(), 0.);
+    for(std::size_t p = 0; p + 1 < x.size(); ++p)
+    {
+      face_stencil(p);
+      const auto [own, next] = end_volumes(problem.symmetry, x[p], x[p + 1]);
+      volumes[p] += own;
+      volumes[p + 1] += next;
+    }
+  }
+
+  bool LineCollocation::is_held_film(const LineInterval &interval) const
+  {
+    const std::size_t nodes = problem.balanced() ? end - first : all_end - all_first;
+    return interval.lower_front != interval.upper_front && nodes == 1
+           && problem.walls[interval.lower_front ? 1 : 0].fixed();
+  }
+
+  void LineCollocation::measure_cells_of(const LineInterval &interval)
+  {
+    gather(interval);
+    measure_cells();
+  }
+
+  void LineCollocation::write_cells(std::span<double> cells) const
+  {
+    for(std::size_t i = all_first; i < all_end; ++i)
+      cells[i] = i >= first && i < end ? volumes[i - first + offset] : 0;
+  }
+
+  /** What flows into the cell of a point by conduction, over its volume, in the place of
+   * the Laplacian: what leaves one cell enters the next. */
+  const LineStencil &LineCollocation::balance(std::size_t point)
+  {
+    const std::vector<double> &x = cloud.position[0];
+    LineStencil &row = rows[point];
+    const std::size_t from_face = point == 0 ? 0 : point - 1;
+    const std::size_t to_face = std::min(point, x.size() - 2);
+    row.first = point;
+    std::size_t past = point + 1;
+    for(std::size_t f = from_face; f <= to_face; ++f)
+    {
+      row.first = std::min(row.first, faces[f].first);
+      past = std::max(past, faces[f].end());
+    }
+    row.slope.assign(past - row.first, 0.);
+    row.second.assign(past - row.first, 0.);
+    for(std::size_t f = from_face; f <= to_face; ++f)
+    {
+      const double weight = (f == point ? 1 : -1)
+                            * area(problem.symmetry, (x[f] + x[f + 1]) / 2)
+                            / volumes[point];
+      for(std::size_t j = 0; j < faces[f].size(); ++j)
+        row.second[faces[f].first + j - row.first] += weight * faces[f].slope[j];
+    }
+    return row;
+  }
+
+  double LineCollocation::face_slope(std::size_t face,
+                                     std::span<const double> values) const
+  {
+    double sum = 0;
+    for(std::size_t j = 0; j < faces[face].size(); ++j)
+      sum += faces[face].slope[j] * values[faces[face].first + j];
+    return sum;
+  }
+
+  /** The slope at a front for what flows through the first face; the heat of cells that
+   * the front changes comes to it. */
+  double LineCollocation::balanced_front_slope(std::size_t side,
+                                               std::span<const double> values) const
+  {
+    const std::vector<double> &x = cloud.position[0];
+    const std::size_t front = side == 0 ? 0 : x.size() - 1;
+    const std::size_t next = side == 0 ? 1 : front - 1;
+    return area(problem.symmetry, (x[front] + x[next]) / 2)
+           * face_slope(side == 0 ? 0 : next, values) / area(problem.symmetry, x[front]);
+  }
+
+  /** The slope at a wall of what flows in through it: it heats the wall's cell or goes on
+   * through the first face. */
+  double LineCollocation::balanced_wall_slope(std::size_t side, double diffusivity,
+                                              const StepTerms &terms,
+                                              std::span<const double> values) const
+  {
+    const std::vector<double> &x = cloud.position[0];
+    const std::size_t wall = side == 0 ? 0 : x.size() - 1;
+    const std::size_t next = side == 0 ? 1 : wall - 1;
+    const double change
+        = terms.leading * values[wall] + terms.history[first + wall - offset];
+    return (area(problem.symmetry, (x[wall] + x[next]) / 2)
+                * face_slope(side == 0 ? 0 : next, values)
+            + (side == 0 ? -1 : 1) * volumes[wall] * change / diffusivity)
+           / area(problem.symmetry, x[wall]);
+  }
+
+  EndSlopes LineCollocation::balanced_slopes(const LineInterval &interval,
+                                             const StepTerms &terms) const
+  {
+    const double diffusivity = problem.phase(interval.solid).diffusivity();
+    const std::array<bool, 2> front{interval.lower_front, interval.upper_front};
+    EndSlopes result{};
+    const bool film = is_held_film(interval);
+    for(const std::size_t side : {0, 1})
+      if(film)
+        result[side] = face_slope(0, right_side);
+      else if(front[side])
+        result[side] = balanced_front_slope(side, right_side);
+      else if(side == 1 || !problem.axis)
+        result[side] = balanced_wall_slope(side, diffusivity, terms, right_side);
+    return result;
+  }
+} // namespace meltfront::particles::rkpm_tracked
