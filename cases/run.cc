@@ -1,6 +1,5 @@
 #include <cases/run.h>
 #include <cases/scene.h>
-#include <cases/shared_run.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
@@ -51,7 +50,6 @@ namespace meltfront::cases
 
   void Run::resume(std::istream &state)
   {
-    const auto *shared = dynamic_cast<const SharedRun *>(this);
     do
     {
       boost::archive::binary_iarchive archive(state);
@@ -59,7 +57,7 @@ namespace meltfront::cases
       for(Stopwatch::Seconds &part : spent)
         archive >> part.wall >> part.cpu;
       restore(archive);
-      if(shared && !shared->takes_over_times())
+      if(!takes_over_times())
         continue;
       for(const auto &[before, part] :
           {std::pair(&setup_before, spent[0]), std::pair(&stepping_before, spent[1])})

@@ -52,6 +52,13 @@ namespace meltfront::cases
     /** Read what save() wrote of the same run, after it was set up like any other. */
     virtual void restore(boost::archive::binary_iarchive &state);
 
+    /** Whether the times spent until the state that was restored last count as this
+     * run's: where ranks share a run, each of their states counts once among all. */
+    virtual bool takes_over_times() const
+    {
+      return true;
+    }
+
     /** Whether states of this run are kept. */
     bool keeps_states() const
     {

@@ -33,13 +33,6 @@ namespace meltfront::cases
   public:
     /** What the snapshots hold that it hands over. */
     virtual RankPart part() const = 0;
-
-    /** Whether the times spent until the state that was restored last count as spent by
-     * this rank: by one of all. */
-    virtual bool takes_over_times() const
-    {
-      return true;
-    }
   };
 
   /** What a method is that can share a run among several ranks. Those that are not are

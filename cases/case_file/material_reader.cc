@@ -15,7 +15,7 @@ namespace meltfront::cases
   namespace
   {
     const std::string material_keys = "Scene/Material";
-    const std::string solid_keys = "Scene/Material/Solid";
+    const std::string solid_phase_keys = "Scene/Material/Solid";
     const std::string liquid_keys = "Scene/Material/Liquid";
     const std::string conductivity_key = "conductivity";
     const std::string heat_capacity_key = "specific heat capacity";
@@ -125,13 +125,14 @@ namespace meltfront::cases
            "highest temperature"})
         prm.forbid(material_keys, key, why);
       for(const std::string &key : {heat_capacity_key, std::string("density")})
-        prm.forbid(solid_keys, key, why);
+        prm.forbid(solid_phase_keys, key, why);
       if(prm.opened(liquid_keys))
         throw prm.subsection_error(liquid_keys,
                                    fmt::format("has no meaning here: {}", why));
-      const Property conductivity = read_property(prm, solid_keys, conductivity_key, 0);
+      const Property conductivity
+          = read_property(prm, solid_phase_keys, conductivity_key, 0);
       if(conductivity.curve)
-        throw prm.error(solid_keys, conductivity_key,
+        throw prm.error(solid_phase_keys, conductivity_key,
                         "must be a number in a steady scene");
       Material material;
       material.latent_heat = 0;
@@ -243,9 +244,9 @@ namespace meltfront::cases
           = [&](const std::string &key, double PhaseProperties::*number,
                 std::shared_ptr<const PropertyCurve> PhaseProperties::*curve)
       {
-        prm.require(solid_keys, key,
+        prm.require(solid_phase_keys, key,
                     fmt::format("it needs a number greater than 0 ({})", unit_of(key)));
-        const Property solid = read_property(prm, solid_keys, key, melting);
+        const Property solid = read_property(prm, solid_phase_keys, key, melting);
         const Property liquid = prm.given(liquid_keys, key)
                                     ? read_property(prm, liquid_keys, key, melting)
                                     : solid;
@@ -258,7 +259,7 @@ namespace meltfront::cases
                  &PhaseProperties::conductivity_curve);
       properties(heat_capacity_key, &PhaseProperties::specific_heat_capacity,
                  &PhaseProperties::heat_capacity_curve);
-      material.solid.density = prm.get_number(solid_keys, "density");
+      material.solid.density = prm.get_number(solid_phase_keys, "density");
       material.liquid.density = prm.given(liquid_keys, "density")
                                     ? prm.get_number(liquid_keys, "density")
                                     : material.solid.density;
@@ -279,7 +280,7 @@ namespace meltfront::cases
         if(std::isfinite(temperature) && coldest <= warmest
            && !(temperature >= first - slack && temperature <= last + slack))
           throw prm.error(
-              prm.given(here, key) ? here : solid_keys, key,
+              prm.given(here, key) ? here : solid_phase_keys, key,
               fmt::format("is known from {:.6g} to {:.6g}, and the scene needs "
                           "it at {:.6g}",
                           first, last, temperature));
@@ -405,7 +406,7 @@ namespace meltfront::cases
       require_reach(prm, here, heat_capacity_key, phase.heat_capacity_curve, coldest,
                     warmest, slack);
     };
-    reach(solid_keys, material.solid, bounds.lower,
+    reach(solid_phase_keys, material.solid, bounds.lower,
           melts ? std::min(molten, bounds.upper) : bounds.upper);
     if(melts)
       reach(liquid_keys, material.liquid, std::max(melting, bounds.lower), bounds.upper);

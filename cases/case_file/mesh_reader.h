@@ -10,8 +10,10 @@ namespace meltfront::cases
   void declare_mesh(PrmFile &prm);
 
   /**
-   * Read the mesh file that a domain of that shape names, and its bounding box.
-   * @throws InputError for a file that is not there or that holds no mesh of this kind
+   * Read the mesh file that a domain of that shape names, or make the mesh of its
+   * generator, and its bounding box.
+   * @throws InputError for a file that is not there or that holds no mesh of this kind,
+   * and for a generator's arguments that make none
    */
   void read_mesh(const PrmFile &prm, Domain &domain);
 

@@ -22,7 +22,7 @@ namespace meltfront::cases
       return entry;
     }
 
-    const std::string solid_keys = "Scene/Particle solid";
+    const std::string heated_solid_keys = "Scene/Particle solid";
     const std::string bath_keys = "Scene/Particle solid/Bath";
     const std::string light_keys = "Scene/Particle solid/Light";
 
@@ -87,50 +87,51 @@ namespace meltfront::cases
 
     std::vector<double> read_cell(const PrmFile &prm, const ParticleSolid &solid)
     {
-      if(!prm.given(solid_keys, "cell"))
+      if(!prm.given(heated_solid_keys, "cell"))
         return {};
-      std::vector<double> cell = prm.get_numbers(solid_keys, "cell");
+      std::vector<double> cell = prm.get_numbers(heated_solid_keys, "cell");
       const auto dimension = static_cast<std::size_t>(solid.dimension());
       if(cell.size() != dimension
          || !std::ranges::all_of(cell, [](double length) { return length >= 0; }))
-        throw prm.error(solid_keys, "cell",
+        throw prm.error(heated_solid_keys, "cell",
                         fmt::format("needs {} lengths, 0 where space does not repeat "
                                     "itself",
                                     dimension));
       if(solid.base && cell[1] > 0)
-        throw prm.error(solid_keys, "cell", "repeats itself along y, across the base");
+        throw prm.error(heated_solid_keys, "cell",
+                        "repeats itself along y, across the base");
       return cell;
     }
 
     std::vector<double> read_stages(const PrmFile &prm, const Scene &scene)
     {
-      if(!prm.given(solid_keys, "stages"))
+      if(!prm.given(heated_solid_keys, "stages"))
         return {};
-      std::vector<double> stages = prm.get_numbers(solid_keys, "stages");
-      require_ascending(prm, solid_keys, "stages", stages, scene.start_time);
+      std::vector<double> stages = prm.get_numbers(heated_solid_keys, "stages");
+      require_ascending(prm, heated_solid_keys, "stages", stages, scene.start_time);
       if(stages.size() > static_cast<std::size_t>(most_stages))
-        throw prm.error(solid_keys, "stages",
+        throw prm.error(heated_solid_keys, "stages",
                         fmt::format("holds more than {} times", most_stages));
       if(!stages.empty() && stages.back() > scene.end_time)
-        throw prm.error(solid_keys, "stages", "ends after the end time");
+        throw prm.error(heated_solid_keys, "stages", "ends after the end time");
       return stages;
     }
   } // namespace
 
   void declare_thermal_particles(PrmFile &prm)
   {
-    prm.declare(solid_keys,
+    prm.declare(heated_solid_keys,
                 number_key("initial temperature", "0", "",
                            "Temperature of velocities that the seed chooses, without "
                            "momentum; half of it soon becomes energy of the bonds.",
                            0));
-    prm.declare(solid_keys,
+    prm.declare(heated_solid_keys,
                 numbers_key("cell", "",
                             "Lengths after which space repeats itself along x, y (and "
                             "z); 0 in a direction: it does not."));
-    prm.declare(solid_keys,
+    prm.declare(heated_solid_keys,
                 number_key("drag", "0", "", "Velocities fade by exp(-drag t).", 0));
-    prm.declare(solid_keys,
+    prm.declare(heated_solid_keys,
                 list_key("stages", most_stages,
                          "Times at which stages of the run end: over the second half "
                          "of each, means of temperature, energy and structure are "
@@ -164,19 +165,19 @@ namespace meltfront::cases
     if(solid.arrangement == SolidArrangement::bar)
     {
       for(const char *key : {"initial temperature", "cell", "drag", "stages"})
-        prm.forbid(solid_keys, key, "the arrangement is a bar");
+        prm.forbid(heated_solid_keys, key, "the arrangement is a bar");
       for(const std::string &keys : {bath_keys, light_keys})
         if(prm.opened(keys))
           throw prm.subsection_error(keys,
                                      "has no meaning for a bar, whose walls heat it");
       return;
     }
-    solid.initial_temperature = prm.get_number(solid_keys, "initial temperature");
+    solid.initial_temperature = prm.get_number(heated_solid_keys, "initial temperature");
     if(solid.initial_temperature > 0 && solid.arrangement == SolidArrangement::table)
-      throw prm.error(solid_keys, "initial temperature",
+      throw prm.error(heated_solid_keys, "initial temperature",
                       "has no meaning where a table holds the velocities");
     solid.cell = read_cell(prm, solid);
-    solid.drag = prm.get_number(solid_keys, "drag");
+    solid.drag = prm.get_number(heated_solid_keys, "drag");
     solid.stages = read_stages(prm, scene);
     if(prm.opened(bath_keys))
       solid.bath = read_bath(prm);

@@ -2,6 +2,7 @@
 #define meltfront_reference_fem_enthalpy_step_newton_h
 
 #include <cases/stopwatch.h>
+#include <reference_fem/enthalpy/front_moves.h>
 #include <reference_fem/enthalpy/truncated_newton.h>
 
 #include <algorithm>
@@ -82,16 +83,7 @@ namespace meltfront::reference_fem
     StepOutcome iterate(double c, const std::vector<double> &rhs, int iteration_limit,
                         CompensatedVector &u, std::vector<double> &heat)
     {
-      constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
-      // A front within a cell or two of its place gets there by itself, and exactly.
-      constexpr int by_itself = 2;
-      // Newton's steps that count the slope of the jump: one every other iteration, the
-      // second of them later where coarse corrections move fronts better.
-      bool has_coarser_meshes = false;
-      if constexpr(Solver::moves_fronts)
-        has_coarser_meshes = solver().has_coarser_meshes();
-      const int second_slope = has_coarser_meshes ? 4 : 2;
-      int first_correction = by_itself; // of the iterations
+      FrontMoves front_moves(has_coarser_meshes());
       StepOutcome outcome;
       direction.resize(u.size());
       processes.update(u);
@@ -114,37 +106,17 @@ namespace meltfront::reference_fem
             const cases::ScopedTimer timer(cost.seconds);
             move_nodes(c, rhs, u, heat);
             if constexpr(Solver::moves_fronts)
-            {
-              if(has_coarser_meshes && outcome.iterations < first_correction
-                 && fronts_go_far())
-                first_correction = outcome.iterations;
-              if(has_coarser_meshes && outcome.iterations >= first_correction)
+              if(front_moves.correct_coarsely(outcome.iterations,
+                                              [this] { return fronts_go_far(); }))
               {
                 solver().correct_coarsely(c, u, heat);
                 recover_heat(c, rhs, u, heat);
                 move_nodes(c, rhs, u, heat);
               }
-            }
           }
-        const int corrections = outcome.iterations - first_correction;
-        const bool front_moves = Solver::moves_fronts && !state.settled
-                                 && corrections >= 0 && corrections % 2 == 0
-                                 && (corrections == 0 || corrections >= second_slope);
-        const double heat_per_kelvin = solver().linearise(c, u, heat);
-        if constexpr(Solver::moves_fronts)
-          if(front_moves)
-            solver().add_slope_of_jump(u, heat);
-        linear_solver.solve({heat_capacity, c, active, residual,
-                             safety * NonlinearSolver::target_inconsistency * state.scale
-                                 * heat_per_kelvin * problem.least_volume},
-                            state.settled ? tight : loose, direction);
-        if constexpr(Solver::moves_fronts)
-          if(front_moves)
-          {
-            solver().descend_over_jumps(c, u, heat);
-            continue;
-          }
-        solver().descend(c, u, heat);
+        take_newton_step(c, state,
+                         !state.settled && front_moves.count_slope(outcome.iterations), u,
+                         heat);
       }
       if(!outcome.converged)
         outcome.converged
@@ -185,6 +157,36 @@ namespace meltfront::reference_fem
     const Solver &solver() const
     {
       return static_cast<const Solver &>(*this);
+    }
+
+    bool has_coarser_meshes() const
+    {
+      if constexpr(Solver::moves_fronts)
+        return solver().has_coarser_meshes();
+      return false;
+    }
+
+    /** Newton's step for the active nodes.
+     * @param slope whether it counts the slope of the jump, where fronts can be moved */
+    void take_newton_step(double c, const Consistency &state, bool slope,
+                          CompensatedVector &u, std::vector<double> &heat)
+    {
+      constexpr double loose = 1e-3, tight = 1e-12, safety = 0.1;
+      const double heat_per_kelvin = solver().linearise(c, u, heat);
+      if constexpr(Solver::moves_fronts)
+        if(slope)
+          solver().add_slope_of_jump(u, heat);
+      linear_solver.solve({heat_capacity, c, active, residual,
+                           safety * NonlinearSolver::target_inconsistency * state.scale
+                               * heat_per_kelvin * problem.least_volume},
+                          state.settled ? tight : loose, direction);
+      if constexpr(Solver::moves_fronts)
+        if(slope)
+        {
+          solver().descend_over_jumps(c, u, heat);
+          return;
+        }
+      solver().descend(c, u, heat);
     }
 
     void recover_heat(double c, const std::vector<double> &rhs,

@@ -100,7 +100,7 @@ namespace meltfront::reference_fem
       {
         Position result = lattice.position(cell);
         for(int d = 0; d < lattice.dimension; ++d)
-          result[d] += unit[d] * lattice.spacing(d);
+          result[lattice.coordinate(d)] += unit[d] * lattice.spacing(d);
         return result;
       }
 
@@ -117,14 +117,14 @@ namespace meltfront::reference_fem
     {
       Discretisation result;
       result.dimension = lattice.dimension;
-      result.spacing = scene.domain.side() / lattice.cells[0];
+      result.spacing = scene.domain.side() / lattice.cells[lattice.coordinate(0)];
       result.conduction = level.conduction.expanded();
       result.volume.reserve(n_own);
       result.positions.reserve(n_own);
       for(unsigned int i = 0; i < n_own; ++i)
       {
         const Place node = level.place(i);
-        result.volume.push_back(lattice.cell_volume() * lattice.share_of_cell(node));
+        result.volume.push_back(lattice.measure(node));
         result.positions.push_back(lattice.position(node));
       }
       find_walls(result);
@@ -140,10 +140,8 @@ namespace meltfront::reference_fem
         for(int d = 0; d < lattice.dimension; ++d)
           for(const bool upper : {false, true})
             if(upper ? lattice.at_upper(node, d) : lattice.at_lower(node, d))
-              result.walls[2 * d + upper].push_back(
-                  {i,
-                   lattice.cell_volume() / lattice.spacing(d)
-                       * lattice.share_of_cell(node, d),
+              result.walls[2 * lattice.coordinate(d) + upper].push_back(
+                  {i, lattice.measure(node, d) / lattice.spacing(d),
                    result.positions[i]});
       }
     }
@@ -167,7 +165,8 @@ namespace meltfront::reference_fem
       for(unsigned int i = 0; i < n_own; ++i)
         if(const Place cell = level.place(i); lattice.begins_cell(cell))
           for(unsigned int a = 0; a < lattice.n_corners(); ++a)
-            result.cells.push_back(level.local(BoxLattice::corner(cell, a)));
+            result.cells.push_back(
+                level.local(BoxLattice::corner(cell, lattice.bits_of_corner(a))));
     }
 
     /** Those of the own nodes. */
@@ -178,7 +177,8 @@ namespace meltfront::reference_fem
       for(int d = 0; d < lattice.dimension; ++d)
       {
         constexpr double round_off = 1e-10;
-        const double place = (point[d] - lattice.lower[d]) / lattice.spacing(d);
+        const int c = lattice.coordinate(d);
+        const double place = (point[c] - lattice.lower[c]) / lattice.spacing(d);
         if(!(place >= -round_off && place <= lattice.cells[d] + round_off))
           throw cases::InputError(fmt::format(
               "the source at ({:.6g}, {:.6g}, {:.6g}) lies outside of the domain",
@@ -241,8 +241,11 @@ namespace meltfront::reference_fem
             for(const CellPoint &point : found == (is_solid | is_liquid) ? many : few)
               if(const unsigned int i = corners[point.nearest]; i < n_own)
               {
-                sum[i] += point.weight * function(point_in(cell, point.unit));
-                measure[i] += point.weight;
+                const Position place = point_in(cell, point.unit);
+                const double weight
+                    = lattice.about_axis ? point.weight * place[0] : point.weight;
+                sum[i] += weight * function(place);
+                measure[i] += weight;
               }
           });
       for(unsigned int i = 0; i < n_own; ++i)
@@ -265,6 +268,7 @@ namespace meltfront::reference_fem
           product *= lattice.cells[d] >> halvings;
         return product;
       };
+      const unsigned int n = lattice.cells[lattice.coordinate(0)];
       int halvings = 0;
       while(halvings < possible && count(halvings + 1) >= few_cells)
         ++halvings;
@@ -273,8 +277,7 @@ namespace meltfront::reference_fem
             fmt::format("fem-enthalpy on several ranks joins cells to a coarse mesh of "
                         "at most {:g}, and from {} cells along the side that is not "
                         "possible: take an n such as {}",
-                        most_coarse_cells, lattice.cells[0],
-                        std::max(64u, (lattice.cells[0] + 32) / 64 * 64)));
+                        most_coarse_cells, n, std::max(64u, (n + 32) / 64 * 64)));
       return halvings;
     }
 
@@ -282,15 +285,16 @@ namespace meltfront::reference_fem
     {
       BoxLattice lattice;
       lattice.dimension = domain.dimension;
+      lattice.about_axis = domain.shape == cases::DomainShape::axisymmetric;
       const double spacing = domain.side() / n;
       for(int d = 0; d < domain.dimension; ++d)
       {
         lattice.lower[d] = domain.lower[d];
         lattice.upper[d] = domain.upper[d];
-        lattice.cells[d] = static_cast<unsigned int>(
+        lattice.cells[lattice.coordinate(d)] = static_cast<unsigned int>(
             std::max(1L, std::lround((domain.upper[d] - domain.lower[d]) / spacing)));
       }
-      lattice.cells[0] = static_cast<unsigned int>(n);
+      lattice.cells[lattice.coordinate(0)] = static_cast<unsigned int>(n);
       constexpr auto most = std::numeric_limits<dealii::types::global_dof_index>::max();
       if(lattice.n_nodes() >= most)
         throw cases::Refusal(
@@ -305,8 +309,11 @@ namespace meltfront::reference_fem
                                           MPI_Comm communicator)
   {
     dealii::MultithreadInfo::set_thread_limit(1);
-    if(scene.domain.shape != cases::DomainShape::box)
-      throw cases::Refusal("fem-enthalpy meshes boxes only on several ranks");
+    if(scene.domain.shape != cases::DomainShape::box
+       && scene.domain.shape != cases::DomainShape::axisymmetric)
+      throw cases::Refusal(
+          "fem-enthalpy meshes boxes and half sections about an axis only "
+          "on several ranks");
     for(const Side side : scene.sides())
       if(scene.boundary(side).kind == BoundaryKind::periodic)
         throw cases::Refusal("fem-enthalpy joins no periodic sides on several ranks");

@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numbers>
 
 namespace meltfront::reference_fem
 {
-  /** The nodes of a box of alike cells, numbered along x first, then y, then z: the same
-   * whatever rank has which of them. */
+  /**
+   * The nodes of a box of alike cells, numbered along x first, then y, then z: the same
+   * whatever rank has which of them. Of a half section about an axis they are numbered
+   * along the axis (y) first, where cells have the same volume, then away from it (x).
+   */
   struct BoxLattice
   {
     /** Of a node: cells from the lower side in each direction; of a cell, its lower
@@ -18,8 +22,15 @@ namespace meltfront::reference_fem
     using Place = std::array<unsigned int, 3>;
 
     int dimension = 2;
-    Place cells{}; ///< by direction; none across a plane
-    cases::Position lower{}, upper{};
+    bool about_axis = false;
+    Place cells{};                    ///< by direction; none across a plane
+    cases::Position lower{}, upper{}; ///< by coordinate
+
+    /** The coordinate along a direction, and the direction of a coordinate. */
+    int coordinate(int direction) const
+    {
+      return about_axis ? 1 - direction : direction;
+    }
 
     std::uint64_t n_nodes() const
     {
@@ -44,7 +55,8 @@ namespace meltfront::reference_fem
 
     double spacing(int direction) const
     {
-      return (upper[direction] - lower[direction]) / cells[direction];
+      const int c = coordinate(direction);
+      return (upper[c] - lower[c]) / cells[direction];
     }
 
     double cell_volume() const
@@ -59,7 +71,10 @@ namespace meltfront::reference_fem
     {
       cases::Position result{};
       for(int d = 0; d < dimension; ++d)
-        result[d] = node[d] == cells[d] ? upper[d] : lower[d] + node[d] * spacing(d);
+      {
+        const int c = coordinate(d);
+        result[c] = node[d] == cells[d] ? upper[c] : lower[c] + node[d] * spacing(d);
+      }
       return result;
     }
 
@@ -83,6 +98,15 @@ namespace meltfront::reference_fem
       return share;
     }
 
+    /** The integral of a node's shape function, about an axis with the weight 2 pi r;
+     * `without` a direction that over what lies across it at the node, times the spacing
+     * along it. */
+    double measure(const Place &node, int without = -1) const
+    {
+      const double of_section = cell_volume() * share_of_cell(node, without);
+      return about_axis ? of_section * around(node, without) : of_section;
+    }
+
     /** Whether a node is the lower corner of a cell. */
     bool begins_cell(const Place &node) const
     {
@@ -90,6 +114,12 @@ namespace meltfront::reference_fem
         if(at_upper(node, d))
           return false;
       return true;
+    }
+
+    /** Bits by direction of a corner that is given by coordinates, or the other way. */
+    unsigned int bits_of_corner(unsigned int which) const
+    {
+      return about_axis ? (which & 1) << 1 | which >> 1 : which;
     }
 
     /** A corner of a cell: upper along a direction where its bit is set. */
@@ -152,6 +182,19 @@ namespace meltfront::reference_fem
         share /= 1 + node[d] % 2;
       }
       visit_between(first, last, [&](const Place &place) { visit(place, share); });
+    }
+
+  private:
+    /** The mean of 2 pi r over a node's shape function, or at the node alone. */
+    double around(const Place &node, int without) const
+    {
+      constexpr int away = 1;
+      double radius = position(node)[0];
+      if(without != away && at_lower(node, away))
+        radius += spacing(away) / 3;
+      if(without != away && at_upper(node, away))
+        radius -= spacing(away) / 3;
+      return 2 * std::numbers::pi * radius;
     }
   };
 } // namespace meltfront::reference_fem

@@ -90,7 +90,8 @@ namespace meltfront::reference_fem
     return index_set(coarser, std::move(numbers));
   }
 
-  /** Edges conduct. All cells are alike, so both rows of a pair hold the same bits on
+  /** Edges conduct, with the mean of what lies across them at their two ends, which is
+   * the same number whichever end comes first: both rows of a pair hold the same bits on
    * whatever ranks they are. */
   void RankLevel::conduct(const cases::Scene &scene)
   {
@@ -107,17 +108,18 @@ namespace meltfront::reference_fem
       free.push_back(1);
       for(int d = 0; d < lattice.dimension; ++d)
       {
-        const double conductance = lattice.cell_volume()
-                                   / (lattice.spacing(d) * lattice.spacing(d))
-                                   * lattice.share_of_cell(node, d);
+        const double length = lattice.spacing(d);
         const auto conducts = [&](int step)
         {
           BoxLattice::Place other = node;
           other[d] += step;
-          row.push_back({local(other), conductance});
+          const double measure
+              = (lattice.measure(node, d) + lattice.measure(other, d)) / 2;
+          row.push_back({local(other), measure / (length * length)});
         };
-        if(lattice.at_lower(node, d) ? prescribes(2 * d)
-                                     : lattice.at_upper(node, d) && prescribes(2 * d + 1))
+        const int side = 2 * lattice.coordinate(d);
+        if(lattice.at_lower(node, d) ? prescribes(side)
+                                     : lattice.at_upper(node, d) && prescribes(side + 1))
           free.back() = 0;
         if(!lattice.at_lower(node, d))
           conducts(-1);

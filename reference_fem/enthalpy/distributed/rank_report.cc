@@ -17,6 +17,9 @@ namespace meltfront::reference_fem
   cases::Capabilities rank_capabilities()
   {
     using cases::DomainShape, cases::FrontOrigin;
+    const std::vector<BoundaryKind> walls{
+        BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+        BoundaryKind::heat_transfer, BoundaryKind::radiation};
     return {
         .form = "on several ranks",
         .problems = {cases::ProblemKind::stefan},
@@ -25,10 +28,7 @@ namespace meltfront::reference_fem
            Effect::heat_sources, Effect::wall_temperature, Effect::wall_flux,
            Effect::volumetric_source, Effect::robin_wall, Effect::radiating_wall},
         .shapes
-        = {{DomainShape::box,
-            {2, 3},
-            {BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
-             BoundaryKind::heat_transfer, BoundaryKind::radiation}}},
+        = {{DomainShape::box, {2, 3}, walls}, {DomainShape::axisymmetric, {2}, walls}},
         .front_origins
         = {FrontOrigin::none, FrontOrigin::initial_front, FrontOrigin::partly_melted,
            FrontOrigin::wall, FrontOrigin::source},
@@ -53,8 +53,10 @@ namespace meltfront::reference_fem
     result.parameters
         = {{"elements", "linear, lumped mass, exact enthalpy graph", ""},
            {"mesh",
-            fmt::format("{} nodes, {}D, Cartesian, shared by {} rank{} (p4est)", n_nodes,
-                        mesh.dimension, n_ranks, n_ranks == 1 ? "" : "s"),
+            fmt::format("{} nodes, {}D, Cartesian{}, shared by {} rank{} (p4est)",
+                        n_nodes, mesh.dimension,
+                        levels.front().lattice.about_axis ? ", about an axis" : "",
+                        n_ranks, n_ranks == 1 ? "" : "s"),
             ""},
            {"time scheme",
             options.bdf2

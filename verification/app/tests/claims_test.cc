@@ -430,9 +430,9 @@ namespace meltfront::verification::claims
 
     void add_tests(const Form &form)
     {
-      // On ranks there are boxes only, and these scenes are slabs and balls:
-      // rank_run_test holds sources and starts from one phase against the serial engine,
-      // step by step.
+      // On ranks there are boxes and half sections only, these scenes are slabs and
+      // balls: rank_run_test holds sources and starts from one phase against the serial
+      // engine, step by step.
       const bool boxes_only = form.capabilities.form == "on several ranks";
       for(const Effect effect : form.capabilities.effects)
         if(!boxes_only || effect != Effect::heat_sources)

@@ -248,6 +248,26 @@ namespace meltfront::reference_fem::tests
     expect_same_everywhere(scene, 16);
   }
 
+  // A body about its axis, a source on it; without its core; in steps that move fronts
+  // far.
+  TEST(RankRun, AboutAnAxis)
+  {
+    Scene scene = walls_of_all_kinds();
+    scene.domain.shape = DomainShape::axisymmetric;
+    set_boundary(scene, Side::x_min, Boundary());
+    set_boundary(scene, Side::x_max, fixed_wall(-8));
+    scene.sources.push_back(steady_sink({0, 0.2, 0}, -3));
+    expect_same_everywhere(scene, 32);
+    expect_same_everywhere(scene, 128, {{"steps", "10"}});
+    Scene hollow = walls_of_all_kinds();
+    hollow.domain.shape = DomainShape::axisymmetric;
+    hollow.domain.lower = {0.25, -0.5, 0};
+    hollow.domain.upper = {1.25, 1.5, 0};
+    hollow.initial.temperature
+        = field_of([](const Position &p) { return p[0] + p[1] < 0.7 ? -3. : 2.; });
+    expect_same_everywhere(hollow, 16);
+  }
+
   // The rank that holds one phase only is to average like the others.
   TEST(RankRun, StartsFromAFrontAnywhere)
   {
