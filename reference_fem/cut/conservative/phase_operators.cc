@@ -13,6 +13,10 @@ namespace meltfront::reference_fem::cut::conservative
     /** Of edges of the parts of a cut triangle: where what is released jumps at the front
      * of an exact solution, a jump is not at the front found. */
     constexpr int divisions_of_released = 4;
+
+    /** Spacings from a front within which triangles beside a wall have no parabola: where
+     * a front meets a wall a phase is a wedge of a few nodes, which tell none. */
+    constexpr double contact_width = 2.5;
   } // namespace
 
   PhaseOperators::PhaseOperators(std::size_t nodes)
@@ -32,12 +36,17 @@ namespace meltfront::reference_fem::cut::conservative
     , constants(constants)
     , inner_square(mesh.squares.size())
     , inside(mesh.nodes.size(), false)
+    , beside_wall(mesh.nodes.size(), false)
   {
     for(std::size_t square = 0; square < mesh.squares.size(); ++square)
       inner_square[square]
           = mesh.triangles[2 * square].whole && mesh.triangles[2 * square + 1].whole;
     for(const WallPiece &wall : mesh.walls)
+    {
       inner_square[wall.triangle / 2] = false;
+      for(const unsigned int node : mesh.triangles[wall.triangle].nodes)
+        beside_wall[node] = true;
+    }
     for(const Triangle &triangle : mesh.triangles)
       if(triangle.whole)
         for(const unsigned int node : triangle.nodes)
@@ -168,9 +177,20 @@ namespace meltfront::reference_fem::cut::conservative
           needed[t] = true;
     const CurvatureFit fit = curvature_fit(context.phase, context.guess);
     for(unsigned int t = 0; t < needed.size(); ++t)
-      if(needed[t])
+      if(needed[t] && !at_contact(context.frame, mesh.triangles[t]))
         result[t] = fit(mesh.triangles[t]);
     return result;
+  }
+
+  bool PhaseAssembly::at_contact(const StepFrame &frame, const Triangle &triangle) const
+  {
+    return std::ranges::any_of(triangle.nodes,
+                               [&](unsigned int node) { return beside_wall[node]; })
+           && std::ranges::any_of(triangle.nodes,
+                                  [&](unsigned int node) {
+                                    return std::abs(frame.level_set[node])
+                                           < contact_width * mesh.spacing;
+                                  });
   }
 
   Remainder PhaseAssembly::remainder(const Context &context, unsigned int triangle) const

@@ -110,6 +110,7 @@ namespace meltfront::reference_fem::cut::conservative
     struct Context;
     std::vector<Curvature> curvatures(const Context &context) const;
     std::vector<FrontSample> front_samples(Phase phase, const Guess &guess) const;
+    bool at_contact(const StepFrame &frame, const Triangle &triangle) const;
     Remainder remainder(const Context &context, unsigned int triangle) const;
     void mark_parted(Phase phase, const Front &front);
     bool has_ghost_penalty(const Context &context, const InnerEdge &edge) const;
@@ -142,6 +143,7 @@ namespace meltfront::reference_fem::cut::conservative
     const Constants constants;
     std::vector<char> inner_square;              ///< neither cut by a rim nor at a wall
     std::vector<char> inside;                    ///< by node: in a triangle that is whole
+    std::vector<char> beside_wall;               ///< by node: of a triangle at a wall
     std::vector<SquareElement> square_elements;  ///< by open sides, bit by bit
     std::vector<std::array<double, 3>> released; ///< by triangle, of those not cut (W/m)
     std::vector<char> released_known;
