@@ -2,6 +2,7 @@
 #include <reference_fem/cut/conservative/initial_front.h>
 #include <reference_fem/cut/conservative/linear_system.h>
 #include <reference_fem/cut/conservative/phase_operators.h>
+#include <reference_fem/cut/conservative/square_element.h>
 
 #include <cases/tests/support/course.h>
 #include <cases/tests/support/scenes.h>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace meltfront::reference_fem::cut::conservative
@@ -302,6 +304,95 @@ namespace meltfront::reference_fem::cut::conservative
         errors.push_back(std::abs(flux.error));
       }
       EXPECT_GE(test_support::fitted_order(n, errors), 3);
+    }
+
+    /** Three squares by three with other elements all around; a node's row of conduction
+     * is to be what flows out of the block through its hat on the block's sides. */
+    TEST(SquareElement, RowsAreOfFourthOrderInsideAndWhatOtherElementsExpectOnSides)
+    {
+      constexpr std::size_t n = 3;
+      const Point size(0.3, 0.2);
+      const auto place = [&](double i, double j)
+      { return Point(i * size[0] - 0.2, j * size[1] - 0.4); };
+      const auto power = [](const Point &p, int degree)
+      { return std::pow(std::complex<double>(p[0], p[1]), degree); };
+      for(const int degree : {1, 2, 3})
+        for(const bool real : {true, false})
+        {
+          const auto value = [&](const Point &p)
+          { return real ? power(p, degree).real() : power(p, degree).imag(); };
+          const auto gradient = [&](const Point &p) -> Point
+          {
+            const std::complex<double> slope = double(degree) * power(p, degree - 1);
+            return real ? Point(slope.real(), -slope.imag())
+                        : Point(slope.imag(), slope.real());
+          };
+          std::array<std::array<double, n + 1>, n + 1> found{}, expected{};
+          for(std::size_t i = 0; i < n; ++i)
+            for(std::size_t j = 0; j < n; ++j)
+            {
+              const SquareElement element(size, {i == 0, i == n - 1, j == 0, j == n - 1});
+              for(std::size_t a = 0; a < 4; ++a)
+                for(std::size_t b = 0; b < 4; ++b)
+                  found[i + a % 2][j + a / 2]
+                      += element.conduction[a][b]
+                         * value(place(double(i + b % 2), double(j + b / 2)));
+            }
+          for(std::size_t k = 0; k < n; ++k)
+            for(const std::size_t end : {std::size_t(0), n})
+            {
+              const double sense = end == 0 ? -1 : 1;
+              const auto at = double(k), beside = double(end);
+              integrate(Segment{place(beside, at), place(beside, at + 1)},
+                        [&](const Point &p, double weight)
+                        {
+                          const double flux = sense * weight * gradient(p)[0],
+                                       s = (p - place(beside, at))[1] / size[1];
+                          expected[end][k] += (1 - s) * flux;
+                          expected[end][k + 1] += s * flux;
+                        });
+              integrate(Segment{place(at, beside), place(at + 1, beside)},
+                        [&](const Point &p, double weight)
+                        {
+                          const double flux = sense * weight * gradient(p)[1],
+                                       s = (p - place(at, beside))[0] / size[0];
+                          expected[k][end] += (1 - s) * flux;
+                          expected[k + 1][end] += s * flux;
+                        });
+            }
+          for(std::size_t i = 0; i <= n; ++i)
+            for(std::size_t j = 0; j <= n; ++j)
+            {
+              // There a twelfth of h^3 times the third derivatives is missing.
+              const bool corner = i % n == 0 && j % n == 0;
+              EXPECT_NEAR(found[i][j], expected[i][j],
+                          corner && degree == 3 ? 6 * std::pow(0.3, 3) / 12 : 1e-14)
+                  << degree << ' ' << real << ' ' << i << ' ' << j;
+            }
+        }
+    }
+
+    /** The heat of linear functions by the hats of a square's two triangles; with other
+     * elements all around, and the others' half of it in a lattice. */
+    TEST(SquareElement, MassHasTheMomentsOfHats)
+    {
+      const Point size(0.3, 0.2);
+      const SquareElement element(size, {true, true, true, true});
+      const double area = size[0] * size[1];
+      for(std::size_t i = 0; i < 4; ++i)
+      {
+        const bool on_diagonal = i == 0 || i == 3;
+        double volume = 0, x = 0;
+        for(std::size_t j = 0; j < 4; ++j)
+        {
+          volume += element.mass[i][j];
+          x += element.mass[i][j] * double(j % 2);
+        }
+        EXPECT_NEAR(volume, area * (on_diagonal ? 1. / 3 : 1. / 6), 1e-16);
+        // A hat's own first moment: its centre is a third of the way from the corner.
+        const double bilinear = i % 2 == 0 ? 1. / 12 : 1. / 6;
+        EXPECT_NEAR(x, area * (bilinear + (on_diagonal ? 1 : -1) / 24.), 1e-16);
+      }
     }
 
     TEST(LineSources, FluxOverAClosedLineIsThePower)
