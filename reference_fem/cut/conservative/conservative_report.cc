@@ -21,8 +21,9 @@ namespace meltfront::reference_fem::cut::conservative
                      chosen_scheme(options).why),
          ""},
         {"elements",
-         "squares; linear triangles where front, rims or walls are; each phase on those "
-         "that it cuts",
+         "squares, a compact scheme of fourth order; linear triangles with the parabola "
+         "that these miss where front, rims or walls are; each phase on those that it "
+         "cuts",
          ""},
         {"mesh", fmt::format("{} squares cut in two", mesh.squares.size()), ""},
         {"front",
