@@ -52,7 +52,8 @@ namespace meltfront::particles
                          {DomainShape::ball, {2}, walls},
                          {DomainShape::shell, {2}, walls},
                          {DomainShape::outline, {2}, walls}},
-              .front_origins = {FrontOrigin::initial_front, FrontOrigin::source},
+              .front_origins
+              = {FrontOrigin::initial_front, FrontOrigin::wall, FrontOrigin::source},
               .most_threads = cases::any_number_of_threads,
               .overshoot = overshoot_in_plane,
               .conserves_heat = false};

@@ -90,6 +90,15 @@ namespace meltfront::particles::rkpm_tracked
                 "Temperatures before the start, for the first steps: those of the exact "
                 "solution where the scene starts from one, or none (short first steps).",
                 {{"exact", true}, {"none", false}});
+    options.add("start_depth", start_depth,
+                "In the plane: spacings of nodes that a new phase is deep wherever it is "
+                "when sph, from which the run starts where one phase fills the domain, "
+                "hands over.",
+                2, 100);
+    options.add(
+        "start_refinement", start_refinement,
+        "In the plane: particles of that run in a spacing of nodes, along a side.", 1,
+        16);
     options.add("displaced", displaced,
                 "The phase that gives way where the densities differ; the other is at "
                 "rest.",

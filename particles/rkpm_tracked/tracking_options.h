@@ -17,6 +17,9 @@ namespace meltfront::particles::rkpm_tracked
    * from the fronts, melts or freezes there, where no front is followed. */
   inline constexpr double beyond_by_release = 1e-2, spacings_from_fronts = 2;
 
+  /** The same at a wall. */
+  inline constexpr double beyond_at_walls = 1e-2;
+
   /** Collocation keeps the maximum principle in the limit only. Slabs with walls and
    * starts that jump do not overshoot along a line at n = 10, 20, 40. In the plane a body
    * that vanishes is a few spacings wide whatever these are: about the remains of a ring
@@ -93,7 +96,9 @@ namespace meltfront::particles::rkpm_tracked
     Start start = Start::automatic;
     bool exact_history = true; ///< before the start, where the start is exact
     Displaced displaced = Displaced::liquid;
-    int relax = 0; ///< steps between relaxations of the inner nodes; 0: none
+    double start_depth = 3;   ///< of a new phase when sph hands over in the plane (nodes)
+    int start_refinement = 2; ///< its particles in a spacing of the nodes, along a side
+    int relax = 0;            ///< steps between relaxations of the inner nodes; 0: none
     RelaxRule relax_rule = RelaxRule::springs;
   };
 

@@ -143,6 +143,32 @@ namespace meltfront::particles::rkpm_tracked
     }
   }
 
+  /** @throws cases::Refusal where a wall melts or freezes what no front is near. */
+  void PlaneRun::check_walls(const PlaneState &checked, double scale) const
+  {
+    if(cases::metastable_initial_phase(scene))
+      return;
+    const double reach = spacings_from_fronts * nodes.spacing;
+    for(const WallNode &wall : nodes.walls)
+    {
+      const NodePhase phase = checked.phase[wall.node];
+      if(phase == NodePhase::front)
+        continue;
+      const double excess
+          = heat.temperature(checked, wall.node) - scene.material.melting_temperature;
+      const PlanePoint &place = nodes.position[wall.node];
+      if((phase == NodePhase::solid ? excess : -excess) > beyond_at_walls * scale
+         && std::abs(heat.front_index().signed_distance(place, reach)) >= reach)
+        throw cases::Refusal(
+            fmt::format("{} follows fronts from where they start, in the plane; at t = "
+                        "{:.6g} the wall "
+                        "{} at ({:.6g}, {:.6g}) away from them",
+                        method_name, checked.time,
+                        phase == NodePhase::solid ? "melts solid" : "freezes liquid",
+                        place.x(), place.y()));
+    }
+  }
+
   void PlaneRun::check(const PlaneState &checked) const
   {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
@@ -160,9 +186,11 @@ namespace meltfront::particles::rkpm_tracked
       highest = std::max(highest, value);
     }
     cases::require_sinks(scene, checked.time, method_name);
+    const double melting = scene.material.melting_temperature,
+                 scale = std::max(highest - melting, melting - lowest);
+    check_walls(checked, scale);
     if(scene.volumetric_source)
-      check_release(checked, std::max(highest - scene.material.melting_temperature,
-                                      scene.material.melting_temperature - lowest));
+      check_release(checked, scale);
     cases::check_temperature(
         bounds, lowest, highest, method_name, step_number, checked.time,
         cases::allowed_overshoot(overshoot_in_plane, nodes.spacing, scene.domain));

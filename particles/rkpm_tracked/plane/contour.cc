@@ -11,6 +11,9 @@ namespace meltfront::particles::rkpm_tracked
   {
     constexpr int most_bisections = 60;
 
+    /** Spacings of nodes by which a grid goes beyond a domain. */
+    constexpr double beyond_box = 4;
+
     /** Passes of placing particles evenly and moving them onto the zeros. */
     constexpr int placements = 3;
 
@@ -192,6 +195,18 @@ namespace meltfront::particles::rkpm_tracked
       rim([&](double &value) { value = std::abs(value) + grid.spacing; });
     result.curves = Walker(grid, values, level_set).curves();
     return result;
+  }
+
+  Contours find_contours(const PlanePoint &lower, const PlanePoint &upper, double spacing,
+                         const PlaneLevelSet &level_set)
+  {
+    const ContourGrid grid
+        = contour_grid(lower, upper, beyond_box * spacing, spacing / 2);
+    std::vector<double> values;
+    for(long j = 0; j < grid.rows; ++j)
+      for(long i = 0; i < grid.columns; ++i)
+        values.push_back(level_set(grid.node(i, j)));
+    return find_contours(grid, std::move(values), level_set);
   }
 
   PlaneFront front_on_zeros(const Contours &contours, const PlaneLevelSet &level_set,

@@ -47,6 +47,11 @@ namespace meltfront::particles::rkpm_tracked
   Contours find_contours(const ContourGrid &grid, std::vector<double> values,
                          const PlaneLevelSet &level_set);
 
+  /** The same of a function over a box and four spacings of nodes (m) beyond it, on a
+   * grid of half of these. */
+  Contours find_contours(const PlanePoint &lower, const PlanePoint &upper, double spacing,
+                         const PlaneLevelSet &level_set);
+
   /**
    * A front of the contours' zeros, its particles `spacing` apart and on the zeros.
    * Curves shorter than `least_length` are left out.

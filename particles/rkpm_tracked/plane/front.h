@@ -7,6 +7,9 @@
 
 namespace meltfront::particles::rkpm_tracked
 {
+  /** Distance of front particles along their curves, in spacings of the nodes. */
+  inline constexpr double front_spacing = 1.15;
+
   /**
    * Particles on the front, ordered along closed curves with the solid on the left: a
    * body of solid is gone round counter-clockwise, a body of liquid clockwise. Curves may

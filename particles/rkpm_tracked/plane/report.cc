@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace meltfront::particles::rkpm_tracked
 {
   cases::RunDescription PlaneRun::describe() const
@@ -29,7 +31,7 @@ namespace meltfront::particles::rkpm_tracked
     cases::Cost cost;
     cost.steps = step_number;
     cost.unknowns = static_cast<long>(heat.most_unknowns);
-    cost.work = heat.entries;
+    cost.work = heat.entries + cost_before.work + (before ? before->search_work : 0);
     cost.solver_iterations = heat.solves;
     cost.most_iterations = most_passes;
     cost.capped_steps = capped_steps;
@@ -72,6 +74,8 @@ namespace meltfront::particles::rkpm_tracked
 
   cases::Snapshot PlaneRun::snapshot(long step, double time)
   {
+    if(state_before)
+      return *state_before;
     measured = measure(scene, nodes, heat, state);
     for(int d = 0; d < 2; ++d)
     {
@@ -107,19 +111,35 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<cases::EffectCost> result;
     for(const cases::EffectDecision &decision : effects.decisions())
       if(decision.on)
+      {
         result.push_back(heat.cost(decision.effect));
+        for(const cases::EffectCost &first : cost_before.effects)
+          if(first.effect == decision.effect)
+          {
+            result.back().calls += first.calls;
+            result.back().bytes = std::max(result.back().bytes, first.bytes);
+            result.back().seconds += first.seconds;
+          }
+      }
     return result;
   }
 
   std::map<std::string, double> PlaneRun::evidence() const
   {
-    return {{"steps halved", double(halved_steps)},
-            {"singular matrices, met by halving the step", double(heat.singular)},
-            {"steps taken with 1e-4 to 1e-2 spacings left to move", double(capped_steps)},
-            {"largest heat that the balance adds, of what flows to the front",
-             largest_multiplier},
-            {"heat that start and events leave out of the balance (J/m)", unbooked_heat},
-            {"latent heat of areas that changed phase by decree (J/m)", decreed_heat},
-            {"largest distance of level set and front particles, in spacings", mismatch}};
+    std::map<std::string, double> result{
+        {"steps halved", double(halved_steps)},
+        {"singular matrices, met by halving the step", double(heat.singular)},
+        {"steps taken with 1e-4 to 1e-2 spacings left to move", double(capped_steps)},
+        {"largest heat that the balance adds, of what flows to the front",
+         largest_multiplier},
+        {"heat that start and events leave out of the balance (J/m)", unbooked_heat},
+        {"latent heat of areas that changed phase by decree (J/m)", decreed_heat},
+        {"largest distance of level set and front particles, in spacings", mismatch}};
+    if(before)
+    {
+      result["time at which sph handed over (s)"] = before->time;
+      result["heat by which what it handed over was off (J/m)"] = handed_over_heat;
+    }
+    return result;
   }
 } // namespace meltfront::particles::rkpm_tracked

@@ -3,7 +3,6 @@
 #include <particles/rkpm_tracked/plane/topology.h>
 
 #include <cases/error.h>
-#include <cases/exact/front_start.h>
 
 #include <fmt/format.h>
 
@@ -42,17 +41,6 @@ namespace meltfront::particles::rkpm_tracked
     /** No step takes a curve nearer to its middle than by this share. */
     constexpr double share_of_radius = 0.5;
 
-    /** Largest and smallest radius of a seed around a sink, in spacings. */
-    constexpr double largest_seed = 3, smallest_seed = 0.75;
-    constexpr double negligible = 1e-5, closed_bracket = 1e-15; ///< see cases::SeedRule
-    constexpr double contour_margin = 4;
-
-    std::function<double(const PlanePoint &)>
-    at_points(const cases::FrontStart::Function &function)
-    {
-      return [function](const PlanePoint &point) { return function(position_of(point)); };
-    }
-
     PlaneHeatSettings settings_of(const cases::Scene &scene,
                                   const TrackingParameters &parameters, int threads)
     {
@@ -83,55 +71,16 @@ namespace meltfront::particles::rkpm_tracked
     start();
   }
 
-  void PlaneRun::start()
-  {
-    const double h = nodes.spacing;
-    const cases::FrontStart found = find_front_start(scene, {method_name,
-                                                             "nodes",
-                                                             smallest_seed * h,
-                                                             largest_seed * h,
-                                                             negligible,
-                                                             closed_bracket,
-                                                             {cases::Side::inner}});
-    const PlaneLevelSet level_set = at_points(found.level_set);
-    const auto temperature = at_points(found.temperature);
-    start_in_words = found.description;
-    state.time = found.time;
-    const ContourGrid grid
-        = contour_grid(nodes.lower, nodes.upper, contour_margin * h, h / 2);
-    std::vector<double> values;
-    for(long j = 0; j < grid.rows; ++j)
-      for(long i = 0; i < grid.columns; ++i)
-        values.push_back(level_set(grid.node(i, j)));
-    const Contours contours = find_contours(grid, std::move(values), level_set);
-    state.front = front_on_zeros(contours, level_set, front_spacing * h, 4 * h);
-    heat.settings.solid_beyond = contours.solid_beyond;
-    heat.set_front(state);
-    if(state.front.size() == 0)
-      throw cases::Refusal(fmt::format(
-          "rkpm-tracked finds no front at the start with nodes {:.3g} m apart; "
-          "a smaller spacing may resolve it",
-          h));
-    state.unknown.resize(nodes.size());
-    for(std::size_t i = 0; i < nodes.size(); ++i)
-      state.unknown[i]
-          = state.phase[i] == NodePhase::solid
-                ? heat.sinks.at_node(temperature, nodes.position[i], nodes.samples_of(i))
-                      - heat.singular_part(i, state.time)
-                : temperature(nodes.position[i]);
-    heat.expand(state);
-    marked.seed(state.front, heat.settings.solid_beyond);
-    condition = heat.worst_condition(state);
-    front_at_start = state.front.size();
-    step_number = found.time > scene.start_time ? 1 : 0;
-    check(state);
-  }
-
   void PlaneRun::take_steps()
   {
-    report_initial();
-    if(state.time > scene.start_time)
-      report();
+    if(before)
+      run_particles();
+    else
+    {
+      report_initial();
+      if(state.time > scene.start_time)
+        report();
+    }
     while(state.time < scene.end_time)
     {
       step();

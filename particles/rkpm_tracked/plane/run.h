@@ -5,6 +5,7 @@
 #include <particles/rkpm_tracked/plane/heat.h>
 #include <particles/rkpm_tracked/plane/marked_front.h>
 #include <particles/rkpm_tracked/plane/measure.h>
+#include <particles/rkpm_tracked/plane/particle_start.h>
 #include <particles/rkpm_tracked/plane/relax.h>
 #include <particles/rkpm_tracked/plane/topology.h>
 #include <particles/rkpm_tracked/tracking_options.h>
@@ -18,8 +19,7 @@
 
 namespace meltfront::particles::rkpm_tracked
 {
-  /** Distance of front particles along their curves, in spacings. */
-  inline constexpr double front_spacing = 1.15;
+  class EnthalpyParticles;
 
   /** A run of `rkpm-tracked` in the plane: start, time steps, events, snapshots. */
   class PlaneRun : public cases::Run
@@ -35,7 +35,15 @@ namespace meltfront::particles::rkpm_tracked
   private:
     void take_steps() override;
     cases::Snapshot snapshot(long step, double time) override; // in plane_report.cc
+    // In start.cc:
     void start();
+    void start_from_front();
+    void lay_front(const PlaneLevelSet &level_set);
+    void run_particles();
+    void take_over(const cases::Snapshot &snapshot);
+    void fit_solid(const EnthalpyParticles &particles);
+    void take_temperatures(const EnthalpyParticles &particles);
+
     void balance_seed();
     void step();
     double next_stop() const;
@@ -55,6 +63,7 @@ namespace meltfront::particles::rkpm_tracked
     TopologySettings topology_settings() const;
     void warn_of_ripples();
     void settle_nodes();
+    void check_walls(const PlaneState &checked, double scale) const;
     void check_release(const PlaneState &checked, double scale) const;
     void check(const PlaneState &checked) const;
     void check_resolved() const;
@@ -87,12 +96,17 @@ namespace meltfront::particles::rkpm_tracked
     std::size_t front_at_start = 0; ///< particles
     PlaneState state;
     std::optional<PlaneState> older;
+    std::optional<ParticleStart> before; ///< where one phase fills the domain
+    cases::Cost cost_before;
+    const cases::Snapshot *state_before = nullptr; ///< the state that it has reached
     double last_step = 0;
     bool warned_of_ripples = false;
     bool restarted = true; ///< no step was made since the start or an event
     long step_number = 0, halved_steps = 0, capped_steps = 0, most_passes = 0;
     long next_meeting = 0;
     double initial_heat = 0, condition = 0;
+    double handed_over_heat = 0; ///< by which the first method's front and temperatures
+                                 ///< are off as they are taken over (J/m)
     double unbooked_heat = 0; ///< by which start and events are off in the book (J/m)
     double largest_multiplier = 0;
     double decreed_heat = 0; ///< latent, of areas that changed phase by decree (J/m)

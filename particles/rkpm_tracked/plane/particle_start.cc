@@ -1,0 +1,194 @@
+#include <particles/rkpm_tracked/plane/particle_start.h>
+
+#include <cases/capabilities.h>
+#include <cases/domain_measure.h>
+#include <cases/error.h>
+#include <particles/rkpm_tracked/plane/enthalpy_particles.h>
+#include <particles/sph/sph.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace meltfront::particles::rkpm_tracked
+{
+  namespace
+  {
+    /** Ends of runs that look for the time of the handing over are so many times as late
+     * each, and states are looked at in so many places of one. */
+    constexpr double later = 4;
+    constexpr int looks = 64;
+
+    /** Times the depth that is asked for everywhere: so deep somewhere is deep enough. */
+    constexpr double deep_somewhere = 3;
+
+    /** Times that depth: how near a place has to be to where it is deeper, so that it is
+     * the rim of a body and not its depth; and by how many spacings deeper. */
+    constexpr double beside = 1.5, deeper = 0.5;
+
+    class Watch : public cases::Observer
+    {
+    public:
+      explicit Watch(const ParticleStart::Visit &visit)
+        : visit(visit)
+      {
+      }
+
+      bool wants(long, double) override
+      {
+        return true;
+      }
+
+      void observe(const cases::Snapshot &snapshot) override
+      {
+        visit(snapshot);
+      }
+
+    private:
+      const ParticleStart::Visit &visit;
+    };
+
+    struct Depths
+    {
+      double least = 0, most = 0; ///< of the places where it is deepest around (m)
+    };
+
+    /** How deep a phase is; nothing where there is none. */
+    std::optional<Depths> depths_of(bool solid, const EnthalpyParticles &particles,
+                                    const PlaneNodes &nodes, double asked)
+    {
+      const double h = nodes.spacing, reach = (deep_somewhere + 1) * asked;
+      const PlaneLevelSet level
+          = [&](const PlanePoint &place) { return particles.level(place); };
+      const Contours contours = find_contours(nodes.lower, nodes.upper, h, level);
+      const FrontIndex index(front_on_zeros(contours, level, front_spacing * h, h),
+                             contours.solid_beyond, h);
+      std::vector<double> depth;
+      for(const PlanePoint &place : nodes.position)
+        depth.push_back((solid ? -1 : 1) * index.signed_distance(place, reach));
+      Depths result{reach, 0};
+      for(std::size_t i = 0; i < nodes.size(); ++i)
+      {
+        if(depth[i] <= 0)
+          continue;
+        result.most = std::max(result.most, depth[i]);
+        bool rim = false;
+        if(depth[i] < asked)
+          nodes.bins.visit(nodes.position[i], beside * asked,
+                           [&](std::uint32_t other, double)
+                           { rim = rim || depth[other] > depth[i] + deeper * h; });
+        if(!rim)
+          result.least = std::min(result.least, depth[i]);
+      }
+      if(result.most == 0)
+        return {};
+      return result;
+    }
+  } // namespace
+
+  bool starts_from_one_phase(const cases::Scene &scene)
+  {
+    using cases::FrontOrigin;
+    const auto origins = cases::front_origins(scene);
+    return scene.sources.empty()
+           && std::ranges::all_of(origins, [](FrontOrigin origin)
+                                  { return origin == FrontOrigin::wall; });
+  }
+
+  ParticleStart::ParticleStart(const cases::Scene &scene, const cases::EffectSet &effects,
+                               const cases::Resolution &resolution,
+                               const PlaneNodes &nodes,
+                               const TrackingParameters &parameters)
+    : scene(scene)
+    , effects(effects)
+    , resolution(resolution)
+    , nodes(nodes)
+    , depth(parameters.start_depth * nodes.spacing)
+  {
+    particles = along_side(parameters.start_refinement);
+    const double whole = scene.end_time - scene.start_time,
+                 fastest = std::max(scene.material.solid.diffusivity(),
+                                    scene.material.liquid.diffusivity());
+    bool found = false;
+    for(double duration = std::min(whole, nodes.spacing * nodes.spacing / fastest);
+        !found; duration = std::min(whole, later * duration))
+    {
+      found = search(duration < whole ? scene.start_time + duration : scene.end_time);
+      if(!found && !(duration < whole))
+        throw cases::Refusal(fmt::format(
+            "{} does not resolve the front: by sph, from which it would start, the new "
+            "phase is nowhere {:g} nodes deep before the end, or there is none: take "
+            "more "
+            "nodes, a later end, or sph",
+            method_name, parameters.start_depth));
+    }
+  }
+
+  /** So many particles that a lattice of them fills the domain. */
+  int ParticleStart::along_side(int refinement) const
+  {
+    const int step = scene.domain.shape == cases::DomainShape::box
+                         ? cases::fewest_whole_cells(scene.domain)
+                         : 1;
+    const int wanted
+        = refinement * static_cast<int>(std::lround(scene.domain.side() / nodes.spacing));
+    return (wanted + step - 1) / step * step;
+  }
+
+  /** @return whether the front is deep enough before an end */
+  bool ParticleStart::search(double end)
+  {
+    bool found = false, solid = false;
+    double next_look = 0;
+    const Visit look = [&](const cases::Snapshot &snapshot)
+    {
+      if(snapshot.time == scene.start_time)
+        solid = snapshot.solid_fraction[0] < 0.5;
+      if(found || snapshot.time < next_look || snapshot.time == scene.start_time
+         || snapshot.time == scene.end_time)
+        return;
+      next_look = snapshot.time + (end - scene.start_time) / looks;
+      const auto depths
+          = depths_of(solid, EnthalpyParticles(scene, nodes, snapshot), nodes, depth);
+      found
+          = depths && (depths->least >= depth || depths->most >= deep_somewhere * depth);
+      if(found)
+      {
+        time = snapshot.time;
+        least_depth = depths->least / nodes.spacing;
+        most_depth = depths->most / nodes.spacing;
+      }
+    };
+    search_work += run_until(end, along_side(1), look).work;
+    return found;
+  }
+
+  cases::Cost ParticleStart::run_until(double end, int n, const Visit &visit) const
+  {
+    const auto method = make_sph();
+    cases::Scene sooner = scene;
+    sooner.end_time = end;
+    cases::Resolution finer = resolution;
+    finer.n = n;
+    finer.options = cases::Options(method->option_declarations());
+    finer.options.set("dimension", "2");
+    Watch watch(visit);
+    try
+    {
+      return method->solve(sooner, effects, finer, watch);
+    }
+    catch(const cases::Refusal &refusal)
+    {
+      throw cases::Refusal(fmt::format("{} starts from sph where one phase fills the "
+                                       "domain, and that refuses: {}",
+                                       method_name, refusal.what()));
+    }
+  }
+
+  cases::Cost ParticleStart::run(const Visit &visit) const
+  {
+    return run_until(time, particles, visit);
+  }
+} // namespace meltfront::particles::rkpm_tracked

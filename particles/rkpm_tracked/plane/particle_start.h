@@ -1,0 +1,60 @@
+#ifndef meltfront_particles_rkpm_tracked_plane_particle_start_h
+#define meltfront_particles_rkpm_tracked_plane_particle_start_h
+
+#include <cases/method.h>
+#include <cases/scene.h>
+#include <particles/rkpm_tracked/plane/nodes.h>
+#include <particles/rkpm_tracked/tracking_options.h>
+
+#include <functional>
+
+namespace meltfront::particles::rkpm_tracked
+{
+  /** Whether a front is yet to set out: one phase fills the domain, and no source is to
+   * melt or freeze anything. */
+  bool starts_from_one_phase(const cases::Scene &scene);
+
+  /**
+   * The part of a run before its front is resolved, made by `sph` in the same domain:
+   * from the scene's start until the phase that is new is so many nodes deep wherever it
+   * is, or three times as deep somewhere.
+   */
+  class ParticleStart
+  {
+  public:
+    using Visit = std::function<void(const cases::Snapshot &)>;
+
+    /**
+     * Finds out when that is, by runs of `sph` with as many particles as nodes, whose
+     * ends are four times as late each time.
+     * @param scene, effects, resolution, nodes outlive this
+     * @throws cases::Refusal where `sph` does not take the scene, or where no front gets
+     * so deep before its end
+     */
+    ParticleStart(const cases::Scene &scene, const cases::EffectSet &effects,
+                  const cases::Resolution &resolution, const PlaneNodes &nodes,
+                  const TrackingParameters &parameters);
+
+    /** Run up to that time, calling visit() for every state, the last one included.
+     * @return what it cost */
+    cases::Cost run(const Visit &visit) const;
+
+    double time = 0;                        ///< of the handing over (s)
+    double least_depth = 0, most_depth = 0; ///< spacings, then, as the last search saw it
+    int particles = 0;                      ///< along the side
+    long search_work = 0;                   ///< interactions that the search touched
+
+  private:
+    bool search(double end);
+    int along_side(int refinement) const;
+    cases::Cost run_until(double end, int n, const Visit &visit) const;
+
+    const cases::Scene &scene;
+    const cases::EffectSet &effects;
+    const cases::Resolution &resolution;
+    const PlaneNodes &nodes;
+    const double depth; ///< asked for (m)
+  };
+} // namespace meltfront::particles::rkpm_tracked
+
+#endif
