@@ -21,6 +21,10 @@ namespace meltfront::particles::rkpm_tracked
     constexpr double later = 4;
     constexpr int looks = 64;
 
+    /** Of the super steps of these runs, which are to tell the time, and of the run up to
+     * it. */
+    constexpr int stages_of_search = 3, stages_of_run = 8;
+
     /** Times the depth that is asked for everywhere: so deep somewhere is deep enough. */
     constexpr double deep_somewhere = 3;
 
@@ -161,11 +165,12 @@ namespace meltfront::particles::rkpm_tracked
         most_depth = depths->most / nodes.spacing;
       }
     };
-    search_work += run_until(end, along_side(1), look).work;
+    search_work += run_until(end, along_side(1), stages_of_search, look).work;
     return found;
   }
 
-  cases::Cost ParticleStart::run_until(double end, int n, const Visit &visit) const
+  cases::Cost ParticleStart::run_until(double end, int n, int stages,
+                                       const Visit &visit) const
   {
     const auto method = make_sph();
     cases::Scene sooner = scene;
@@ -174,6 +179,7 @@ namespace meltfront::particles::rkpm_tracked
     finer.n = n;
     finer.options = cases::Options(method->option_declarations());
     finer.options.set("dimension", "2");
+    finer.options.set("stages", fmt::format("{}", stages));
     Watch watch(visit);
     try
     {
@@ -189,6 +195,6 @@ namespace meltfront::particles::rkpm_tracked
 
   cases::Cost ParticleStart::run(const Visit &visit) const
   {
-    return run_until(time, particles, visit);
+    return run_until(time, particles, stages_of_run, visit);
   }
 } // namespace meltfront::particles::rkpm_tracked

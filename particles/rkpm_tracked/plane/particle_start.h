@@ -47,7 +47,7 @@ namespace meltfront::particles::rkpm_tracked
   private:
     bool search(double end);
     int along_side(int refinement) const;
-    cases::Cost run_until(double end, int n, const Visit &visit) const;
+    cases::Cost run_until(double end, int n, int stages, const Visit &visit) const;
 
     const cases::Scene &scene;
     const cases::EffectSet &effects;

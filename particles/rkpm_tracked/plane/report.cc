@@ -17,12 +17,15 @@ namespace meltfront::particles::rkpm_tracked
     result.parameters
         = {{"start", start_in_words, ""},
            {"nodes", fmt::format("{}", nodes.size()), "1"},
-           {"front particles at the start", fmt::format("{}", front_at_start), "1"},
            {"basis order", fmt::format("{}", parameters.basis_order), "1"},
-           {"largest condition number of moment matrices at the front's start",
-            fmt::format("{:.3g}", condition), "1"},
            {"time scheme",
             parameters.time_scheme == TimeScheme::bdf2 ? "bdf2" : "backward-euler", ""}};
+    if(!before)
+      result.parameters.insert(
+          result.parameters.end(),
+          {{"front particles at the start", fmt::format("{}", front_at_start), "1"},
+           {"largest condition number of moment matrices at the front's start",
+            fmt::format("{:.3g}", condition), "1"}});
     return result;
   }
 

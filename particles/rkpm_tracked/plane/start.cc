@@ -134,7 +134,6 @@ namespace meltfront::particles::rkpm_tracked
     unbooked_heat = book_heat(state, scene, nodes, heat, {},
                               found.sensible + found.latent + handed_over_heat);
     marked.seed(state.front, heat.settings.solid_beyond);
-    condition = heat.worst_condition(state);
     check(state);
   }
 
