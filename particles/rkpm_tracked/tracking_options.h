@@ -17,8 +17,8 @@ namespace meltfront::particles::rkpm_tracked
    * from the fronts, melts or freezes there, where no front is followed. */
   inline constexpr double beyond_by_release = 1e-2, spacings_from_fronts = 2;
 
-  /** The same at a wall. */
-  inline constexpr double beyond_at_walls = 1e-2;
+  /** The same at a wall, and at one whose temperature is held: that is exact. */
+  inline constexpr double beyond_at_walls = 1e-2, beyond_at_held_walls = 1e-6;
 
   /** Collocation keeps the maximum principle in the limit only. Slabs with walls and
    * starts that jump do not overshoot along a line at n = 10, 20, 40. In the plane a body

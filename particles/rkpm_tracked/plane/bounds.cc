@@ -149,6 +149,9 @@ namespace meltfront::particles::rkpm_tracked
     if(cases::metastable_initial_phase(scene))
       return;
     const double reach = spacings_from_fronts * nodes.spacing;
+    double most_bent = 0;
+    for(const double curvature : checked.front.curvature)
+      most_bent = std::max(most_bent, std::abs(curvature));
     for(const WallNode &wall : nodes.walls)
     {
       const NodePhase phase = checked.phase[wall.node];
@@ -157,7 +160,10 @@ namespace meltfront::particles::rkpm_tracked
       const double excess
           = heat.temperature(checked, wall.node) - scene.material.melting_temperature;
       const PlanePoint &place = nodes.position[wall.node];
-      if((phase == NodePhase::solid ? excess : -excess) > beyond_at_walls * scale
+      const double tolerated
+          = (wall.dirichlet() ? beyond_at_held_walls : beyond_at_walls) * scale
+            + heat.settings.capillarity * most_bent;
+      if((phase == NodePhase::solid ? excess : -excess) > tolerated
          && std::abs(heat.front_index().signed_distance(place, reach)) >= reach)
         throw cases::Refusal(
             fmt::format("{} follows fronts from where they start, in the plane; at t = "
