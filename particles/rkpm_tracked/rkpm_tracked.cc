@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace meltfront::particles
 {
   namespace
@@ -64,7 +66,8 @@ namespace meltfront::particles
     cases::Demand demand_of(const cases::Scene &scene,
                             const cases::Resolution &resolution)
     {
-      constexpr double per_line_node = 3000, per_plane_node = 1500, per_entry = 60;
+      constexpr double per_line_node = 3000, per_plane_node = 1500, per_entry = 60,
+                       per_particle = 1000; // of sph, where that goes ahead
       const TrackingParameters parameters = read_tracking_parameters(scene, resolution);
       const int dimension = simulated_dimension(scene, resolution.options);
       const double nodes
@@ -74,7 +77,10 @@ namespace meltfront::particles
           = dimension == 1
                 ? per_line_node
                 : per_plane_node
-                      + per_entry * entries * cases::fill_of_factors(dimension, nodes);
+                      + per_entry * entries * cases::fill_of_factors(dimension, nodes)
+                      + (starts_from_one_phase(scene)
+                             ? per_particle * std::pow(parameters.start_refinement, 2)
+                             : 0);
       return {cases::program_bytes + nodes * per_node, double(parameters.steps)};
     }
 

@@ -33,6 +33,48 @@ namespace meltfront::particles::rkpm_tracked
     {
       return square < 1 ? (1 - square) * (1 - square) : 0;
     }
+
+    /** Share of a square cell that a front cuts, from samples of it. */
+    double solid_share(const FrontIndex &index, const PlanePoint &middle, double area)
+    {
+      const double side = std::sqrt(area), step = side / across_cell;
+      const double distance = index.signed_distance(middle, side);
+      if(std::abs(distance) >= side)
+        return distance < 0 ? 1 : 0;
+      double sum = 0;
+      for(int j = 0; j < across_cell; ++j)
+        for(int i = 0; i < across_cell; ++i)
+        {
+          const PlanePoint place = middle + step * PlanePoint(i + 0.5, j + 0.5)
+                                   - side / 2 * PlanePoint(1, 1);
+          sum += std::clamp(0.5 - index.signed_distance(place, side) / step, 0., 1.);
+        }
+      return sum / (across_cell * across_cell);
+    }
+
+    /** What a parabola is fitted to: the place over the kernel's radius, the square root
+     * of the weight, the value. */
+    struct FitPoint
+    {
+      PlanePoint offset;
+      double weight, value;
+    };
+
+    /** At no offset, of the parabola that fits best; the least one if many do. */
+    double value_of_parabola(const std::vector<FitPoint> &points)
+    {
+      const auto count = static_cast<Eigen::Index>(points.size());
+      Eigen::MatrixXd matrix(count, 6);
+      Eigen::VectorXd values(count);
+      for(Eigen::Index row = 0; row < count; ++row)
+      {
+        const auto &[at, weight, value] = points[static_cast<std::size_t>(row)];
+        matrix.row(row) << weight, weight * at.x(), weight * at.y(),
+            weight * at.x() * at.x(), weight * at.x() * at.y(), weight * at.y() * at.y();
+        values[row] = weight * value;
+      }
+      return matrix.completeOrthogonalDecomposition().solve(values)[0];
+    }
   } // namespace
 
   EnthalpyParticles::EnthalpyParticles(const cases::Scene &scene, const PlaneNodes &nodes,
@@ -77,67 +119,55 @@ namespace meltfront::particles::rkpm_tracked
     return 0.5 - solid / whole;
   }
 
+  /** Solid of each particle that a front does not go round (m^2); what is not of one
+   * phase farther from it is no business of this front. */
+  std::vector<double> EnthalpyParticles::solid_missing(const FrontIndex &index) const
+  {
+    const double radius = reach * nodes.spacing;
+    std::vector<double> result(position.size(), 0.);
+    for(std::size_t i = 0; i < position.size(); ++i)
+    {
+      const double distance = index.signed_distance(position[i], radius);
+      if(std::abs(distance) < radius)
+        result[i] = area[i] * (share[i] - solid_share(index, position[i], area[i]));
+    }
+    return result;
+  }
+
   void EnthalpyParticles::fit(PlaneFront &front, bool solid_beyond) const
   {
-    const double h = nodes.spacing, radius = reach * h;
+    const double h = nodes.spacing, square_of_radius = std::pow(reach * h, 2);
     for(int pass = 0; pass < fitting_passes; ++pass)
     {
-      const FrontIndex index(front, solid_beyond, h);
-      std::vector<double> missing(position.size(), 0.);
-      for(std::size_t i = 0; i < position.size(); ++i)
-      {
-        const double distance = index.signed_distance(position[i], radius);
-        const double side = std::sqrt(area[i]), step = side / across_cell;
-        double solid = distance < 0 ? 1 : 0;
-        if(std::abs(distance) < side)
-        {
-          solid = 0;
-          for(int s = 0; s < across_cell * across_cell; ++s)
-          {
-            const PlanePoint offset(s % across_cell + 0.5 - across_cell / 2.,
-                                    s / across_cell + 0.5 - across_cell / 2.);
-            solid += std::clamp(
-                         0.5
-                             - index.signed_distance(position[i] + step * offset, radius)
-                                   / step,
-                         0., 1.)
-                     / (across_cell * across_cell);
-          }
-        }
-        // What is not of one phase farther away is no business of this front.
-        if(std::abs(distance) < radius)
-          missing[i] = area[i] * (share[i] - solid);
-      }
-      const PlaneBins front_bins(front.position, h);
-      std::vector<double> way(front.size(), 0.);
+      const std::vector<double> missing
+          = solid_missing(FrontIndex(front, solid_beyond, h));
+      std::vector<double> lengths(front.size(), 0.), ways(front.size(), 0.);
       for(std::size_t c = 0; c < front.curves(); ++c)
         for(std::size_t p = front.offsets[c]; p < front.offsets[c + 1]; ++p)
-        {
-          if(nodes.wall_distance(front.position[p]) < 0)
-            continue;
-          double area_missing = 0, length = 0;
-          bins.visit(front.position[p], radius,
-                     [&](std::uint32_t i, double square) {
-                       area_missing += missing[i] * kernel(square / (radius * radius));
-                     });
-          front_bins.visit(front.position[p], radius,
-                           [&](std::uint32_t q, double square)
-                           {
-                             if(nodes.wall_distance(front.position[q]) < 0
-                                || front.normal[q].dot(front.normal[p]) < 0)
-                               return;
-                             const std::size_t curve
-                                 = std::ranges::upper_bound(front.offsets, q)
-                                   - front.offsets.begin() - 1;
-                             length += (front.position[front.next(curve, q)]
-                                        - front.position[front.previous(curve, q)])
-                                           .norm()
-                                       / 2 * kernel(square / (radius * radius));
-                           });
-          way[p] = std::clamp(area_missing / length, -farthest_fit * h, farthest_fit * h);
-        }
+          if(nodes.wall_distance(front.position[p]) >= 0)
+            lengths[p] = (front.position[front.next(c, p)]
+                          - front.position[front.previous(c, p)])
+                             .norm()
+                         / 2;
+      const PlaneBins front_bins(front.position, h);
       for(std::size_t p = 0; p < front.size(); ++p)
-        front.position[p] -= way[p] * front.normal[p];
+      {
+        if(lengths[p] == 0)
+          continue;
+        double solid = 0, length = 0;
+        bins.visit(front.position[p], reach * h,
+                   [&](std::uint32_t i, double square)
+                   { solid += missing[i] * kernel(square / square_of_radius); });
+        front_bins.visit(front.position[p], reach * h,
+                         [&](std::uint32_t q, double square)
+                         {
+                           if(front.normal[q].dot(front.normal[p]) > 0)
+                             length += lengths[q] * kernel(square / square_of_radius);
+                         });
+        ways[p] = std::clamp(solid / length, -farthest_fit * h, farthest_fit * h);
+      }
+      for(std::size_t p = 0; p < front.size(); ++p)
+        front.position[p] -= ways[p] * front.normal[p];
       update_geometry(front);
     }
   }
@@ -147,12 +177,7 @@ namespace meltfront::particles::rkpm_tracked
                                         const PlaneBins &front_bins) const
   {
     const double melting = scene.material.melting_temperature;
-    struct Point
-    {
-      PlanePoint offset;
-      double weight, excess;
-    };
-    std::vector<Point> points;
+    std::vector<FitPoint> points;
     double radius = fit_reach * nodes.spacing;
     for(int i = 0; i <= most_widenings; ++i, radius *= wider)
     {
@@ -180,18 +205,7 @@ namespace meltfront::particles::rkpm_tracked
     }
     if(points.empty())
       return melting;
-    const auto count = static_cast<Eigen::Index>(points.size());
-    Eigen::MatrixXd matrix(count, 6);
-    Eigen::VectorXd values(count);
-    for(Eigen::Index row = 0; row < count; ++row)
-    {
-      const auto &[offset, weight, excess] = points[static_cast<std::size_t>(row)];
-      matrix.row(row) << weight, weight * offset.x(), weight * offset.y(),
-          weight * offset.x() * offset.x(), weight * offset.x() * offset.y(),
-          weight * offset.y() * offset.y();
-      values[row] = weight * excess;
-    }
-    const double excess = matrix.completeOrthogonalDecomposition().solve(values)[0];
+    const double excess = value_of_parabola(points);
     return melting + (solid ? std::min(excess, 0.) : std::max(excess, 0.));
   }
 } // namespace meltfront::particles::rkpm_tracked

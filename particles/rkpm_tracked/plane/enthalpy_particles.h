@@ -51,6 +51,7 @@ namespace meltfront::particles::rkpm_tracked
 
   private:
     PlanePoint within(const PlanePoint &place) const;
+    std::vector<double> solid_missing(const FrontIndex &index) const;
 
     const cases::Scene &scene;
     const PlaneNodes &nodes;
