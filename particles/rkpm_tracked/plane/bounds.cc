@@ -143,35 +143,40 @@ namespace meltfront::particles::rkpm_tracked
     }
   }
 
-  /** @throws cases::Refusal where a wall melts or freezes what no front is near. */
+  /** By how much a node's temperature is beyond the melting temperature for its phase
+   * (K). */
+  double PlaneRun::beyond_melting(const PlaneState &of, std::size_t node) const
+  {
+    if(of.phase[node] == NodePhase::front)
+      return 0;
+    const double excess = heat.temperature(of, node) - scene.material.melting_temperature;
+    return of.phase[node] == NodePhase::solid ? excess : -excess;
+  }
+
+  /** @throws cases::Refusal where a wall melts or freezes what no front is near;
+   * metastable phases withstand what they do at the start, and as much as fronts that are
+   * bent. */
   void PlaneRun::check_walls(const PlaneState &checked, double scale) const
   {
-    if(cases::metastable_initial_phase(scene))
-      return;
     const double reach = spacings_from_fronts * nodes.spacing;
     double most_bent = 0;
     for(const double curvature : checked.front.curvature)
       most_bent = std::max(most_bent, std::abs(curvature));
     for(const WallNode &wall : nodes.walls)
     {
-      const NodePhase phase = checked.phase[wall.node];
-      if(phase == NodePhase::front)
-        continue;
-      const double excess
-          = heat.temperature(checked, wall.node) - scene.material.melting_temperature;
-      const PlanePoint &place = nodes.position[wall.node];
       const double tolerated
           = (wall.dirichlet() ? beyond_at_held_walls : beyond_at_walls) * scale
-            + heat.settings.capillarity * most_bent;
-      if((phase == NodePhase::solid ? excess : -excess) > tolerated
+            + withstood + heat.settings.capillarity * most_bent;
+      const PlanePoint &place = nodes.position[wall.node];
+      if(beyond_melting(checked, wall.node) > tolerated
          && std::abs(heat.front_index().signed_distance(place, reach)) >= reach)
-        throw cases::Refusal(
-            fmt::format("{} follows fronts from where they start, in the plane; at t = "
-                        "{:.6g} the wall "
-                        "{} at ({:.6g}, {:.6g}) away from them",
-                        method_name, checked.time,
-                        phase == NodePhase::solid ? "melts solid" : "freezes liquid",
-                        place.x(), place.y()));
+        throw cases::Refusal(fmt::format(
+            "{} follows fronts from where they start, in the plane; at t = {:.6g} the "
+            "wall {} at ({:.6g}, {:.6g}) away from them",
+            method_name, checked.time,
+            checked.phase[wall.node] == NodePhase::solid ? "melts solid"
+                                                         : "freezes liquid",
+            place.x(), place.y()));
     }
   }
 

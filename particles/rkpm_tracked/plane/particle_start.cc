@@ -3,6 +3,7 @@
 #include <cases/capabilities.h>
 #include <cases/domain_measure.h>
 #include <cases/error.h>
+#include <cases/exact_solution.h>
 #include <particles/rkpm_tracked/plane/enthalpy_particles.h>
 #include <particles/sph/sph.h>
 
@@ -95,6 +96,9 @@ namespace meltfront::particles::rkpm_tracked
   bool starts_from_one_phase(const cases::Scene &scene)
   {
     using cases::FrontOrigin;
+    const auto &exact = scene.initial.exact;
+    if(exact && exact->has_front() && scene.start_time > exact->start_time())
+      return false;
     const auto origins = cases::front_origins(scene);
     return scene.sources.empty()
            && std::ranges::all_of(origins, [](FrontOrigin origin)

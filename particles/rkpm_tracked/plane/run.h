@@ -63,6 +63,7 @@ namespace meltfront::particles::rkpm_tracked
     TopologySettings topology_settings() const;
     void warn_of_ripples();
     void settle_nodes();
+    double beyond_melting(const PlaneState &of, std::size_t node) const;
     void check_walls(const PlaneState &checked, double scale) const;
     void check_release(const PlaneState &checked, double scale) const;
     void check(const PlaneState &checked) const;
@@ -107,8 +108,9 @@ namespace meltfront::particles::rkpm_tracked
     double initial_heat = 0, condition = 0;
     double handed_over_heat = 0; ///< by which the first method's front and temperatures
                                  ///< are off as they are taken over (J/m)
-    double unbooked_heat = 0; ///< by which start and events are off in the book (J/m)
+    double unbooked_heat = 0;    ///< by which start and events are off in the book (J/m)
     double largest_multiplier = 0;
+    double withstood = 0; ///< beyond the melting temperature, by phases at the start (K)
     double decreed_heat = 0; ///< latent, of areas that changed phase by decree (J/m)
     double mismatch = 0;     ///< largest of level set and particles, in spacings
     std::vector<std::pair<double, std::string>> events; ///< not yet told

@@ -74,6 +74,8 @@ namespace meltfront::particles::rkpm_tracked
                 ? heat.sinks.at_node(temperature, nodes.position[i], nodes.samples_of(i))
                       - heat.singular_part(i, state.time)
                 : temperature(nodes.position[i]);
+    for(std::size_t i = 0; i < nodes.size(); ++i)
+      withstood = std::max(withstood, beyond_melting(state, i));
     heat.expand(state);
     marked.seed(state.front, heat.settings.solid_beyond);
     condition = heat.worst_condition(state);
