@@ -5,6 +5,7 @@
 #include <cases/exact/front_start.h>
 #include <cases/run.h>
 #include <cases/scene.h>
+#include <reference_fem/cut/conservative/appearance.h>
 #include <reference_fem/cut/conservative/enthalpy_start.h>
 #include <reference_fem/cut/conservative/stage.h>
 #include <reference_fem/cut/options.h>
@@ -41,6 +42,7 @@ namespace meltfront::reference_fem::cut::conservative
     // In conservative_start.cc:
     void start();
     void start_from(const cases::FrontStart &found);
+    bool wall_jumps(const cases::FrontStart &found) const;
     void run_enthalpy();
     void take_over(const cases::Snapshot &snapshot);
     void take_over_temperatures(const cases::Snapshot &snapshot);
@@ -89,6 +91,7 @@ namespace meltfront::reference_fem::cut::conservative
     PhaseAssembly assembly;
     const cases::TemperatureBounds bounds;
     const std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
+    const AppearanceSetting appearance;
     std::string start_in_words;
 
     std::optional<EnthalpyStart> before; ///< what the run starts with, if it needs it

@@ -28,6 +28,7 @@ namespace meltfront::reference_fem::cut::conservative
   /** From the scene's front, or from the enthalpy method where it has none. */
   void ConservativeRun::start()
   {
+    std::optional<cases::FrontStart> found;
     if(options.start != StartFrom::enthalpy)
     {
       const double seed = options.seed_cells * mesh.spacing;
@@ -35,7 +36,6 @@ namespace meltfront::reference_fem::cut::conservative
       for(const cases::Side side : scene.sides())
         if(scene.boundary(side).exact)
           rule.exempt_walls.push_back(side);
-      std::optional<cases::FrontStart> found;
       try
       {
         found = cases::find_front_start(scene, rule);
@@ -45,19 +45,46 @@ namespace meltfront::reference_fem::cut::conservative
         if(options.start == StartFrom::scene)
           throw;
       }
-      if(found)
+      if(found && (options.start == StartFrom::scene || !wall_jumps(*found)))
       {
         start_from(*found);
         return;
       }
     }
+    Values at_start;
+    if(found)
+      for(const Point &node : mesh.nodes)
+        at_start.push_back(found->level_set(position(node)));
     before.emplace(scene, effects, resolution, mesh,
-                   EnthalpyStartOptions{options.start_depth, options.start_refinement});
+                   EnthalpyStartOptions{options.start_depth, options.start_refinement},
+                   std::move(at_start));
     start_in_words = fmt::format(
         "fem-enthalpy with {} cells along the side until {:.6g} s, the new phase {:.2g} "
         "to {:.2g} cells deep",
         before->cells, before->time, before->least_depth, before->most_depth);
     unknowns = static_cast<long>(mesh.nodes.size());
+  }
+
+  /** Whether a wall is held, at the start, beyond the melting temperature of the phase
+   * that lies at it, by more than temperatures may overshoot: a layer is there at once.
+   */
+  bool ConservativeRun::wall_jumps(const cases::FrontStart &found) const
+  {
+    double largest = 0, farthest = 0;
+    for(const WallPiece &wall : mesh.walls)
+    {
+      const cases::Boundary &boundary = scene.boundary(wall.side);
+      if(boundary.kind != cases::BoundaryKind::fixed_temperature || boundary.exact)
+        continue;
+      const cases::Position place
+          = position(wall.segment.begin + (wall.segment.end - wall.segment.begin) / 2);
+      const double excess
+          = boundary.value(place, scene.start_time) - scene.material.melting_temperature;
+      largest = std::max(largest, std::abs(excess));
+      farthest = std::max(farthest, found.level_set(place) < 0 ? excess : -excess);
+    }
+    return farthest > cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain)
+                          * largest;
   }
 
   /** The enthalpy method's steps up to the time at which it hands over. */
