@@ -29,6 +29,13 @@ namespace meltfront::reference_fem::cut::conservative
     /** Squares of the spacing: the smallest body that appears. */
     constexpr double smallest = 0.2;
 
+    std::ptrdiff_t nodes_at_driving_walls(const AppearanceSetting &setting,
+                                          const std::vector<unsigned int> &nodes)
+    {
+      return std::ranges::count_if(nodes, [&](unsigned int node)
+                                   { return setting.at_driving_wall[node] != 0; });
+    }
+
     /** Connected nodes of a phase that hold heat of the other one. */
     struct Patch
     {
@@ -249,7 +256,8 @@ namespace meltfront::reference_fem::cut::conservative
         }
       }
       if(area < smallest * mesh.spacing * mesh.spacing
-         && !(beyond_tolerance && lies_along_wall(setting, patch.nodes)))
+         && !(beyond_tolerance && of_walls > area / 2
+              && nodes_at_driving_walls(setting, patch.nodes) > 0))
         return std::nullopt;
       if(of_walls > area / 2)
       {
@@ -302,14 +310,6 @@ namespace meltfront::reference_fem::cut::conservative
     }
   } // namespace
 
-  bool lies_along_wall(const AppearanceSetting &setting,
-                       const std::vector<unsigned int> &nodes)
-  {
-    return std::ranges::count_if(nodes, [&](unsigned int node)
-                                 { return setting.at_driving_wall[node]; })
-           > 1;
-  }
-
   AppearanceSetting::AppearanceSetting(const TriangleMesh &mesh,
                                        const cases::Scene &scene, double reach)
     : mesh(mesh)
@@ -331,6 +331,12 @@ namespace meltfront::reference_fem::cut::conservative
                                 || foot(domain, side, mesh.nodes[node]).distance
                                        < within_wall * mesh.spacing;
     }
+  }
+
+  bool lies_along_wall(const AppearanceSetting &setting,
+                       const std::vector<unsigned int> &nodes)
+  {
+    return nodes_at_driving_walls(setting, nodes) > 1;
   }
 
   double largest_excess(const AppearanceSetting &setting,

@@ -312,9 +312,9 @@ namespace meltfront::reference_fem::cut::conservative
     }
   }
 
-  /** Half of the overshoot that is allowed, as heat over the melting temperature by phase
-   * (J/m^3); infinite as long as all is of one temperature. */
-  std::array<double, 2> ConservativeRun::tolerated_heat() const
+  /** Half of the overshoot that is allowed (K); infinite as long as all is of one
+   * temperature. */
+  double ConservativeRun::tolerated_excess() const
   {
     double lowest = 0, highest = 0;
     for(const Values &values : temperatures)
@@ -323,14 +323,20 @@ namespace meltfront::reference_fem::cut::conservative
         lowest = std::min(lowest, value);
         highest = std::max(highest, value);
       }
-    const double melting
-        = scene.material.melting_temperature,
-        span = (std::isfinite(bounds.upper) ? bounds.upper - melting : highest)
-               - (std::isfinite(bounds.lower) ? bounds.lower - melting : lowest),
-        share = cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain),
-        half = span > 0 ? share * span / 2 : std::numeric_limits<double>::infinity();
-    return {half * scene.material.solid.volumetric_heat_capacity(),
-            half * scene.material.liquid.volumetric_heat_capacity()};
+    const double melting = scene.material.melting_temperature,
+                 span = (std::isfinite(bounds.upper) ? bounds.upper - melting : highest)
+                        - (std::isfinite(bounds.lower) ? bounds.lower - melting : lowest),
+                 share
+                 = cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain);
+    return span > 0 ? share * span / 2 : std::numeric_limits<double>::infinity();
+  }
+
+  /** The same as heat over the melting temperature by phase (J/m^3). */
+  std::array<double, 2> ConservativeRun::tolerated_heat() const
+  {
+    const double excess = tolerated_excess();
+    return {excess * scene.material.solid.volumetric_heat_capacity(),
+            excess * scene.material.liquid.volumetric_heat_capacity()};
   }
 
   /** Whether a phase that should have appeared within a step is beyond the melting
@@ -395,7 +401,8 @@ namespace meltfront::reference_fem::cut::conservative
     }
   }
 
-  void ConservativeRun::check() const
+  /** Lowest and highest temperature at nodes of the phases (K). */
+  std::pair<double, double> ConservativeRun::extremes() const
   {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
@@ -412,6 +419,12 @@ namespace meltfront::reference_fem::cut::conservative
           lowest = std::min(lowest, value);
           highest = std::max(highest, value);
         }
+    return {lowest, highest};
+  }
+
+  void ConservativeRun::check() const
+  {
+    const auto [lowest, highest] = extremes();
     cases::require_sinks(scene, time, method_name);
     cases::check_temperature(
         bounds, lowest, highest, method_name, step_number, time,

@@ -22,7 +22,7 @@ namespace meltfront::reference_fem::cut::conservative
                      least_depth_of_node = 2.5 - 1 / std::numbers::sqrt2;
 
     /** Of the time in which temperatures even out across a spacing. */
-    constexpr double share_of_projection = 0.04;
+    constexpr double share_of_projection = 0.04, farthest_spread = 4;
   } // namespace
 
   /** From the scene's front, or from the enthalpy method where it has none. */
@@ -132,9 +132,33 @@ namespace meltfront::reference_fem::cut::conservative
     source_heat = snapshot.heat.sources;
     initial_heat = snapshot.heat.initial;
     begin_anew();
-    even_out(StepFrame(mesh, state.level_set, 1));
+    settle_temperatures();
     take_over_temperatures(snapshot);
     check();
+  }
+
+  /** Temperatures of the heat that was handed over. Hats of which little lies in a phase
+   * may hold more than temperatures within the bounds can: then heat is spread as far as
+   * it takes for them to keep to the bounds. */
+  void ConservativeRun::settle_temperatures()
+  {
+    const StepFrame frame(mesh, state.level_set, 1);
+    even_out(frame);
+    const double spacings = mesh.spacing * mesh.spacing / fastest_diffusivity();
+    const auto keeps_to_bounds = [&]
+    {
+      const auto [lowest, highest] = extremes();
+      const double tolerated = tolerated_excess();
+      return lowest >= bounds.lower - tolerated && highest <= bounds.upper + tolerated;
+    };
+    const std::array<Values, 2> handed_over = state.heat;
+    for(double share = 4 * share_of_projection;
+        share <= farthest_spread && !keeps_to_bounds(); share *= 4)
+    {
+      state.heat = handed_over;
+      temperatures = spread_heat(assembly, frame, {time, time, powers}, share * spacings,
+                                 state.heat);
+    }
   }
 
   /** Of the site that is nearest to a node, in the node's phase; at corners of triangles
@@ -217,11 +241,16 @@ namespace meltfront::reference_fem::cut::conservative
   /** Temperatures that the heat says. */
   void ConservativeRun::even_out(const StepFrame &frame)
   {
-    const double fastest = std::max(scene.material.solid.diffusivity(),
-                                    scene.material.liquid.diffusivity());
-    temperatures = temperatures_of(
-        assembly, frame, {time, time, powers},
-        share_of_projection * mesh.spacing * mesh.spacing / fastest, state.heat);
+    temperatures = temperatures_of(assembly, frame, {time, time, powers},
+                                   share_of_projection * mesh.spacing * mesh.spacing
+                                       / fastest_diffusivity(),
+                                   state.heat);
+  }
+
+  double ConservativeRun::fastest_diffusivity() const
+  {
+    return std::max(scene.material.solid.diffusivity(),
+                    scene.material.liquid.diffusivity());
   }
 
   /** Of the scene at nodes of each phase; those beyond its front, and where a source is,

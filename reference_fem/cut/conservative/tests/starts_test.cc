@@ -131,7 +131,8 @@ namespace meltfront::reference_fem::tests
     {
       using namespace cut::conservative;
       constexpr double latent_heat = 2;
-      const Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {3, 1, 0}, 0, 1);
+      Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {3, 1, 0}, 0, 1);
+      scene.material.latent_heat = latent_heat;
       const TriangleMesh mesh(scene.domain, 30);
       using cut::Values;
       const Values nothing(mesh.nodes.size());
@@ -160,7 +161,8 @@ namespace meltfront::reference_fem::tests
       using namespace cut::conservative;
       constexpr int n = 10;
       constexpr double latent_heat = 2;
-      const Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {1, 1, 0}, 0, 1);
+      Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {1, 1, 0}, 0, 1);
+      scene.material.latent_heat = latent_heat;
       const TriangleMesh mesh(scene.domain, n);
       using cut::Values;
       const Values nothing(mesh.nodes.size());
