@@ -1,28 +1,40 @@
 #include <reference_fem/cut/conservative/appearance.h>
+#include <reference_fem/cut/conservative/step_frame.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace meltfront::reference_fem::cut::conservative
 {
   namespace
   {
     /** Spacings from a front within which heat beyond the melting temperature is an error
-     * of the elements, and not a phase to come. */
-    constexpr double away_from_front = 2.5;
+     * of the elements, and not a phase to come; at walls that drive it. */
+    constexpr double away_from_front = 2.5, away_at_wall = 1;
 
     /** Spacings: thickness of the thinnest layer that appears; and from a wall, within
      * which heat belongs to a layer on it. */
     constexpr double thinnest = 0.05, near_wall = 6;
+
+    /** Spacings from a wall within which nodes lie at it. */
+    constexpr double within_wall = 1;
 
     /** Of what is tolerated beyond the melting temperature. */
     constexpr double appears_at = 0.5;
 
     /** Squares of the spacing: the smallest body that appears. */
     constexpr double smallest = 0.2;
+
+    std::ptrdiff_t nodes_at_driving_walls(const AppearanceSetting &setting,
+                                          const std::vector<unsigned int> &nodes)
+    {
+      return std::ranges::count_if(nodes, [&](unsigned int node)
+                                   { return setting.at_driving_wall[node] != 0; });
+    }
 
     /** Connected nodes of a phase that hold heat of the other one. */
     struct Patch
@@ -51,9 +63,16 @@ namespace meltfront::reference_fem::cut::conservative
       return heat_beyond_melting(state.heat, node, phase) / latent_heat;
     }
 
-    std::vector<Patch> patches(const TriangleMesh &mesh, const FrontState &state,
-                               double latent_heat)
+    bool is_away_from_front(const AppearanceSetting &setting, const Values &level_set,
+                            unsigned int node)
     {
+      const double least = setting.at_driving_wall[node] ? away_at_wall : away_from_front;
+      return std::abs(level_set[node]) > least * setting.mesh.spacing;
+    }
+
+    std::vector<Patch> patches(const AppearanceSetting &setting, const FrontState &state)
+    {
+      const TriangleMesh &mesh = setting.mesh;
       std::vector<std::vector<unsigned int>> neighbours(mesh.nodes.size());
       for(const Triangle &triangle : mesh.triangles)
         for(std::size_t i = 0; i < 3 && !triangle.part.empty(); ++i)
@@ -61,8 +80,10 @@ namespace meltfront::reference_fem::cut::conservative
             neighbours[triangle.nodes[i]].push_back(triangle.nodes[j]);
       const auto takes_part = [&](unsigned int node)
       {
-        return std::abs(state.level_set[node]) > away_from_front * mesh.spacing
-               && area_due(state, node, phase_of(state.level_set, node), latent_heat) > 0;
+        return is_away_from_front(setting, state.level_set, node)
+               && area_due(state, node, phase_of(state.level_set, node),
+                           setting.latent_heat)
+                      > 0;
       };
       std::vector<char> seen(mesh.nodes.size(), false);
       std::vector<Patch> result;
@@ -170,66 +191,162 @@ namespace meltfront::reference_fem::cut::conservative
       Values areas; ///< by piece of a wall (m^2)
     };
 
-    /** The distance to what appears, negative in it, at all nodes. */
-    std::optional<Values> body_of(const TriangleMesh &mesh, const cases::Domain &domain,
-                                  const std::vector<cases::Side> &sides,
-                                  const FrontState &state, const Patch &patch,
-                                  double latent_heat, bool beyond_tolerance)
+    /** The wall that a layer at a point would lie on: one that drives it if any is near.
+     */
+    std::optional<std::pair<cases::Side, Foot>>
+    wall_below(const AppearanceSetting &setting, const Point &point)
     {
+      std::optional<std::pair<cases::Side, Foot>> result;
+      const auto look = [&](const std::vector<cases::Side> &sides)
+      {
+        for(const cases::Side side : sides)
+          if(const Foot below = foot(setting.domain, side, point);
+             !(below.distance > near_wall * setting.mesh.spacing)
+             && (!result || below.distance < result->second.distance))
+            result.emplace(side, below);
+      };
+      look(setting.driving_walls);
+      if(!result)
+        look(setting.walls);
+      return result;
+    }
+
+    /** The distance to a layer as thick as it is, negative in it, at all nodes. */
+    Values layer(const AppearanceSetting &setting, const Thickness &thickness)
+    {
+      const TriangleMesh &mesh = setting.mesh;
+      Values result(mesh.nodes.size(), std::numeric_limits<double>::infinity());
+      for(std::size_t node = 0; node < result.size(); ++node)
+        for(const cases::Side side : setting.walls)
+        {
+          const Foot below = foot(setting.domain, side, mesh.nodes[node]);
+          if(!(below.distance < 2 * mesh.spacing))
+            continue;
+          // Where nothing is due the wall itself would be a front.
+          const double thick = thickness.at(side, below.place);
+          result[node] = std::min(result[node],
+                                  thick > 0 ? below.distance - thick
+                                            : std::max(below.distance, mesh.spacing));
+        }
+      return result;
+    }
+
+    /** The distance to what appears, negative in it, at all nodes. */
+    std::optional<Values> body_of(const AppearanceSetting &setting,
+                                  const FrontState &state, const Patch &patch,
+                                  bool beyond_tolerance)
+    {
+      const TriangleMesh &mesh = setting.mesh;
       Thickness thickness(mesh);
       double area = 0, of_walls = 0, farthest = 0;
       unsigned int deepest = patch.nodes.front();
       for(const unsigned int node : patch.nodes)
       {
-        const double due = area_due(state, node, patch.phase, latent_heat);
+        const double due = area_due(state, node, patch.phase, setting.latent_heat);
         area += due;
         if(due > farthest)
         {
           farthest = due;
           deepest = node;
         }
-        const auto nearest = std::ranges::min_element(
-            sides, {},
-            [&](cases::Side side)
-            { return foot(domain, side, mesh.nodes[node]).distance; });
-        const Foot below = foot(domain, *nearest, mesh.nodes[node]);
-        if(below.distance > near_wall * mesh.spacing)
-          continue;
-        of_walls += due;
-        thickness.add(*nearest, below.place, due);
-      }
-      if(area < smallest * mesh.spacing * mesh.spacing)
-        return std::nullopt;
-      Values result(mesh.nodes.size());
-      const bool on_wall = of_walls > area / 2;
-      if(on_wall && !beyond_tolerance && thickness.largest() < thinnest * mesh.spacing)
-        return std::nullopt;
-      for(std::size_t node = 0; node < result.size(); ++node)
-        if(!on_wall)
-          result[node] = mesh.nodes[node].distance(mesh.nodes[deepest])
-                         - std::sqrt(area / std::numbers::pi);
-        else
+        if(const auto wall = wall_below(setting, mesh.nodes[node]))
         {
-          result[node] = std::numeric_limits<double>::infinity();
-          for(const cases::Side side : sides)
-          {
-            const Foot below = foot(domain, side, mesh.nodes[node]);
-            if(below.distance < 2 * mesh.spacing)
-              result[node] = std::min(result[node],
-                                      below.distance - thickness.at(side, below.place));
-          }
+          of_walls += due;
+          thickness.add(wall->first, wall->second.place, due);
         }
+      }
+      if(area < smallest * mesh.spacing * mesh.spacing
+         && !(beyond_tolerance && of_walls > area / 2
+              && nodes_at_driving_walls(setting, patch.nodes) > 0))
+        return std::nullopt;
+      if(of_walls > area / 2)
+      {
+        if(!beyond_tolerance && thickness.largest() < thinnest * mesh.spacing)
+          return std::nullopt;
+        return layer(setting, thickness);
+      }
+      Values result(mesh.nodes.size());
+      for(std::size_t node = 0; node < result.size(); ++node)
+        result[node] = mesh.nodes[node].distance(mesh.nodes[deepest])
+                       - std::sqrt(area / std::numbers::pi);
       return result;
+    }
+
+    /** Put a body in the place of the heat of a patch, but for triangles that a front
+     * cuts already. @return its area (m^2); none where nothing of it is left */
+    std::optional<double> put(const AppearanceSetting &setting, const Values &body,
+                              const Patch &patch, FrontState &state)
+    {
+      const TriangleMesh &mesh = setting.mesh;
+      const Front old_front(mesh, state.level_set);
+      const double sign = patch.phase == Phase::liquid ? 1 : -1;
+      std::vector<char> at_front(mesh.nodes.size(), false);
+      for(const CutTriangle &cut : old_front.cut)
+        for(const unsigned int node : cut.place->nodes)
+          at_front[node] = true;
+      Values level_set = state.level_set;
+      for(std::size_t node = 0; node < body.size(); ++node)
+        if(!at_front[node])
+          level_set[node] = sign * std::min(sign * level_set[node], body[node]);
+      level_set = without_zeros(std::move(level_set), mesh.spacing);
+      const Front front(mesh, level_set);
+      Values change = front.solid_area;
+      for(std::size_t node = 0; node < change.size(); ++node)
+        change[node] -= old_front.solid_area[node];
+      const double made = sum(change);
+      if(!(sign * made > 0))
+        return std::nullopt;
+      double due = 0;
+      for(const unsigned int node : patch.nodes)
+      {
+        const double area = area_due(state, node, patch.phase, setting.latent_heat);
+        due += area;
+        state.heat[index(patch.phase)][node] += sign * setting.latent_heat * area;
+      }
+      for(std::size_t node = 0; node < change.size(); ++node)
+        state.debt[node] += (sign * due / made - 1) * change[node];
+      state.level_set = with_distances(mesh, front, level_set, setting.reach);
+      return due;
     }
   } // namespace
 
-  double largest_excess(const TriangleMesh &mesh, const std::array<double, 2> &tolerated,
-                        const Values &level_set, const std::array<Values, 2> &heat)
+  AppearanceSetting::AppearanceSetting(const TriangleMesh &mesh,
+                                       const cases::Scene &scene, double reach)
+    : mesh(mesh)
+    , domain(scene.domain)
+    , at_driving_wall(mesh.nodes.size(), false)
+    , latent_heat(scene.material.solid.density * scene.material.latent_heat)
+    , reach(reach)
   {
-    const Values volume = volume_of_hats(mesh);
+    for(const WallPiece &wall : mesh.walls)
+      if(std::ranges::find(walls, wall.side) == walls.end())
+        walls.push_back(wall.side);
+    for(const cases::Side side : walls)
+    {
+      if(scene.boundary(side).kind == cases::BoundaryKind::insulated)
+        continue;
+      driving_walls.push_back(side);
+      for(std::size_t node = 0; node < at_driving_wall.size(); ++node)
+        at_driving_wall[node] = at_driving_wall[node]
+                                || foot(domain, side, mesh.nodes[node]).distance
+                                       < within_wall * mesh.spacing;
+    }
+  }
+
+  bool lies_along_wall(const AppearanceSetting &setting,
+                       const std::vector<unsigned int> &nodes)
+  {
+    return nodes_at_driving_walls(setting, nodes) > 1;
+  }
+
+  double largest_excess(const AppearanceSetting &setting,
+                        const std::array<double, 2> &tolerated, const Values &level_set,
+                        const std::array<Values, 2> &heat)
+  {
+    const Values volume = volume_of_hats(setting.mesh);
     double result = 0;
     for(unsigned int node = 0; node < level_set.size(); ++node)
-      if(volume[node] > 0 && std::abs(level_set[node]) > away_from_front * mesh.spacing)
+      if(volume[node] > 0 && is_away_from_front(setting, level_set, node))
       {
         const Phase phase = phase_of(level_set, node);
         result = std::max(result, heat_beyond_melting(heat, node, phase)
@@ -238,46 +355,23 @@ namespace meltfront::reference_fem::cut::conservative
     return result;
   }
 
-  std::vector<Appearance> let_phases_appear(const TriangleMesh &mesh,
-                                            const cases::Domain &domain,
-                                            double latent_heat,
+  std::vector<Appearance> let_phases_appear(const AppearanceSetting &setting,
                                             const std::array<double, 2> &tolerated,
-                                            double reach, FrontState &state)
+                                            FrontState &state)
   {
-    std::vector<cases::Side> sides;
-    for(const WallPiece &wall : mesh.walls)
-      if(std::ranges::find(sides, wall.side) == sides.end())
-        sides.push_back(wall.side);
     const bool beyond_tolerance
-        = largest_excess(mesh, tolerated, state.level_set, state.heat) > appears_at;
+        = largest_excess(setting, tolerated, state.level_set, state.heat) > appears_at;
     std::vector<Appearance> result;
-    for(const Patch &patch : patches(mesh, state, latent_heat))
+    for(const Patch &patch : patches(setting, state))
     {
-      const auto body
-          = body_of(mesh, domain, sides, state, patch, latent_heat, beyond_tolerance);
+      const auto body = body_of(setting, state, patch, beyond_tolerance);
       if(!body)
         continue;
-      const Values before = Front(mesh, state.level_set).solid_area;
-      const double sign = patch.phase == Phase::liquid ? 1 : -1;
-      for(std::size_t node = 0; node < body->size(); ++node)
-        state.level_set[node]
-            = sign * std::min(sign * state.level_set[node], (*body)[node]);
-      state.level_set = without_zeros(std::move(state.level_set), mesh.spacing);
-      const Front front(mesh, state.level_set);
-      double due = 0, put = 0;
-      for(const unsigned int node : patch.nodes)
-      {
-        const double area = area_due(state, node, patch.phase, latent_heat);
-        due += sign * area;
-        state.heat[index(patch.phase)][node] += sign * latent_heat * area;
-      }
-      for(std::size_t node = 0; node < before.size(); ++node)
-        put += front.solid_area[node] - before[node];
-      for(std::size_t node = 0; node < before.size(); ++node)
-        state.debt[node] += (due / put - 1) * (front.solid_area[node] - before[node]);
-      state.level_set = with_distances(mesh, front, state.level_set, reach);
+      const std::optional<double> area = put(setting, *body, patch, state);
+      if(!area)
+        continue;
       result.push_back({patch.phase == Phase::liquid ? Phase::solid : Phase::liquid,
-                        std::abs(due), mesh.nodes[patch.nodes.front()]});
+                        *area, setting.mesh.nodes[patch.nodes.front()]});
     }
     return result;
   }

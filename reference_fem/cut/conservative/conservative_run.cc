@@ -60,6 +60,7 @@ namespace meltfront::reference_fem::cut::conservative
     StageResult first, second;
     std::vector<double> powers;
     int unknowns = 0;
+    bool limited = false; ///< a pass was cut
   };
 
   ConservativeRun::ConservativeRun(const cases::Scene &scene,
@@ -75,6 +76,7 @@ namespace meltfront::reference_fem::cut::conservative
                {options.stabilisation.penalty, options.stabilisation.ghost})
     , bounds(cases::temperature_bounds(scene))
     , breakpoints(cases::breakpoints_of(scene))
+    , appearance(mesh, scene, reach_of_distance * mesh.spacing)
     , time(scene.start_time)
   {
     start();
@@ -119,7 +121,7 @@ namespace meltfront::reference_fem::cut::conservative
     return step > rest / 2 ? rest / 2 : step;
   }
 
-  /** @return false if the front would move too far */
+  /** @return false if the front moves too far */
   bool ConservativeRun::attempt(double duration, double end, Step &step)
   {
     const StepFrame frame(mesh, state.level_set, Constants().smoothing);
@@ -159,8 +161,8 @@ namespace meltfront::reference_fem::cut::conservative
       for(const unsigned int node : cut.place->nodes)
         farthest = std::max(farthest, std::abs(step.second.increment[node]));
     front_speed = farthest / duration;
-    return farthest <= farthest_move * mesh.spacing && !step.first.limited
-           && !step.second.limited;
+    step.limited = step.first.limited || step.second.limited;
+    return farthest <= farthest_move * mesh.spacing;
   }
 
   void ConservativeRun::refuse_if_unresolved(const cases::NumericalError &error) const
@@ -194,7 +196,9 @@ namespace meltfront::reference_fem::cut::conservative
       try
       {
         const bool near = attempt(duration, end(), step);
-        if(near && (last_chance || !misses_a_phase(step)))
+        // However short the step, moves are cut where a debt is due that no area is left
+        // for: it stays debt.
+        if(near && (last_chance || (!step.limited && !misses_a_phase(step))))
           break;
         if(last_chance)
           throw std::runtime_error(fmt::format(
@@ -241,7 +245,16 @@ namespace meltfront::reference_fem::cut::conservative
     state.level_set = with_distances(mesh, Front(mesh, state.level_set), state.level_set,
                                      reach_of_distance * mesh.spacing);
     settle_hats();
+    const Values before = state.level_set;
     let_phases_appear();
+    // What appears is at the melting temperature.
+    for(std::size_t node = 0; node < before.size(); ++node)
+      if(before[node] * state.level_set[node] < 0)
+      {
+        const bool solid = state.level_set[node] < 0;
+        temperatures[solid ? 0 : 1][node]
+            = solid && !powers.empty() ? -sources.value(mesh.nodes[node], powers) : 0;
+      }
     check();
   }
 
@@ -250,7 +263,8 @@ namespace meltfront::reference_fem::cut::conservative
     const Front front(mesh, state.level_set);
     for(const Body &body : bodies(mesh, front, state.level_set))
     {
-      if(!(body.area < least_area * mesh.spacing * mesh.spacing))
+      if(!(body.area < least_area * mesh.spacing * mesh.spacing)
+         || lies_along_wall(appearance, body.nodes))
         continue;
       turn(mesh, front, body, latent_heat_of_volume(), state);
       ++turned_bodies;
@@ -287,9 +301,8 @@ namespace meltfront::reference_fem::cut::conservative
 
   void ConservativeRun::let_phases_appear()
   {
-    for(const Appearance &body : conservative::let_phases_appear(
-            mesh, scene.domain, latent_heat_of_volume(), tolerated_heat(),
-            reach_of_distance * mesh.spacing, state))
+    for(const Appearance &body :
+        conservative::let_phases_appear(appearance, tolerated_heat(), state))
     {
       ++appeared_bodies;
       begin_anew();
@@ -299,9 +312,9 @@ namespace meltfront::reference_fem::cut::conservative
     }
   }
 
-  /** Half of the overshoot that is allowed, as heat over the melting temperature by phase
-   * (J/m^3); infinite as long as all is of one temperature. */
-  std::array<double, 2> ConservativeRun::tolerated_heat() const
+  /** Half of the overshoot that is allowed (K); infinite as long as all is of one
+   * temperature. */
+  double ConservativeRun::tolerated_excess() const
   {
     double lowest = 0, highest = 0;
     for(const Values &values : temperatures)
@@ -310,14 +323,20 @@ namespace meltfront::reference_fem::cut::conservative
         lowest = std::min(lowest, value);
         highest = std::max(highest, value);
       }
-    const double melting
-        = scene.material.melting_temperature,
-        span = (std::isfinite(bounds.upper) ? bounds.upper - melting : highest)
-               - (std::isfinite(bounds.lower) ? bounds.lower - melting : lowest),
-        share = cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain),
-        half = span > 0 ? share * span / 2 : std::numeric_limits<double>::infinity();
-    return {half * scene.material.solid.volumetric_heat_capacity(),
-            half * scene.material.liquid.volumetric_heat_capacity()};
+    const double melting = scene.material.melting_temperature,
+                 span = (std::isfinite(bounds.upper) ? bounds.upper - melting : highest)
+                        - (std::isfinite(bounds.lower) ? bounds.lower - melting : lowest),
+                 share
+                 = cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain);
+    return span > 0 ? share * span / 2 : std::numeric_limits<double>::infinity();
+  }
+
+  /** The same as heat over the melting temperature by phase (J/m^3). */
+  std::array<double, 2> ConservativeRun::tolerated_heat() const
+  {
+    const double excess = tolerated_excess();
+    return {excess * scene.material.solid.volumetric_heat_capacity(),
+            excess * scene.material.liquid.volumetric_heat_capacity()};
   }
 
   /** Whether a phase that should have appeared within a step is beyond the melting
@@ -326,9 +345,10 @@ namespace meltfront::reference_fem::cut::conservative
   {
     constexpr double begins = 0.5;
     const std::array<double, 2> tolerated = tolerated_heat();
-    return largest_excess(mesh, tolerated, step.second.guess.level_set, step.second.heat)
+    return largest_excess(appearance, tolerated, step.second.guess.level_set,
+                          step.second.heat)
                > 1
-           && largest_excess(mesh, tolerated, state.level_set, state.heat) < begins;
+           && largest_excess(appearance, tolerated, state.level_set, state.heat) < begins;
   }
 
   /** A state whose heat varies from hat to hat: the next step is as long as heat takes to
@@ -381,7 +401,8 @@ namespace meltfront::reference_fem::cut::conservative
     }
   }
 
-  void ConservativeRun::check() const
+  /** Lowest and highest temperature at nodes of the phases (K). */
+  std::pair<double, double> ConservativeRun::extremes() const
   {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
@@ -398,6 +419,12 @@ namespace meltfront::reference_fem::cut::conservative
           lowest = std::min(lowest, value);
           highest = std::max(highest, value);
         }
+    return {lowest, highest};
+  }
+
+  void ConservativeRun::check() const
+  {
+    const auto [lowest, highest] = extremes();
     cases::require_sinks(scene, time, method_name);
     cases::check_temperature(
         bounds, lowest, highest, method_name, step_number, time,

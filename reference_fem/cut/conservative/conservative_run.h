@@ -5,6 +5,7 @@
 #include <cases/exact/front_start.h>
 #include <cases/run.h>
 #include <cases/scene.h>
+#include <reference_fem/cut/conservative/appearance.h>
 #include <reference_fem/cut/conservative/enthalpy_start.h>
 #include <reference_fem/cut/conservative/stage.h>
 #include <reference_fem/cut/options.h>
@@ -15,6 +16,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace meltfront::reference_fem::cut::conservative
@@ -41,6 +43,9 @@ namespace meltfront::reference_fem::cut::conservative
     // In conservative_start.cc:
     void start();
     void start_from(const cases::FrontStart &found);
+    void settle_temperatures();
+    double fastest_diffusivity() const;
+    bool wall_jumps(const cases::FrontStart &found) const;
     void run_enthalpy();
     void take_over(const cases::Snapshot &snapshot);
     void take_over_temperatures(const cases::Snapshot &snapshot);
@@ -61,11 +66,13 @@ namespace meltfront::reference_fem::cut::conservative
     void turn_small_bodies();
     void restore_slopes();
     void let_phases_appear();
+    double tolerated_excess() const;
     std::array<double, 2> tolerated_heat() const;
     bool misses_a_phase(const Step &step) const;
     void begin_anew();
     std::string why_last_body_is_lost() const;
     void settle_hats();
+    std::pair<double, double> extremes() const;
     void check() const;
     double latent_heat_of_volume() const;
     double domain_area() const;
@@ -89,6 +96,7 @@ namespace meltfront::reference_fem::cut::conservative
     PhaseAssembly assembly;
     const cases::TemperatureBounds bounds;
     const std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
+    const AppearanceSetting appearance;
     std::string start_in_words;
 
     std::optional<EnthalpyStart> before; ///< what the run starts with, if it needs it

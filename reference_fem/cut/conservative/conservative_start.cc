@@ -22,12 +22,13 @@ namespace meltfront::reference_fem::cut::conservative
                      least_depth_of_node = 2.5 - 1 / std::numbers::sqrt2;
 
     /** Of the time in which temperatures even out across a spacing. */
-    constexpr double share_of_projection = 0.04;
+    constexpr double share_of_projection = 0.04, farthest_spread = 4;
   } // namespace
 
   /** From the scene's front, or from the enthalpy method where it has none. */
   void ConservativeRun::start()
   {
+    std::optional<cases::FrontStart> found;
     if(options.start != StartFrom::enthalpy)
     {
       const double seed = options.seed_cells * mesh.spacing;
@@ -35,7 +36,6 @@ namespace meltfront::reference_fem::cut::conservative
       for(const cases::Side side : scene.sides())
         if(scene.boundary(side).exact)
           rule.exempt_walls.push_back(side);
-      std::optional<cases::FrontStart> found;
       try
       {
         found = cases::find_front_start(scene, rule);
@@ -45,19 +45,46 @@ namespace meltfront::reference_fem::cut::conservative
         if(options.start == StartFrom::scene)
           throw;
       }
-      if(found)
+      if(found && (options.start == StartFrom::scene || !wall_jumps(*found)))
       {
         start_from(*found);
         return;
       }
     }
+    Values at_start;
+    if(found)
+      for(const Point &node : mesh.nodes)
+        at_start.push_back(found->level_set(position(node)));
     before.emplace(scene, effects, resolution, mesh,
-                   EnthalpyStartOptions{options.start_depth, options.start_refinement});
+                   EnthalpyStartOptions{options.start_depth, options.start_refinement},
+                   std::move(at_start));
     start_in_words = fmt::format(
         "fem-enthalpy with {} cells along the side until {:.6g} s, the new phase {:.2g} "
         "to {:.2g} cells deep",
         before->cells, before->time, before->least_depth, before->most_depth);
     unknowns = static_cast<long>(mesh.nodes.size());
+  }
+
+  /** Whether a wall is held, at the start, beyond the melting temperature of the phase
+   * that lies at it, by more than temperatures may overshoot: a layer is there at once.
+   */
+  bool ConservativeRun::wall_jumps(const cases::FrontStart &found) const
+  {
+    double largest = 0, farthest = 0;
+    for(const WallPiece &wall : mesh.walls)
+    {
+      const cases::Boundary &boundary = scene.boundary(wall.side);
+      if(boundary.kind != cases::BoundaryKind::fixed_temperature || boundary.exact)
+        continue;
+      const cases::Position place
+          = position(wall.segment.begin + (wall.segment.end - wall.segment.begin) / 2);
+      const double excess
+          = boundary.value(place, scene.start_time) - scene.material.melting_temperature;
+      largest = std::max(largest, std::abs(excess));
+      farthest = std::max(farthest, found.level_set(place) < 0 ? excess : -excess);
+    }
+    return farthest > cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain)
+                          * largest;
   }
 
   /** The enthalpy method's steps up to the time at which it hands over. */
@@ -105,9 +132,33 @@ namespace meltfront::reference_fem::cut::conservative
     source_heat = snapshot.heat.sources;
     initial_heat = snapshot.heat.initial;
     begin_anew();
-    even_out(StepFrame(mesh, state.level_set, 1));
+    settle_temperatures();
     take_over_temperatures(snapshot);
     check();
+  }
+
+  /** Temperatures of the heat that was handed over. Hats of which little lies in a phase
+   * may hold more than temperatures within the bounds can: then heat is spread as far as
+   * it takes for them to keep to the bounds. */
+  void ConservativeRun::settle_temperatures()
+  {
+    const StepFrame frame(mesh, state.level_set, 1);
+    even_out(frame);
+    const double spacings = mesh.spacing * mesh.spacing / fastest_diffusivity();
+    const auto keeps_to_bounds = [&]
+    {
+      const auto [lowest, highest] = extremes();
+      const double tolerated = tolerated_excess();
+      return lowest >= bounds.lower - tolerated && highest <= bounds.upper + tolerated;
+    };
+    const std::array<Values, 2> handed_over = state.heat;
+    for(double share = 4 * share_of_projection;
+        share <= farthest_spread && !keeps_to_bounds(); share *= 4)
+    {
+      state.heat = handed_over;
+      temperatures = spread_heat(assembly, frame, {time, time, powers}, share * spacings,
+                                 state.heat);
+    }
   }
 
   /** Of the site that is nearest to a node, in the node's phase; at corners of triangles
@@ -190,11 +241,16 @@ namespace meltfront::reference_fem::cut::conservative
   /** Temperatures that the heat says. */
   void ConservativeRun::even_out(const StepFrame &frame)
   {
-    const double fastest = std::max(scene.material.solid.diffusivity(),
-                                    scene.material.liquid.diffusivity());
-    temperatures = temperatures_of(
-        assembly, frame, {time, time, powers},
-        share_of_projection * mesh.spacing * mesh.spacing / fastest, state.heat);
+    temperatures = temperatures_of(assembly, frame, {time, time, powers},
+                                   share_of_projection * mesh.spacing * mesh.spacing
+                                       / fastest_diffusivity(),
+                                   state.heat);
+  }
+
+  double ConservativeRun::fastest_diffusivity() const
+  {
+    return std::max(scene.material.solid.diffusivity(),
+                    scene.material.liquid.diffusivity());
   }
 
   /** Of the scene at nodes of each phase; those beyond its front, and where a source is,

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace meltfront::reference_fem::cut::conservative
 {
@@ -262,17 +263,18 @@ namespace meltfront::reference_fem::cut::conservative
       double least = 0, most = 0; ///< of the places where it is deepest around (m)
     };
 
-    /** How deep the phase is that there is less of. */
+    /** How deep a phase is where there was the other one at the start: the one that there
+     * is less of, if there was only one. */
     Depths depths(const TriangleMesh &mesh, const cases::Domain &domain,
                   const cases::Material &material, const cases::Snapshot &snapshot,
-                  double asked)
+                  const Values &at_start, double asked)
     {
       const HatContents contents = contents_of_hats(mesh, domain, material, snapshot);
       const double reach = (deep_somewhere + 1) * asked;
       const Values distance = distances_by_shares(mesh, contents, reach);
       const Front front(mesh, distance);
       Depths result;
-      const double sign = front.area(Phase::solid) < front.area(Phase::liquid) ? -1 : 1;
+      const double less = front.area(Phase::solid) < front.area(Phase::liquid) ? -1 : 1;
       // Nodes beyond a rim tell of no depth: where a layer begins, the front is there,
       // too.
       std::vector<char> inside(mesh.nodes.size(), false);
@@ -282,11 +284,10 @@ namespace meltfront::reference_fem::cut::conservative
       result.least = reach;
       for(unsigned int node = 0; node < mesh.nodes.size(); ++node)
       {
+        const double sign = at_start.empty() ? less : std::copysign(1., -at_start[node]);
         const double depth = sign * distance[node];
         if(!inside[node] || depth <= 0)
           continue;
-        result.present = true;
-        result.most = std::max(result.most, depth);
         bool rim = false;
         if(depth < asked)
           mesh.visit_nodes_near(mesh.nodes[node], near * asked,
@@ -297,8 +298,11 @@ namespace meltfront::reference_fem::cut::conservative
                                             && sign * distance[other]
                                                    > depth + deeper * mesh.spacing);
                                 });
-        if(!rim)
-          result.least = std::min(result.least, depth);
+        if(rim)
+          continue;
+        result.present = true;
+        result.least = std::min(result.least, depth);
+        result.most = std::max(result.most, depth);
       }
       return result;
     }
@@ -307,12 +311,13 @@ namespace meltfront::reference_fem::cut::conservative
   EnthalpyStart::EnthalpyStart(const cases::Scene &scene, const cases::EffectSet &effects,
                                const cases::Resolution &resolution,
                                const TriangleMesh &mesh,
-                               const EnthalpyStartOptions &options)
+                               const EnthalpyStartOptions &options, Values at_start)
     : scene(scene)
     , effects(effects)
     , resolution(resolution)
     , mesh(mesh)
     , options(options)
+    , at_start(std::move(at_start))
   {
     cells = options.refinement * resolution.n;
     // It meshes disks with powers of two only.
@@ -351,7 +356,8 @@ namespace meltfront::reference_fem::cut::conservative
     {
       if(found || snapshot.time == scene.start_time || snapshot.time == scene.end_time)
         return;
-      const Depths depth = depths(mesh, scene.domain, scene.material, snapshot, asked);
+      const Depths depth
+          = depths(mesh, scene.domain, scene.material, snapshot, at_start, asked);
       if(depth.present && !std::exchange(present, depth.present))
         appeared = before;
       before = snapshot.time;

@@ -54,9 +54,9 @@ namespace meltfront::reference_fem::cut::conservative
                             double latent_heat, double reach);
 
   /**
-   * The part of a run before its front is resolved, made by `fem-enthalpy` in the same
-   * domain: from the scene's start until the phase that there is less of is so many cells
-   * deep wherever it is, or three times as deep somewhere.
+   * The part of a run before its fronts are resolved, made by `fem-enthalpy` in the same
+   * domain: from the scene's start until what has changed its phase is so many cells deep
+   * wherever it is, or three times as deep somewhere.
    */
   class EnthalpyStart
   {
@@ -64,11 +64,13 @@ namespace meltfront::reference_fem::cut::conservative
     /**
      * Finds out when that is, by runs of `fem-enthalpy` whose ends are four times as late
      * each time.
+     * @param at_start the level set by node, where there are both phases at the start;
+     * else empty
      * @throws cases::Refusal where no front gets so deep before the scene's end
      */
     EnthalpyStart(const cases::Scene &scene, const cases::EffectSet &effects,
                   const cases::Resolution &resolution, const TriangleMesh &mesh,
-                  const EnthalpyStartOptions &options);
+                  const EnthalpyStartOptions &options, Values at_start);
 
     /** Run up to that time, calling visit() for every state, the last one included.
      * @return what it cost */
@@ -90,6 +92,7 @@ namespace meltfront::reference_fem::cut::conservative
     const cases::Resolution &resolution;
     const TriangleMesh &mesh;
     const EnthalpyStartOptions options;
+    const Values at_start;
     long steps = 0;
   };
 } // namespace meltfront::reference_fem::cut::conservative

@@ -89,29 +89,35 @@ namespace meltfront::reference_fem::cut::conservative
     constexpr int most_halvings = 6;
     constexpr double negligible = 1e-9; ///< spacings: round-off tells the slope
     const Values begin = increment;
-    double longest = 0;
-    for(const int unknown : frame.displacement)
-      if(unknown >= 0)
-        longest = std::max(longest, std::abs(solution[unknown]));
     largest = largest_at_front(solution);
-    limited = limited || longest > mesh.spacing;
+    limited = limited || largest > mesh.spacing;
+    const double whole = std::min(1., mesh.spacing / largest);
+    // Nodes that no front is near follow hats' debts that no area is left for: however
+    // far.
+    Values displacement(begin.size());
+    double longest = 0;
+    for(std::size_t node = 0; node < displacement.size(); ++node)
+      if(const int unknown = frame.displacement[node]; unknown >= 0)
+      {
+        displacement[node]
+            = std::clamp(whole * solution[unknown], -mesh.spacing, mesh.spacing);
+        longest = std::max(longest, std::abs(displacement[node]));
+      }
     const auto slope = [&]
     {
       double sum = 0;
       for(std::size_t node = 0; node < debt.size(); ++node)
-        if(const int unknown = frame.displacement[node]; unknown >= 0)
-          sum += debt[node] * solution[unknown];
+        sum += debt[node] * displacement[node];
       return sum;
     };
     debt = conservative::debt(frame, *front, change, begin);
     const double fall = std::abs(slope());
-    double share = std::min(1., mesh.spacing / longest);
+    double share = 1;
     for(int halvings = 0;; ++halvings)
     {
       Values next = begin;
       for(std::size_t node = 0; node < next.size(); ++node)
-        if(const int unknown = frame.displacement[node]; unknown >= 0)
-          next[node] += share * solution[unknown];
+        next[node] += share * displacement[node];
       go_to(next, change);
       if(halvings == most_halvings || longest < negligible * mesh.spacing
          || slope() <= steepest_rise * fall)

@@ -56,7 +56,7 @@ namespace meltfront::reference_fem::cut::conservative
     std::optional<Front> front; ///< after it
     Values debt;                ///< what the law is off by there, by hat (m^2)
     double largest;             ///< of the last displacement, at a cut triangle (m)
-    bool limited = false;       ///< a displacement was longer than a spacing
+    bool limited = false;       ///< one there was longer than a spacing
 
   private:
     void go_to(const Values &increment, const Values &change);

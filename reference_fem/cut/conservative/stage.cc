@@ -206,30 +206,83 @@ namespace meltfront::reference_fem::cut::conservative
     return result;
   }
 
+  namespace
+  {
+    /** Temperatures after an implicit step of conduction alone. */
+    class EvenOut
+    {
+    public:
+      EvenOut(PhaseAssembly &assembly, const StepFrame &frame, const StageTime &time,
+              double duration)
+        : frame(frame)
+        , duration(duration)
+      {
+        const std::size_t nodes = frame.level_set.size();
+        const Guess nothing{{Values(nodes), Values(nodes)}, {}, {}, {}};
+        for(const Phase phase : phases)
+          operators.push_back(
+              assembly.assemble(phase, frame, frame.front, time, nothing, false));
+      }
+
+      /** What holds given heat, by phase and hat, with or without flux at the front. */
+      LocalVector solve(const std::array<Values, 2> &heat, bool with_front) const
+      {
+        std::vector<Eigen::Triplet<double>> entries;
+        LocalVector load = LocalVector::Zero(frame.unknowns);
+        for(const Phase phase : phases)
+        {
+          const PhaseOperators &terms = operators[index(phase)];
+          const std::vector<int> &rows = frame.temperature[index(phase)];
+          append(terms.mass, 1, rows, entries);
+          append(terms.interior, -duration, rows, entries);
+          if(with_front)
+            append(terms.front, -duration, rows, entries);
+          for(std::size_t node = 0; node < rows.size(); ++node)
+            if(rows[node] >= 0)
+              load[rows[node]] = heat[index(phase)][node]
+                                 + (with_front ? duration * terms.front.constant[node]
+                                                     - terms.mass.constant[node]
+                                               : 0);
+        }
+        for(const int row : frame.displacement)
+          if(row >= 0)
+            entries.emplace_back(row, row, 1.);
+        return conservative::solve(frame.unknowns, entries, load);
+      }
+
+      std::array<Values, 2> heat(const LocalVector &solution) const
+      {
+        return {operators[0].mass.apply(solution), operators[1].mass.apply(solution)};
+      }
+
+    private:
+      const StepFrame &frame;
+      const double duration;
+      std::vector<PhaseOperators> operators; ///< by Phase
+    };
+  } // namespace
+
   Temperatures temperatures_of(PhaseAssembly &assembly, const StepFrame &frame,
                                const StageTime &time, double duration,
                                const std::array<Values, 2> &heat)
   {
-    const std::size_t nodes = frame.level_set.size();
-    const Guess nothing{{Values(nodes), Values(nodes)}, {}, {}, {}};
-    std::vector<Eigen::Triplet<double>> entries;
-    LocalVector load = LocalVector::Zero(frame.unknowns);
-    for(const Phase phase : phases)
-    {
-      const PhaseOperators terms
-          = assembly.assemble(phase, frame, frame.front, time, nothing, false);
-      const std::vector<int> &rows = frame.temperature[index(phase)];
-      append(terms.mass, 1, rows, entries);
-      append(terms.interior, -duration, rows, entries);
-      append(terms.front, -duration, rows, entries);
-      for(std::size_t node = 0; node < nodes; ++node)
-        if(rows[node] >= 0)
-          load[rows[node]] = heat[index(phase)][node] - terms.mass.constant[node]
-                             + duration * terms.front.constant[node];
-    }
-    for(const int row : frame.displacement)
-      if(row >= 0)
-        entries.emplace_back(row, row, 1.);
-    return temperatures(frame, solve(frame.unknowns, entries, load));
+    const EvenOut even_out(assembly, frame, time, duration);
+    return temperatures(frame, even_out.solve(heat, true));
+  }
+
+  Temperatures spread_heat(PhaseAssembly &assembly, const StepFrame &frame,
+                           const StageTime &time, double duration,
+                           std::array<Values, 2> &heat)
+  {
+    const EvenOut even_out(assembly, frame, time, duration);
+    LocalVector solution = even_out.solve(heat, true);
+    std::array<Values, 2> left = even_out.heat(solution);
+    for(std::size_t p = 0; p < 2; ++p)
+      for(std::size_t node = 0; node < heat[p].size(); ++node)
+        left[p][node]
+            = frame.temperature[p][node] < 0 ? 0 : heat[p][node] - left[p][node];
+    solution += even_out.solve(left, false);
+    heat = even_out.heat(solution);
+    return temperatures(frame, solution);
   }
 } // namespace meltfront::reference_fem::cut::conservative

@@ -62,6 +62,13 @@ namespace meltfront::reference_fem::cut::conservative
   Temperatures temperatures_of(PhaseAssembly &assembly, const StepFrame &frame,
                                const StageTime &time, double duration,
                                const std::array<Values, 2> &heat);
+
+  /** The same, and makes them what the hats hold: what has left a phase through its front
+   * in that step is spread over the phase by another one without a front. Every phase
+   * keeps its heat to round-off. */
+  Temperatures spread_heat(PhaseAssembly &assembly, const StepFrame &frame,
+                           const StageTime &time, double duration,
+                           std::array<Values, 2> &heat);
 } // namespace meltfront::reference_fem::cut::conservative
 
 #endif

@@ -20,6 +20,8 @@ namespace meltfront::reference_fem::tests
 
     constexpr double round_off = 1e-11;
 
+    constexpr double reach_of_layers = 0.6;
+
     Material material_of_starts()
     {
       Material material = normalised_material();
@@ -119,27 +121,35 @@ namespace meltfront::reference_fem::tests
       EXPECT_LE(course.worst_budget_defect(), round_off);
     }
 
+    cut::conservative::AppearanceSetting
+    setting(const Scene &scene, const cut::conservative::TriangleMesh &mesh)
+    {
+      return {mesh, scene, reach_of_layers};
+    }
+
     TEST(Appearance, AThinLayerAppearsWhereMoreIsBeyondMeltingThanTolerated)
     {
       using namespace cut::conservative;
-      constexpr double latent_heat = 2, reach = 0.6;
-      const Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {3, 1, 0}, 0, 1);
+      constexpr double latent_heat = 2;
+      Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {3, 1, 0}, 0, 1);
+      scene.material.latent_heat = latent_heat;
       const TriangleMesh mesh(scene.domain, 30);
       using cut::Values;
       const Values nothing(mesh.nodes.size());
-      FrontState state{Values(mesh.nodes.size(), reach), {nothing, nothing}, nothing};
+      FrontState state{
+          Values(mesh.nodes.size(), reach_of_layers), {nothing, nothing}, nothing};
       // A hundredth of a spacing of ice, in the row at y = 0.
       for(std::size_t node = 0; node < mesh.nodes.size(); ++node)
         if(mesh.nodes[node][1] < 0.05)
           state.heat[1][node] = -latent_heat * 0.1 * 0.001;
-      const double excess = largest_excess(mesh, {1, 1}, state.level_set, state.heat);
+      const double excess
+          = largest_excess(setting(scene, mesh), {1, 1}, state.level_set, state.heat);
       // Of the hat in a corner, a sixth of a square.
       EXPECT_NEAR(excess, latent_heat * 0.1 * 0.001 / (0.01 / 6), 1e-12);
       const auto appear = [&](double tolerated)
       {
         FrontState copy = state;
-        return let_phases_appear(mesh, scene.domain, latent_heat, {tolerated, tolerated},
-                                 reach, copy)
+        return let_phases_appear(setting(scene, mesh), {tolerated, tolerated}, copy)
             .size();
       };
       EXPECT_EQ(appear(3 * excess), 0u);
@@ -150,19 +160,20 @@ namespace meltfront::reference_fem::tests
     {
       using namespace cut::conservative;
       constexpr int n = 10;
-      constexpr double latent_heat = 2, reach = 0.6;
-      const Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {1, 1, 0}, 0, 1);
+      constexpr double latent_heat = 2;
+      Scene scene = box(material_of_starts(), 2, {0, 0, 0}, {1, 1, 0}, 0, 1);
+      scene.material.latent_heat = latent_heat;
       const TriangleMesh mesh(scene.domain, n);
       using cut::Values;
       const Values nothing(mesh.nodes.size());
-      FrontState state{Values(mesh.nodes.size(), reach), {nothing, nothing}, nothing};
+      FrontState state{
+          Values(mesh.nodes.size(), reach_of_layers), {nothing, nothing}, nothing};
       // A third of a spacing of ice, by heat, in the two rows at y = 0.
       for(std::size_t node = 0; node < mesh.nodes.size(); ++node)
         if(const double y = mesh.nodes[node][1]; y < 0.15)
           state.heat[1][node] = -latent_heat * 0.1 * (y < 0.05 ? 0.02 : 0.013);
       const double before = sum(state.heat[1]);
-      const auto appeared
-          = let_phases_appear(mesh, scene.domain, latent_heat, {1, 1}, reach, state);
+      const auto appeared = let_phases_appear(setting(scene, mesh), {1, 1}, state);
       ASSERT_EQ(appeared.size(), 1u);
       const Front front(mesh, state.level_set);
       // As thick as the heat says but for a twentieth of a cell, which is debt.

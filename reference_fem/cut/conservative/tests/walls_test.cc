@@ -1,0 +1,92 @@
+#include <reference_fem/cut/tests/cut_support.h>
+#include <reference_fem/enthalpy/enthalpy.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace meltfront::reference_fem::tests
+{
+  namespace
+  {
+    using namespace cases;
+
+    Material material_between_walls()
+    {
+      Material material = normalised_material();
+      material.melting_temperature = 0;
+      material.latent_heat = 1.4;
+      material.solid.conductivity = 2;
+      material.solid.specific_heat_capacity = 0.7;
+      material.liquid.specific_heat_capacity = 1.3;
+      return material;
+    }
+
+    /** Solid and liquid side by side in a box, at the melting temperature where they
+     * meet.
+     */
+    Scene two_phases(double end)
+    {
+      Scene scene = box(material_between_walls(), 2, {0, 0, 0}, {1, 1.2, 0}, 0, end);
+      scene.initial.temperature = {"oblique",
+                                   [](const Position &p, double)
+                                   {
+                                     const double value = p[0] + 0.1 * p[1] - 0.5;
+                                     return value < 0 ? 0.3 * value : 0.5 * value;
+                                   },
+                                   false};
+      return scene;
+    }
+
+    void hold_wall(Scene &scene, Side side, double temperature)
+    {
+      set_boundary(scene, side,
+                   {.kind = BoundaryKind::fixed_temperature,
+                    .value = Field::uniform(temperature)});
+    }
+
+    void exchange(Scene &scene, Side side, double coefficient, double ambient)
+    {
+      set_boundary(scene, side,
+                   {.kind = BoundaryKind::heat_transfer,
+                    .value = Field::uniform(ambient),
+                    .heat_transfer_coefficient = coefficient});
+    }
+
+    /** Held against the enthalpy method on cells of a third of the size. */
+    void expect_agreement(const Scene &scene, int n, double share_of_domain)
+    {
+      const Course sharp = run_cut(scene, n, {{"scheme", "conservative"}});
+      const Course enthalpy = course_of(*make_fem_enthalpy(), scene, 3 * n);
+      EXPECT_LE(sharp.worst_budget_defect(), 1e-11);
+      EXPECT_NEAR(sharp.solid.back(), enthalpy.solid.back(), share_of_domain * 1.2)
+          << "n = " << n;
+      EXPECT_GT(std::abs(enthalpy.solid.back() - enthalpy.solid.front()), 0.02 * 1.2);
+    }
+
+    TEST(Walls, AHeldWallThatBothPhasesLieAtJumps)
+    {
+      Scene scene = two_phases(0.05);
+      hold_wall(scene, Side::y_min, -1);
+      for(const int n : {20, 30})
+        expect_agreement(scene, n, 2e-3);
+    }
+
+    TEST(Walls, ALayerRunsFromAFrontAlongAWallThatExchangesHeat)
+    {
+      Scene scene = two_phases(0.1);
+      exchange(scene, Side::y_min, 9.5, 0.75);
+      for(const int n : {20, 30})
+        expect_agreement(scene, n, 2e-3);
+    }
+
+    TEST(Walls, ALayerOnOneWallMakesNoFrontOnAnother)
+    {
+      Scene scene = box(material_between_walls(), 2, {0, 0, 0}, {1, 1.2, 0}, 0.25, 0.1);
+      hold_wall(scene, Side::x_min, -1);
+      exchange(scene, Side::y_min, 6, -1.3);
+      for(const int n : {24, 32})
+        expect_agreement(scene, n, 2e-3);
+    }
+  } // namespace
+} // namespace meltfront::reference_fem::tests
