@@ -211,6 +211,9 @@ TEST(ErrorBar, KnowsTheSchemeOfARun)
   run.description.dimension = 2;
   EXPECT_EQ(bar_constants(run).order_in_time, 1);
   EXPECT_EQ(bar_constants(run).front.factor, 1.5);
+  EXPECT_EQ(bar_constants(run).front.order, 1.5);
+  run.description.parameters = {{"start", "sph with 80 particles along the side", ""}};
+  EXPECT_EQ(bar_constants(run).front.order, 1);
   run.method = "a method of tomorrow";
   EXPECT_EQ(bar_constants(run).front.factor, 2.5);
 }
