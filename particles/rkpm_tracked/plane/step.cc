@@ -8,6 +8,13 @@
 
 namespace meltfront::particles::rkpm_tracked
 {
+  namespace
+  {
+    /** Spacings beyond a wall from which on particles stay where they are: the curve goes
+     * round the solid there and is no front. */
+    constexpr double stays_beyond = 3;
+  } // namespace
+
   /** A phase's value enters the row in progress. */
   void PlaneHeat::add(NodePhase phase, std::uint32_t column, double weight)
   {
@@ -352,7 +359,8 @@ namespace meltfront::particles::rkpm_tracked
     state.expansion_bins = PlaneBins(state.expanded_about, nodes.spacing);
   }
 
-  /** Particles beyond the walls follow the nearest ones within. */
+  /** Particles beyond the walls follow the nearest ones within, up to two spacings
+   * beyond; from there on they fall behind. */
   void PlaneHeat::extrapolate_inactive(PlaneState &state) const
   {
     PlaneFront &front = state.front;
@@ -373,7 +381,11 @@ namespace meltfront::particles::rkpm_tracked
       }
       if(nearest == p)
         continue;
-      front.speed[p] = front.speed[nearest];
+      front.speed[p]
+          = std::clamp(stays_beyond
+                           + nodes.wall_distance(front.position[p]) / nodes.spacing,
+                       0., 1.)
+            * front.speed[nearest];
       for(FrontExpansion &expansion : state.expansion)
       {
         const PlanePoint way = state.expanded_about[p] - state.expanded_about[nearest];

@@ -2,6 +2,7 @@
 
 #include <cases/error.h>
 #include <cases/exact/line_sink.h>
+#include <cases/exact/planar_neumann.h>
 
 #include <gtest/gtest.h>
 
@@ -115,6 +116,30 @@ namespace
                     1e-9);
       EXPECT_GT(record.frames.size(), 10);
     }
+  }
+
+  TEST(PlaneRun, FrontPassesFarAlongInsulatedWalls)
+  {
+    // 12 spacings, three times as far as the solid's curve goes round beyond
+    // the walls.
+    const cases::Material material;
+    const cases::PlanarNeumann exact(material, 1, -0.2);
+    const auto time_of
+        = [&](double front) { return std::pow(front / (2 * exact.lambda()), 2); };
+    cases::Scene scene = box(material, 2, {0, 0, 0}, {1, 0.2, 0}, 0, time_of(0.8));
+    scene.start_time = time_of(0.2);
+    const double start = scene.start_time;
+    scene.initial.front = field_of([](const auto &p) { return 0.2 - p[0]; });
+    scene.initial.temperature
+        = field_of([&](const auto &p) { return exact.temperature(p[0], start); });
+    for(const auto &[side, place] :
+        {std::pair{cases::Side::x_min, 0.}, std::pair{cases::Side::x_max, 1.}})
+      set_boundary(scene, side,
+                   varying_wall([&exact, place](double time)
+                                { return exact.temperature(place, time); }));
+    const PlaneRecord record = run_plane(scene, 20);
+    EXPECT_NEAR(record.frames.back().solid_area, 0.2 * 0.2, 5e-3 * 0.2);
+    EXPECT_GE(record.frames.back().coldest, -0.2);
   }
 
   TEST(PlaneRun, FrontTurnsBack)
