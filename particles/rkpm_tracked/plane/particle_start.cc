@@ -33,6 +33,10 @@ namespace meltfront::particles::rkpm_tracked
      * the rim of a body and not its depth; and by how many spacings deeper. */
     constexpr double beside = 1.5, deeper = 0.5;
 
+    /** Times as many particles as were asked for that are taken so that a lattice of them
+     * fills a box. */
+    constexpr int most_for_lattice = 2;
+
     class Watch : public cases::Observer
     {
     public:
@@ -134,7 +138,8 @@ namespace meltfront::particles::rkpm_tracked
     }
   }
 
-  /** So many particles that a lattice of them fills the domain. */
+  /** So many particles that a lattice of them fills the domain.
+   * @throws cases::Refusal where that takes many more than are wanted */
   int ParticleStart::along_side(int refinement) const
   {
     const int step = scene.domain.shape == cases::DomainShape::box
@@ -142,7 +147,14 @@ namespace meltfront::particles::rkpm_tracked
                          : 1;
     const int wanted
         = refinement * static_cast<int>(std::lround(scene.domain.side() / nodes.spacing));
-    return (wanted + step - 1) / step * step;
+    const int fitting = (wanted + step - 1) / step * step;
+    if(fitting > most_for_lattice * wanted)
+      throw cases::Refusal(fmt::format(
+          "{} starts from sph where one phase fills the domain, and a lattice of "
+          "particles "
+          "fills a box with these sides from n = {} on: give them a rounder ratio",
+          method_name, step));
+    return fitting;
   }
 
   /** @return whether the front is deep enough before an end */
