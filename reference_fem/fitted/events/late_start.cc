@@ -333,13 +333,15 @@ namespace meltfront::reference_fem::fitted
       const bool balances = std::ranges::none_of(layers, [](const LateLayer &layer)
                                                  { return layer.held; })
                             && std::ranges::none_of(passings, &WallPassing::at_once);
-      if(balances && !seed.balance())
+      const bool balanced = !balances || seed.balance();
+      if(!balanced || !tells(setting, seed.layers))
       {
         // What a new mesh rounds the state by counts less in a wider seed.
         if(longer * tau <= latest)
           continue;
-        refuse(
-            "no place of it balances the heat of its cells there; more cells would help");
+        refuse(balanced ? too_thin
+                        : "no place of it balances the heat of its cells there; more "
+                          "cells would help");
       }
       RunSegment result;
       result.problem = seed.problem;

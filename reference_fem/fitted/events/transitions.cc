@@ -90,33 +90,39 @@ namespace meltfront::reference_fem::fitted
   }
 
   RunSegment refined_stretch(const EventScene &setting, const RunSegment &segment,
-                             const bool inner, const double soon)
+                             const bool passing_inner, const double soon)
   {
     const RayMesh &mesh = segment.problem->mesh();
-    const unsigned int interval = inner ? 0 : mesh.n_fronts();
-    const Phase &phase = segment.problem->phase(interval);
-    const double length
-        = room_at_wall(setting, layers_of(segment, segment.time, segment.state), inner);
-    std::vector<std::vector<double>> shares = mesh.shares;
-    shares[interval]
-        = halved_towards(shares[interval], inner ? 0 : 1,
-                         std::sqrt(phase.conductivity / phase.capacity * soon)
-                             / (cells_in_layer * length));
-    RunSegment result
-        = on_finer_mesh(setting, segment, shares, Clock{true, segment.time});
-    const Physics &physics = result.problem->physics();
-    const double early = std::min(physics.clock.clock(segment.time + 2 * soon),
-                                  physics.clock.clock(setting.scene.end_time));
-    const double end = physics.clock.clock(setting.scene.end_time);
+    const LayeredState layers = layers_of(segment, segment.time, segment.state);
+    const std::array<cases::WallLayer, 2> forms = layers_at_walls(setting, layers);
+    const Clock clock{true, segment.time};
+    const double end = clock.clock(setting.scene.end_time),
+                 early = std::min(clock.clock(segment.time + 2 * soon), end);
     const int steps = steps_for(setting, segment.time);
-    result.steps = {{early, early / std::max(steps_to_passing, steps / 2)}};
+    const StepRange to_passing{early, early / std::max(steps_to_passing, steps / 2)};
+    std::vector<std::vector<double>> shares = mesh.shares;
+    for(const bool inner : {true, false})
+    {
+      const bool passes = inner == passing_inner;
+      if(!passes && !forms[inner ? 0 : 1].forms())
+        continue;
+      const unsigned int interval = inner ? 0 : mesh.n_fronts();
+      const Phase &phase = segment.problem->phase(interval);
+      const double time = passes ? soon : clock.time(to_passing.step) - segment.time;
+      shares[interval]
+          = halved_towards(shares[interval], inner ? 0 : 1,
+                           std::sqrt(phase.conductivity / phase.capacity * time)
+                               / (cells_in_layer * room_at_wall(setting, layers, inner)));
+    }
+    RunSegment result = on_finer_mesh(setting, segment, shares, clock);
+    result.steps = {to_passing};
     if(early < end)
       for(const StepRange &range : lengthening_steps(early, end, steps, growth_of_steps))
         result.steps.push_back(range);
     result.event
         = {segment.time, fmt::format("cells and steps are drawn to the wall {}, which is "
                                      "about to pass the melting temperature",
-                                     to_string(side_at(setting.scene, inner)))};
+                                     to_string(side_at(setting.scene, passing_inner)))};
     return result;
   }
 

@@ -12,10 +12,11 @@ namespace meltfront::reference_fem::fitted
    * A segment anew from its state, for a wall that passes the melting temperature @p soon
    * (s) afterwards: cells halved towards that wall down to the thermal layer's width, so
    * that they hold the same state, and steps equal in the root of time of which twenty or
-   * more lead to the passing.
+   * more lead to the passing. A layer of heat that forms at the other wall at that moment
+   * has cells for these steps, too.
    */
   RunSegment refined_stretch(const EventScene &setting, const RunSegment &segment,
-                             bool inner, double soon);
+                             bool passing_inner, double soon);
 
   /** A segment anew from its state on cells that are halved towards walls where layers of
    * heat form at that moment, with steps that are equal in the root of time. */

@@ -353,5 +353,20 @@ namespace meltfront::verification::tests
       }
       EXPECT_LE(refused, (to - from) / 10);
     }
+
+    // One wall jumps as the other is about to pass the melting temperature: steps to that
+    // are short, and cells at the jump are to hold them.
+    TEST(RandomSlabs, AJumpHasCellsForTheStepsOfTheOtherWall)
+    {
+      const cases::Scene scene = random_slab(270);
+      EXPECT_NEAR(run(scene, 40).solid.back(),
+                  course_of(*make_fem_enthalpy(), scene, 400).solid.back(), 2e-3);
+    }
+
+    // A layer as thick as rounding would balance the heat.
+    TEST(RandomSlabs, ASeedThatItsWallHidesIsRefused)
+    {
+      EXPECT_THROW(run(random_slab(885), 12), cases::Refusal);
+    }
   } // namespace
 } // namespace meltfront::verification::tests
