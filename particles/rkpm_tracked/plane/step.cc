@@ -10,8 +10,8 @@ namespace meltfront::particles::rkpm_tracked
 {
   namespace
   {
-    /** Spacings beyond a wall from which on particles stay where they are: the curve goes
-     * round the solid there and is no front. */
+    /** Spacings beyond a wall from which on particles of melting fronts stay where they
+     * are: the curve goes round the solid there and is no front. */
     constexpr double stays_beyond = 3;
   } // namespace
 
@@ -359,8 +359,8 @@ namespace meltfront::particles::rkpm_tracked
     state.expansion_bins = PlaneBins(state.expanded_about, nodes.spacing);
   }
 
-  /** Particles beyond the walls follow the nearest ones within, up to two spacings
-   * beyond; from there on they fall behind. */
+  /** Particles beyond the walls follow the nearest ones within; where solid melts, those
+   * that go round it stay, as they would come into the domain. */
   void PlaneHeat::extrapolate_inactive(PlaneState &state) const
   {
     PlaneFront &front = state.front;
@@ -381,11 +381,10 @@ namespace meltfront::particles::rkpm_tracked
       }
       if(nearest == p)
         continue;
+      const double speed = front.speed[nearest],
+                   beyond = -nodes.wall_distance(front.position[p]) / nodes.spacing;
       front.speed[p]
-          = std::clamp(stays_beyond
-                           + nodes.wall_distance(front.position[p]) / nodes.spacing,
-                       0., 1.)
-            * front.speed[nearest];
+          = speed > 0 ? std::clamp(stays_beyond - beyond, 0., 1.) * speed : speed;
       for(FrontExpansion &expansion : state.expansion)
       {
         const PlanePoint way = state.expanded_about[p] - state.expanded_about[nearest];
