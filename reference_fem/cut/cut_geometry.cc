@@ -115,7 +115,7 @@ namespace meltfront::reference_fem::cut
   {
     for(const Phase phase : phases)
     {
-      double &area = areas[static_cast<std::size_t>(phase)];
+      double &area = areas[index(phase)];
       for(unsigned int cell = 0; cell < mesh.cells.size(); ++cell)
         if(is(location[cell], phase) && mesh.place[cell] == Place::inside)
           area += mesh.cells[cell].volume();

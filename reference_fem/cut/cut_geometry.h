@@ -15,6 +15,12 @@ namespace meltfront::reference_fem::cut
   };
   inline constexpr std::array<Phase, 2> phases{Phase::solid, Phase::liquid};
 
+  /** Where a phase stands in arrays by phase. */
+  constexpr std::size_t index(Phase phase)
+  {
+    return static_cast<std::size_t>(phase);
+  }
+
   /** Where a cell lies with respect to the front. */
   enum class Location : char
   {
@@ -58,13 +64,13 @@ namespace meltfront::reference_fem::cut
 
     bool has(Phase phase) const
     {
-      return areas[static_cast<std::size_t>(phase)] > 0;
+      return areas[index(phase)] > 0;
     }
 
     /** m^2 */
     double area(Phase phase) const
     {
-      return areas[static_cast<std::size_t>(phase)];
+      return areas[index(phase)];
     }
 
     /** Call visit(cell, points) for the part of every cell that lies in a phase, but for
@@ -73,7 +79,7 @@ namespace meltfront::reference_fem::cut
     void visit_parts(const BackgroundMesh &mesh, Phase phase, const Visit &visit) const
     {
       for(const CutCell &cut : cut_cells)
-        visit(cut.cell, cut.volume[static_cast<std::size_t>(phase)]);
+        visit(cut.cell, cut.volume[index(phase)]);
       for(const CurvedBoundaryCell &rim : mesh.curved_boundary_cells)
         if(is(location[rim.cell], phase))
           visit(rim.cell, rim.volume);

@@ -151,8 +151,8 @@ namespace meltfront::particles::rkpm_tracked
     if(fitting > most_for_lattice * wanted)
       throw cases::Refusal(fmt::format(
           "{} starts from sph where one phase fills the domain, and a lattice of "
-          "particles "
-          "fills a box with these sides from n = {} on: give them a rounder ratio",
+          "particles fills a box with these sides from n = {} on: give them a rounder "
+          "ratio",
           method_name, step));
     return fitting;
   }

@@ -9,11 +9,6 @@
 
 namespace meltfront::reference_fem::cut::conservative
 {
-  constexpr std::size_t index(Phase phase)
-  {
-    return static_cast<std::size_t>(phase);
-  }
-
   /** A triangle whose nodes lie on both sides of the front. */
   struct CutTriangle
   {
