@@ -30,6 +30,10 @@ namespace meltfront::reference_fem::cut::conservative
     constexpr double farthest_move = 0.9;
     constexpr int most_halvings = 8;
 
+    /** So many steps in a row that are halved so often get nowhere: the front of what has
+     * appeared runs about in cells that it does not fill. */
+    constexpr int hard_halvings = 5, most_hard_steps = 10;
+
     /** Squares of the spacing: a smaller body is turned into the other phase. Its latent
      * heat goes to the hats about it, which are forty times as large or more: what that
      * undercools or superheats them by is what elements of this size overshoot by anyway.
@@ -190,7 +194,8 @@ namespace meltfront::reference_fem::cut::conservative
     const double stop = cases::end_of_piece(breakpoints, time, scene.end_time);
     const auto end = [&] { return duration == stop - time ? stop : time + duration; };
     Step step;
-    for(int halvings = 0;; ++halvings)
+    int halvings = 0;
+    for(;; ++halvings)
     {
       const bool last_chance = halvings == most_halvings;
       try
@@ -221,6 +226,14 @@ namespace meltfront::reference_fem::cut::conservative
       duration /= 2;
       ++halved_steps;
     }
+    hard_steps = halvings < hard_halvings ? 0 : hard_steps + 1;
+    if(hard_steps > most_hard_steps)
+      throw cases::NumericalError(
+          method_name, step_number + 1, time + duration, "front",
+          fmt::format("moves too far in {} steps in a row, each made in 1/{} of its "
+                      "length or less; what is solid or liquid there is thinner than "
+                      "this n resolves, take a larger one",
+                      hard_steps, 1 << hard_halvings));
     accept(step, duration, end());
   }
 

@@ -112,6 +112,7 @@ namespace meltfront::reference_fem::cut::conservative
     double boundary_heat = 0, source_heat = 0, initial_heat = 0;
     long step_number = 0, halved_steps = 0, turned_bodies = 0, appeared_bodies = 0,
          restored_slopes = 0;
+    int hard_steps = 0; ///< in a row, each halved often
     long solves = 0, most_solves = 0, unsettled_stages = 0, unknowns = 0,
          most_unknowns = 0, entries = 0;
     double largest_debt = 0; ///< of the solid's area (m^2)

@@ -1,9 +1,11 @@
+#include <cases/error.h>
 #include <reference_fem/cut/tests/cut_support.h>
 #include <reference_fem/enthalpy/enthalpy.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace meltfront::reference_fem::tests
 {
@@ -87,6 +89,39 @@ namespace meltfront::reference_fem::tests
       exchange(scene, Side::y_min, 6, -1.3);
       for(const int n : {24, 32})
         expect_agreement(scene, n, 2e-3);
+    }
+
+    // The outer wall freezes, then melts a layer a sixth of a cell thick: it used to go
+    // on in steps of a ten-thousandth of the run.
+    TEST(Walls, ALayerThatGetsNowhereIsRefused)
+    {
+      Material material = normalised_material();
+      material.melting_temperature = 0;
+      material.latent_heat = 1.2;
+      material.solid.conductivity = 1.6;
+      material.solid.specific_heat_capacity = 0.7;
+      material.liquid.conductivity = 0.9;
+      material.liquid.specific_heat_capacity = 1.2;
+      Scene scene = ball(material, 2, 1.5, 0.1, 0.15);
+      scene.symmetry = Symmetry::cylindrical;
+      scene.domain.shape = DomainShape::shell;
+      scene.domain.inner_radius = 0.5;
+      set_boundary(scene, Side::inner,
+                   varying_wall([](double t) { return t > 0.05 ? -1.5 : -1.; }));
+      Boundary outer = varying_wall([](double t) { return -1.2 * std::sin(30 * t); });
+      outer.kind = BoundaryKind::flux;
+      set_boundary(scene, Side::outer, outer);
+      try
+      {
+        run_cut(scene, 40,
+                {{"scheme", "conservative"}, {"fewest_steps", "25"}, {"passes", "4"}});
+        FAIL();
+      }
+      catch(const Refusal &refusal)
+      {
+        EXPECT_NE(std::string(refusal.what()).find("steps in a row"), std::string::npos)
+            << refusal.what();
+      }
     }
   } // namespace
 } // namespace meltfront::reference_fem::tests
