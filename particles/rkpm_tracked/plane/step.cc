@@ -12,7 +12,7 @@ namespace meltfront::particles::rkpm_tracked
   {
     /** Spacings beyond a wall from which on particles of melting fronts stay where they
      * are: the curve goes round the solid there and is no front. */
-    constexpr double stays_beyond = 3;
+    constexpr double stays_beyond = 2;
   } // namespace
 
   /** A phase's value enters the row in progress. */
