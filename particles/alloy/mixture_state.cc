@@ -46,8 +46,8 @@ namespace meltfront::particles
     double planar_mean(const Discretisation &dis, double density, double x)
     {
       const cases::Scene &scene = dis.scene;
-      const double lower = std::max(x - 0.5 * dis.spacing, scene.domain.lower[0]);
-      const double upper = std::min(x + 0.5 * dis.spacing, scene.domain.upper[0]);
+      const double lower = std::max(x - 0.5 * dis.cell[0], scene.domain.lower[0]);
+      const double upper = std::min(x + 0.5 * dis.cell[0], scene.domain.upper[0]);
       return scene.initial.exact->heat_content(lower, upper, scene.start_time)
              / ((upper - lower) * density);
     }

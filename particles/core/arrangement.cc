@@ -60,7 +60,8 @@ namespace meltfront::particles
   {
     std::array<std::vector<double>, 3> line{{{0.}, {0.}, {0.}}};
     for(int d = 0; d < dimension; ++d)
-      line[d] = lattice_line(directions[d], spacing);
+      line[d] = lattice_line(directions[d],
+                             directions[d].spacing > 0 ? directions[d].spacing : spacing);
     require_numbers(double(line[0].size()) * line[1].size() * line[2].size());
     ParticleStorage particles{dimension, {}};
     for(const double z : line[2])

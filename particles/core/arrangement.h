@@ -23,13 +23,15 @@ namespace meltfront::particles
     double lower = 0;
     double upper = 1;
     LatticeLayout layout = LatticeLayout::cell_centred;
+    double spacing = 0; ///< its own (m); 0: the lattice's
   };
 
   /** Spacing of n particles on a length. @throws cases::InputError for too few. */
   double lattice_spacing(double length, int n, LatticeLayout layout);
 
   /**
-   * A cubic lattice that fills a box: x, y, z ascending with x the fastest.
+   * A lattice that fills a box, cubic unless directions have spacings of their own: x, y,
+   * z ascending with x the fastest.
    * @throws cases::InputError if a side is not a whole number of spacings, cases::Refusal
    * for more particles than can be numbered.
    */

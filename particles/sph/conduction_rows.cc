@@ -1,6 +1,7 @@
 #include <cases/stopwatch.h>
 #include <cases/wall_law.h>
 #include <particles/sph/conduction_rows.h>
+#include <particles/sph/square_lattice.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +28,9 @@ namespace meltfront::particles
       Assembly(const Discretisation &discretisation, bool moment_correction,
                ConductionRows &result)
         : dis(discretisation)
+        , square(discretisation)
         , result(result)
-        , neighbours(dis.particles, reach_of_kernel(), dis.periodicity)
+        , neighbours(square.particles(), reach_of_kernel(), square.periodicity())
         , ghost_neighbours(dis.particles, dis.ghosts, reach_of_kernel())
       {
         find_walls_in_reach();
@@ -122,9 +124,10 @@ namespace meltfront::particles
         reach.assign(dis.particles.size(), 0);
         for(std::size_t w = 0; w < dis.walls.size(); ++w)
         {
-          const auto &x = dis.particles.position[dis.walls[w].direction];
+          const auto &[boundary, direction, coordinate] = square.walls()[w];
+          const auto &x = square.particles().position[direction];
           for(std::size_t i = 0; i < x.size(); ++i)
-            if(std::abs(x[i] - dis.walls[w].coordinate) < dis.kernel.support())
+            if(std::abs(x[i] - coordinate) < dis.kernel.support())
               reach[i] |= 1u << w;
         }
       }
@@ -153,26 +156,39 @@ namespace meltfront::particles
         }
       }
 
-      /**
-       * Distance between one particle and the image of another, squared. The same bits
-       * for (a, b) and (b, a).
-       */
-      double squared_distance(std::size_t a, std::size_t b, WallSet mirrors) const
+      using Step = std::array<double, 3>;
+
+      /** The step between one particle and the image of another where cells are squares.
+       * The same bits but for signs for (a, b) and (b, a). */
+      Step step_between(std::size_t a, std::size_t b, WallSet mirrors) const
       {
         const auto [first, second] = std::minmax(a, b);
-        std::array<double, 3> difference{};
+        const auto &position = square.particles().position;
+        Step step{};
         for(int d = 0; d < dis.dimension; ++d)
-          difference[d] = dis.periodicity.shortest(
-              d, dis.particles.position[d][first] - dis.particles.position[d][second]);
+          step[d] = square.periodicity().shortest(d, position[d][first]
+                                                         - position[d][second]);
         for(std::size_t w = 0; w < dis.walls.size(); ++w)
           if(mirrors >> w & 1)
           {
-            const auto &[boundary, d, coordinate] = dis.walls[w];
-            difference[d] = (dis.particles.position[d][first] - coordinate)
-                            + (dis.particles.position[d][second] - coordinate);
+            const auto &[boundary, d, coordinate] = square.walls()[w];
+            step[d]
+                = (position[d][first] - coordinate) + (position[d][second] - coordinate);
           }
-        return difference[0] * difference[0] + difference[1] * difference[1]
-               + difference[2] * difference[2];
+        return step;
+      }
+
+      static double squared_length(const Step &step)
+      {
+        return step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
+      }
+
+      /** g of a particle and the image of another. */
+      double pair_strength(std::size_t a, std::size_t b, WallSet mirrors) const
+      {
+        const Step step = step_between(a, b, mirrors);
+        const double squared = squared_length(step);
+        return strength(a, b, squared) * square.by_direction(step, squared);
       }
 
       /** -F(r) */
@@ -209,14 +225,12 @@ namespace meltfront::particles
       double pair_coefficient(std::size_t a, std::size_t b) const
       {
         const double mean = between(a, b);
-        double g
-            = mean * strength(a, b, squared_distance(a, b, 0)) * circumference(a, b, 0);
+        double g = mean * pair_strength(a, b, 0) * circumference(a, b, 0);
         visit_images(common_walls(a, b),
                      [&](WallSet mirrors)
                      {
-                       const double image
-                           = mean * strength(a, b, squared_distance(a, b, mirrors))
-                             * circumference(a, b, mirrors);
+                       const double image = mean * pair_strength(a, b, mirrors)
+                                            * circumference(a, b, mirrors);
                        g += antisymmetric(mirrors) ? -image : image;
                      });
         return g;
@@ -232,9 +246,8 @@ namespace meltfront::particles
           visit_images(common_walls(a, b),
                        [&](WallSet mirrors)
                        {
-                         const double image
-                             = strength(a, b, squared_distance(a, b, mirrors))
-                               * circumference(a, b, mirrors);
+                         const double image = pair_strength(a, b, mirrors)
+                                              * circumference(a, b, mirrors);
                          for(std::size_t w = 0; w < dis.walls.size(); ++w)
                          {
                            if(!(mirrors >> w & 1))
@@ -411,13 +424,13 @@ namespace meltfront::particles
           const auto add = [&](double squared) { sum += slope(squared) * squared; };
           const auto add_images = [&](std::size_t b)
           {
-            visit_images(common_walls(a, b),
-                         [&](WallSet mirrors) { add(squared_distance(a, b, mirrors)); });
+            visit_images(common_walls(a, b), [&](WallSet mirrors)
+                         { add(squared_length(step_between(a, b, mirrors))); });
           };
           add_images(a);
           for(const std::uint32_t b : neighbours[a])
           {
-            add(squared_distance(a, b, 0));
+            add(squared_length(step_between(a, b, 0)));
             add_images(b);
           }
           for(std::size_t g = 0; dis.ghosts.size() > 0 && g < ghost_neighbours[a].size();
@@ -453,6 +466,7 @@ namespace meltfront::particles
       }
 
       const Discretisation &dis;
+      const SquareLattice square;
       ConductionRows &result;
       NeighbourList neighbours;
       NeighbourList ghost_neighbours;

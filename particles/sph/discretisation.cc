@@ -35,6 +35,10 @@ namespace meltfront::particles
     /** Least distance of particles from a round wall whose temperature is given on it
      * alone, in spacings. */
     constexpr double nearest_to_wall = 0.25;
+    /** Of a spacing: by how much a side may miss a whole number of them. */
+    constexpr double fits = 1e-6;
+    /** Fewest cells of a side that are stretched so that they fill it. */
+    constexpr double fewest_stretched = 4;
     /** Over a cell: what a particle beside a round wall stands for at least. */
     constexpr double least_share = 0.25;
 
@@ -84,6 +88,7 @@ namespace meltfront::particles
     , dimension(p.dimension)
     , layout(p.layout)
     , spacing(lattice_spacing(scene.domain.side(), p.n, p.layout))
+    , cell{spacing, spacing, spacing}
     , kernel(p.kernel, p.dimension, p.smoothing_length * spacing)
     , displaced(p.jitter > 0 || p.arrangement >= Arrangement::random)
     , particle_volume(power(spacing, p.dimension))
@@ -222,6 +227,41 @@ namespace meltfront::particles
                                      how);
   }
 
+  bool Discretisation::stretched() const
+  {
+    return cell[0] != spacing || cell[1] != spacing || cell[2] != spacing;
+  }
+
+  /**
+   * What moves particles from the lattice, or sums over kernels as published, takes
+   * squares.
+   * @throws cases::InputError where the sides of a box are no whole numbers of these,
+   * cases::Refusal where one is so short that a cell would be stretched by more than an
+   * eighth
+   */
+  void Discretisation::fit_cells(const SphParameters &p)
+  {
+    if(scene.domain.shape == DomainShape::slab || displaced || p.whole_cells
+       || !p.moment_correction || p.layout != LatticeLayout::cell_centred)
+      return require_whole_cells(p);
+    for(int d = 0; d < dimension; ++d)
+    {
+      const double length = scene.domain.upper[d] - scene.domain.lower[d];
+      const double cells = length / spacing, whole = std::round(cells);
+      if(std::abs(cells - whole) <= fits)
+        continue;
+      if(whole < fewest_stretched)
+        throw cases::Refusal(fmt::format(
+            "with n = {3} a side of {0:.6g} m is {1:.3g} particle spacings long, "
+            "and fewer than four must be a whole number: take n at least {2}",
+            length, cells, std::ceil(fewest_stretched / cells * p.n), p.n));
+      cell[d] = length / whole;
+    }
+    if(stretched())
+      particle_volume = std::accumulate(cell.begin(), cell.begin() + dimension, 1.,
+                                        std::multiplies<>());
+  }
+
   /** @throws cases::InputError with the next n at which a lattice fills the box */
   void Discretisation::require_whole_cells(const SphParameters &p) const
   {
@@ -237,6 +277,7 @@ namespace meltfront::particles
   void Discretisation::fill_slab_or_box(const SphParameters &p)
   {
     const bool slab = scene.domain.shape == DomainShape::slab;
+    fit_cells(p);
     std::array<LatticeDirection, 3> directions;
     for(int d = 0; d < dimension; ++d)
     {
@@ -253,13 +294,13 @@ namespace meltfront::particles
         else
           walls.push_back({&boundary, d, s == 2 * d ? lower : upper});
       }
-      directions[d] = {lower, upper, periodic ? LatticeLayout::cell_centred : p.layout};
+      directions[d]
+          = {lower, upper, periodic ? LatticeLayout::cell_centred : p.layout, cell[d]};
       if(periodic)
         periodicity.period[d] = upper - lower;
       if(across)
         cross_section *= upper - lower;
     }
-    require_whole_cells(p);
     particles = arrange_in_box(dimension, directions, spacing);
   }
 

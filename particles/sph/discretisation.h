@@ -83,6 +83,9 @@ namespace meltfront::particles
      */
     void keep(std::span<const std::uint32_t> numbers, OwnParticles own);
 
+    /** Whether cells are no squares (cubes). */
+    bool stretched() const;
+
     /** True if a particle lies on the wall (edge layout). */
     bool on_wall(const PlaneWall &wall, std::size_t particle) const;
 
@@ -98,6 +101,9 @@ namespace meltfront::particles
     int dimension;
     LatticeLayout layout;
     double spacing; ///< dp (m)
+    /** Sides of the lattice's cells (m): the spacing, but for sides of a box that are no
+     * whole number of it, which so many cells fill as nearly fit. */
+    std::array<double, 3> cell;
     SmoothingKernel kernel;
     bool displaced;        ///< the particles are not on a lattice
     Relaxation relaxation; ///< of the particles, where they were relaxed
@@ -109,7 +115,7 @@ namespace meltfront::particles
     Periodicity periodicity;
     std::vector<PlaneWall> walls;       ///< of a slab or a box, without the periodic ones
     std::vector<RoundWall> round_walls; ///< of a ball or a shell
-    double particle_volume;             ///< dp^d (m^d); of a ring the section
+    double particle_volume;             ///< of a cell (m^d); of a ring the section
     double cross_section;               ///< of the strip that stands for a slab, else 1
     std::vector<double> weights;        ///< volumes in the measure of the scene
     /** All particles about an axis. Else: the lattice's cells cover more or less of a
@@ -122,6 +128,7 @@ namespace meltfront::particles
     OwnParticles own; ///< of the particles: all, unless processes share them
 
   private:
+    void fit_cells(const SphParameters &parameters);
     void require_whole_cells(const SphParameters &parameters) const;
     void fill_slab_or_box(const SphParameters &parameters);
     void fill_ball_or_shell();

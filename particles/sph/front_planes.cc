@@ -1,6 +1,7 @@
 #include <particles/core/particle_operator.h>
 #include <particles/sph/cell_sections.h>
 #include <particles/sph/front_planes.h>
+#include <particles/sph/square_lattice.h>
 
 #include <algorithm>
 #include <cmath>
@@ -55,9 +56,11 @@ namespace meltfront::particles
     steepest = std::transform_reduce(steps.begin(), steps.end(), 0., std::plus<>(),
                                      [](const Step &step)
                                      { return step.step[0] > 0 ? step.weight : 0.; });
-    const NeighbourList neighbours(dis.particles, reach * dis.spacing, dis.periodicity);
+    const SquareLattice square(dis);
+    const NeighbourList neighbours(square.particles(), reach * dis.spacing,
+                                   square.periodicity());
     const std::size_t n = dis.particles.size();
-    find_images(dis, neighbours);
+    find_images(square, dis.spacing, neighbours);
     std::vector<std::vector<std::uint32_t>> beyond(images.empty() ? 0 : n);
     for(std::size_t i = 0; i < images.size(); ++i)
     {
@@ -75,14 +78,14 @@ namespace meltfront::particles
       {
         std::array<long, 3> step{};
         for(int d = 0; d < dimension; ++d)
-          step[d] = std::lround(
-              dis.periodicity.shortest(d, place[d] - dis.particles.position[d][a])
-              / dis.spacing);
+          step[d] = std::lround(square.periodicity().shortest(
+                                    d, place[d] - square.particles().position[d][a])
+                                / dis.spacing);
         if(std::ranges::all_of(step, [](long cells) { return std::abs(cells) <= 1; }))
           links.push_back({b, number_of(step)});
       };
       for(const std::uint32_t b : neighbours[a])
-        link(b, dis.particles.point(b));
+        link(b, square.particles().point(b));
       if(!images.empty())
         for(const std::uint32_t image : beyond[a])
           link(image, images[image - n].place);
@@ -95,25 +98,26 @@ namespace meltfront::particles
   }
 
   /** Of the particles beside plane walls, in each wall and where walls meet. */
-  void FrontPlanes::find_images(const Discretisation &dis,
+  void FrontPlanes::find_images(const SquareLattice &square, double spacing,
                                 const NeighbourList &neighbours)
   {
+    const ParticleStorage &particles = square.particles();
     const auto beside = [&](const PlaneWall &wall, const cases::Position &place)
-    { return std::abs(place[wall.direction] - wall.coordinate) < 0.75 * dis.spacing; };
+    { return std::abs(place[wall.direction] - wall.coordinate) < 0.75 * spacing; };
     const auto inner_of = [&](std::uint32_t a, const PlaneWall &wall)
     {
-      const cases::Position own = dis.particles.point(a);
+      const cases::Position own = particles.point(a);
       for(const std::uint32_t b : neighbours[a])
       {
-        const cases::Position place = dis.particles.point(b);
+        const cases::Position place = particles.point(b);
         bool behind = std::abs(place[wall.direction] - wall.coordinate)
                           - std::abs(own[wall.direction] - wall.coordinate)
-                      > 0.5 * dis.spacing;
+                      > 0.5 * spacing;
         for(int d = 0; d < dimension; ++d)
           behind = behind
                    && (d == wall.direction
-                       || std::abs(dis.periodicity.shortest(d, place[d] - own[d]))
-                              < 0.5 * dis.spacing);
+                       || std::abs(square.periodicity().shortest(d, place[d] - own[d]))
+                              < 0.5 * spacing);
         if(behind)
           return b;
       }
@@ -123,9 +127,9 @@ namespace meltfront::particles
     const auto mirror = [&](const auto &self, const Image &image, std::size_t first,
                             unsigned directions) -> void
     {
-      for(std::size_t i = first; i < dis.walls.size(); ++i)
+      for(std::size_t i = first; i < square.walls().size(); ++i)
       {
-        const PlaneWall &wall = dis.walls[i];
+        const PlaneWall &wall = square.walls()[i];
         if(directions >> wall.direction & 1 || !beside(wall, image.place))
           continue;
         Image beyond = image;
@@ -138,8 +142,8 @@ namespace meltfront::particles
         self(self, beyond, i + 1, directions | 1u << wall.direction);
       }
     };
-    for(std::uint32_t a = 0; a < dis.particles.size(); ++a)
-      mirror(mirror, {a, a, false, dis.particles.point(a)}, 0, 0);
+    for(std::uint32_t a = 0; a < particles.size(); ++a)
+      mirror(mirror, {a, a, false, particles.point(a)}, 0, 0);
   }
 
   /**

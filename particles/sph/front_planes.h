@@ -11,9 +11,12 @@
 
 namespace meltfront::particles
 {
+  class SquareLattice;
+
   /**
    * Signed distance of particles on a lattice in the plane or in space from the front, in
-   * spacings, negative in the solid: from the line (the plane) that leaves in the three
+   * spacings (where cells are stretched, in the coordinates of SquareLattice), negative
+   * in the solid: from the line (the plane) that leaves in the three
    * by three (by three) cells about the particle the mean solid fraction of these cells.
    * Its normal is the SPH gradient of the solid fraction.
    *
@@ -86,7 +89,7 @@ namespace meltfront::particles
       cases::Position place;
     };
 
-    void find_images(const Discretisation &discretisation,
+    void find_images(const SquareLattice &square, double spacing,
                      const NeighbourList &neighbours);
     double fraction_of(const Image &image) const;
     Section section_of(std::size_t particle) const;

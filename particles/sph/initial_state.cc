@@ -14,7 +14,7 @@ namespace meltfront::particles
     double planar_mean(const Discretisation &dis, const cases::Position &position)
     {
       const cases::Scene &scene = dis.scene;
-      const double half = 0.5 * dis.spacing;
+      const double half = 0.5 * dis.cell[0];
       const double lower = std::max(position[0] - half, scene.domain.lower[0]);
       const double upper = std::min(position[0] + half, scene.domain.upper[0]);
       return scene.initial.exact->heat_content(lower, upper, scene.start_time)
@@ -34,12 +34,20 @@ namespace meltfront::particles
           for(int i = 0; i < points; ++i)
           {
             cases::Position p = centre;
-            p[0] += ((i + 0.5) / points - 0.5) * dis.spacing;
-            p[1] += ((j + 0.5) / points - 0.5) * dis.spacing;
-            p[2] += ((k + 0.5) / points_z - 0.5) * (points_z > 1 ? dis.spacing : 0);
+            p[0] += ((i + 0.5) / points - 0.5) * dis.cell[0];
+            p[1] += ((j + 0.5) / points - 0.5) * dis.cell[1];
+            p[2] += ((k + 0.5) / points_z - 0.5) * (points_z > 1 ? dis.cell[2] : 0);
             negative += level(p, dis.scene.start_time) < 0;
           }
       return double(negative) / (points * points * points_z);
+    }
+
+    double half_diagonal(const Discretisation &dis)
+    {
+      double squared = 0;
+      for(int d = 0; d < dis.dimension; ++d)
+        squared += dis.cell[d] * dis.cell[d];
+      return 0.5 * std::sqrt(squared);
     }
 
     double from_exact(const Discretisation &dis, const cases::Position &position)
@@ -50,7 +58,7 @@ namespace meltfront::particles
         return planar_mean(dis, position);
       const double distance = exact.signed_distance(position, scene.start_time);
       double inner = 0;
-      if(std::abs(distance) <= 0.5 * std::sqrt(double(dis.dimension)) * dis.spacing)
+      if(std::abs(distance) <= half_diagonal(dis))
         inner = negative_fraction(dis, position,
                                   {"", [&exact](const cases::Position &p, double time)
                                    { return exact.signed_distance(p, time); }});
@@ -71,7 +79,7 @@ namespace meltfront::particles
       {
         cases::Position p = centre;
         for(int d = 0; d < dis.dimension; ++d)
-          p[d] += (corner >> d & 1 ? 0.5 : -0.5) * dis.spacing;
+          p[d] += (corner >> d & 1 ? 0.5 : -0.5) * dis.cell[d];
         if((level(p, time) < 0) != negative)
           return true;
       }

@@ -1,6 +1,7 @@
 #include <particles/sph/run_report.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace meltfront::particles
 {
@@ -21,6 +22,12 @@ namespace meltfront::particles
         {"layout",
          dis.layout == LatticeLayout::on_edge ? "particles on the edge" : "cell-centred",
          ""}};
+    if(dis.stretched())
+      description.parameters.push_back(
+          {"sides of a cell",
+           fmt::format("{:.6g}", fmt::join(dis.cell.begin(),
+                                           dis.cell.begin() + dis.dimension, ", ")),
+           "m"});
     if(dis.displaced)
       description.parameters.push_back(
           {"jitter", fmt::format("{:.6g}", parameters.jitter), "spacings"});

@@ -21,7 +21,6 @@ namespace meltfront::particles
     : own(discretisation.own)
     , material(discretisation.scene.material)
     , sharp_latent_heat(material.curves ? material.curves->jump() : material.latent_heat)
-    , spacing(discretisation.spacing)
     , links(rows.exchange_links)
     , depths(rows.exchange_depths)
     , boundaries(boundaries_of(rows))
@@ -30,6 +29,15 @@ namespace meltfront::particles
     if(discretisation.layout != LatticeLayout::cell_centred)
       throw cases::Refusal("particles on the walls (layout = edge) exchange no heat with "
                            "surroundings; layout = cell does");
+    for(const PlaneWall &wall : discretisation.walls)
+      cells_across.push_back({wall.boundary, discretisation.cell[wall.direction]});
+    for(const RoundWall &wall : discretisation.round_walls)
+      cells_across.push_back({wall.boundary, discretisation.spacing});
+  }
+
+  double WallExchange::cell_across(const cases::Boundary &wall) const
+  {
+    return std::ranges::find(cells_across, &wall, &CellAcross::wall)->thickness;
   }
 
   void WallExchange::prepare_step(double begin, double end)
@@ -37,8 +45,8 @@ namespace meltfront::particles
     meter.measure_setup([&] { values.average_step(begin, end); });
   }
 
-  WallExchange::Layer WallExchange::layer(double depth, double enthalpy,
-                                          double ambient) const
+  WallExchange::Layer WallExchange::layer(const cases::Boundary &wall, double depth,
+                                          double enthalpy, double ambient) const
   {
     if(material.curves)
     {
@@ -48,7 +56,7 @@ namespace meltfront::particles
       return enthalpy < 0 || enthalpy > jump
                  ? Layer{state.temperature, depth / state.conductivity,
                          1 / state.capacity, 0}
-                 : melting_layer(depth, enthalpy, ambient);
+                 : melting_layer(wall, depth, enthalpy, ambient);
     }
     if(enthalpy < 0 || enthalpy > material.latent_heat)
     {
@@ -57,21 +65,23 @@ namespace meltfront::particles
       return {material.temperature(enthalpy), depth / phase.conductivity,
               1 / phase.specific_heat_capacity, 0};
     }
-    return melting_layer(depth, enthalpy, ambient);
+    return melting_layer(wall, depth, enthalpy, ambient);
   }
 
-  WallExchange::Layer WallExchange::melting_layer(double depth, double enthalpy,
+  WallExchange::Layer WallExchange::melting_layer(const cases::Boundary &wall,
+                                                  double depth, double enthalpy,
                                                   double ambient) const
   {
+    const double cell = cell_across(wall);
     const double latent = sharp_latent_heat;
     // Cold surroundings freeze it from the wall on, warm ones melt it.
     const bool freezes = ambient < material.melting_temperature;
     const double changed
         = latent > 0 ? freezes ? 1 - enthalpy / latent : enthalpy / latent : 0.5;
     const double conductivity = (freezes ? material.solid : material.liquid).conductivity;
-    const double thickness = depth + (changed - 0.5) * spacing;
+    const double thickness = depth + (changed - 0.5) * cell;
     const double growth = latent > 0 && thickness > 0
-                              ? (freezes ? -1 : 1) * spacing / (latent * conductivity)
+                              ? (freezes ? -1 : 1) * cell / (latent * conductivity)
                               : 0;
     return {material.melting_temperature, std::max(thickness, 0.) / conductivity, 0,
             growth};
@@ -83,7 +93,7 @@ namespace meltfront::particles
     return add(
         [&](std::size_t row, const cases::Boundary &wall, double ambient, double depth)
         {
-          const Layer behind = layer(depth, enthalpy[row], ambient);
+          const Layer behind = layer(wall, depth, enthalpy[row], ambient);
           return cases::heat_through_layer(wall, ambient, behind.temperature,
                                            behind.resistance)
               .flux;
@@ -97,7 +107,7 @@ namespace meltfront::particles
     differentiate(
         [&](std::size_t row, const cases::Boundary &wall, double ambient, double depth)
         {
-          const Layer behind = layer(depth, enthalpy[row], ambient);
+          const Layer behind = layer(wall, depth, enthalpy[row], ambient);
           const cases::HeatThroughLayer through = cases::heat_through_layer(
               wall, ambient, behind.temperature, behind.resistance);
           return through.slope * behind.warming + through.by_resistance * behind.growth;

@@ -111,13 +111,22 @@ namespace meltfront::particles
       double warming;     ///< dT/dH (K kg/J)
       double growth;      ///< dR/dH
     };
-    Layer layer(double depth, double enthalpy, double ambient) const;
-    Layer melting_layer(double depth, double enthalpy, double ambient) const;
+    Layer layer(const cases::Boundary &wall, double depth, double enthalpy,
+                double ambient) const;
+    Layer melting_layer(const cases::Boundary &wall, double depth, double enthalpy,
+                        double ambient) const;
+
+    struct CellAcross
+    {
+      const cases::Boundary *wall;
+      double thickness; ///< of the cells beside it (m)
+    };
+    double cell_across(const cases::Boundary &wall) const;
 
     const OwnParticles &own;
     const cases::Material &material;
     double sharp_latent_heat; ///< exchanged at one temperature (J/kg)
-    double spacing;
+    std::vector<CellAcross> cells_across;
     std::vector<WallLink> links;
     std::vector<double> depths;
     std::vector<const cases::Boundary *> boundaries; ///< by link

@@ -1,7 +1,6 @@
 #include <particles/rkpm_tracked/plane/particle_start.h>
 
 #include <cases/capabilities.h>
-#include <cases/domain_measure.h>
 #include <cases/error.h>
 #include <cases/exact_solution.h>
 #include <particles/rkpm_tracked/plane/enthalpy_particles.h>
@@ -32,10 +31,6 @@ namespace meltfront::particles::rkpm_tracked
     /** Times that depth: how near a place has to be to where it is deeper, so that it is
      * the rim of a body and not its depth; and by how many spacings deeper. */
     constexpr double beside = 1.5, deeper = 0.5;
-
-    /** Times as many particles as were asked for that are taken so that a lattice of them
-     * fills a box. */
-    constexpr int most_for_lattice = 2;
 
     class Watch : public cases::Observer
     {
@@ -138,23 +133,10 @@ namespace meltfront::particles::rkpm_tracked
     }
   }
 
-  /** So many particles that a lattice of them fills the domain.
-   * @throws cases::Refusal where that takes many more than are wanted */
   int ParticleStart::along_side(int refinement) const
   {
-    const int step = scene.domain.shape == cases::DomainShape::box
-                         ? cases::fewest_whole_cells(scene.domain)
-                         : 1;
-    const int wanted
-        = refinement * static_cast<int>(std::lround(scene.domain.side() / nodes.spacing));
-    const int fitting = (wanted + step - 1) / step * step;
-    if(fitting > most_for_lattice * wanted)
-      throw cases::Refusal(fmt::format(
-          "{} starts from sph where one phase fills the domain, and a lattice of "
-          "particles fills a box with these sides from n = {} on: give them a rounder "
-          "ratio",
-          method_name, step));
-    return fitting;
+    return refinement
+           * static_cast<int>(std::lround(scene.domain.side() / nodes.spacing));
   }
 
   /** @return whether the front is deep enough before an end */

@@ -27,7 +27,7 @@ namespace meltfront::particles
           const auto &x = dis.particles.position[d];
           const auto [lowest, highest] = std::ranges::minmax(x);
           const auto cells = [&, low = lowest](double place)
-          { return static_cast<std::size_t>(std::lround((place - low) / dis.spacing)); };
+          { return static_cast<std::size_t>(std::lround((place - low) / dis.cell[d])); };
           count[d] = cells(highest) + 1;
           wraps[d] = dis.periodicity.period[d] > 0;
           for(std::size_t i = 0; i < x.size(); ++i)

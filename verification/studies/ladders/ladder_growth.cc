@@ -23,7 +23,10 @@ namespace meltfront::verification
     constexpr double refinement_of_line = 2, refinement_of_plane = 1.5;
     /** Predictions of the growth are within 2 in 9 of 10. */
     constexpr double safety = 1.5;
-    constexpr double shortest_limit = 1;    // s
+    constexpr double shortest_limit = 1; // s
+    /** Times as many cells as were asked for that are taken so that squares fill a box;
+     * else methods stretch them, or refuse by name. */
+    constexpr double most_to_fit = 1.5;
     constexpr double cost_of_half_step = 2; ///< over the run at the whole step
 
     double seconds_of(const RunRecord &run)
@@ -82,7 +85,8 @@ namespace meltfront::verification
     const bool on_walls = layout != values.end() && layout->second == "edge";
     const int step = on_walls ? whole_cells : std::lcm(whole_cells, 2);
     const int cells = n - (on_walls ? 1 : 0);
-    return (cells + step - 1) / step * step + (on_walls ? 1 : 0);
+    const int fitting = (cells + step - 1) / step * step;
+    return (fitting <= most_to_fit * cells ? fitting : cells) + (on_walls ? 1 : 0);
   }
 
   double LadderGrowth::seconds_left() const

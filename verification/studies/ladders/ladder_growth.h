@@ -67,7 +67,8 @@ namespace meltfront::verification
      * level before it where time is left for that only; none where for neither. */
     void check_steps();
 
-    /** The least resolution from n on at which a method's lattice fills the domain. */
+    /** The least resolution from n on at which a method's lattice fills the domain; n
+     * itself where that is far off. */
     int fitting(const cases::Method &method, int n) const;
 
     double seconds_left() const;

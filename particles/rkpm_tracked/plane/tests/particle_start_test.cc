@@ -223,8 +223,5 @@ namespace
     cases::Scene bent = cold_wall(0.05);
     bent.material.gibbs_thomson_coefficient = 1e-4;
     expect_refusal(bent, 20, "starts from sph");
-    cases::Scene odd = cold_wall(0.05);
-    odd.domain.upper[1] = 0.203;
-    expect_refusal(odd, 20, "give them a rounder ratio");
   }
 } // namespace

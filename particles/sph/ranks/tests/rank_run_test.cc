@@ -213,6 +213,13 @@ namespace meltfront::particles::tests
                      {{"time_scheme", "euler"}, {"smoothing_length", "1.3"}});
   }
 
+  TEST(RanksOfSph, CellsThatAreStretchedToFillABox)
+  {
+    Scene scene = walls_of_all_kinds(2);
+    scene.domain.upper[1] = 0.513;
+    expect_same_bits(scene, 40);
+  }
+
   TEST(RanksOfSph, InSpace)
   {
     Scene scene = walls_of_all_kinds(3);
