@@ -222,6 +222,14 @@ namespace meltfront::verification
       std::string directory;
       LadderGrowth growth;
     };
+
+    std::string outcome_of(const Advice &advice)
+    {
+      return std::isnan(advice.error)
+                 ? "no error bar"
+                 : fmt::format("{} {:.2g}", advice.error_is_true ? "error" : "error bar",
+                               advice.error);
+    }
   } // namespace
 
   int compare(const CompareArguments &asked)
@@ -266,10 +274,9 @@ namespace meltfront::verification
                  one.doubt.empty() ? "" : "; " + one.doubt);
     if(!advice.method.empty())
       fmt::print("Advice: {} at n = {}: predicted error {:.2g} in {:.2g} s of CPU; came "
-                 "out: {} {:.2g} in {:.2g} s{}\n",
+                 "out: {} in {:.2g} s{}\n",
                  advice.method, advice.n, advice.predicted_error,
-                 advice.predicted_seconds, advice.error_is_true ? "error" : "error bar",
-                 advice.error, advice.seconds,
+                 advice.predicted_seconds, outcome_of(advice), advice.seconds,
                  advice.reachable ? "" : "; the wanted error is NOT REACHED");
     if(!advice.explanation.empty())
       fmt::print("{}\n", advice.explanation);

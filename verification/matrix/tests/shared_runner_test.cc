@@ -261,7 +261,7 @@ namespace meltfront::verification
           _exit(0);
         }
         // Longer and longer, so that a slow machine comes through as well.
-        pause_for(moment(generator) + 2 * kills);
+        pause_for(moment(generator) + kills * kills / 4);
         kill(runner, SIGKILL);
         int status = 0;
         waitpid(runner, &status, 0);

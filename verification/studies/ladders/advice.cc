@@ -91,6 +91,16 @@ namespace meltfront::verification
       return !front.empty() && std::isfinite(front.back());
     }
 
+    /** Else by the solid's volume: the record's front is that of a circle or a ball of
+     * this volume where it has no single coordinate (bars_of() gives none, either). */
+    bool judged_by_front(const Ladder &ladder)
+    {
+      const RunRecord &finest = *ladder.levels.back();
+      const bool one_coordinate
+          = finest.probes.empty() || !finest.probes.front().coordinate.empty();
+      return has_front(ladder) && (one_coordinate || !finest.series.front_exact.empty());
+    }
+
     /** Levels that are near another tell no order: the difference is that of two errors
      * which are nearly the same. */
     Ladder well_apart(const Ladder &ladder)
@@ -108,7 +118,7 @@ namespace meltfront::verification
     {
       const Ladder ladder = well_apart(all);
       const auto course
-          = has_front(ladder) ? &RunSeries::front : &RunSeries::solid_volume;
+          = judged_by_front(ladder) ? &RunSeries::front : &RunSeries::solid_volume;
       const RunRecord &finest = *ladder.levels.back();
       const auto &values = finest.series.*course;
       const double size = values.empty() ? nan : std::abs(values.back());
@@ -227,7 +237,7 @@ namespace meltfront::verification
     /** Of a level, relative: its distance from the finest and the error bar of that. */
     double told_error(const Ladder &ladder, int n)
     {
-      const bool front = has_front(ladder);
+      const bool front = judged_by_front(ladder);
       for(const QuantityBar &known : bars_of(ladder))
         if(known.quantity == (front ? front_course : "solid_volume"))
           return (known.bar.bar
