@@ -260,15 +260,27 @@ namespace meltfront::reference_fem::cut::conservative
     settle_hats();
     const Values before = state.level_set;
     let_phases_appear();
-    // What appears is at the melting temperature.
-    for(std::size_t node = 0; node < before.size(); ++node)
-      if(before[node] * state.level_set[node] < 0)
-      {
-        const bool solid = state.level_set[node] < 0;
-        temperatures[solid ? 0 : 1][node]
-            = solid && !powers.empty() ? -sources.value(mesh.nodes[node], powers) : 0;
-      }
+    melt_what_appeared(before);
     check();
+  }
+
+  /** What has appeared is at the melting temperature, and so is what the triangles about
+   * it hold of the phase. */
+  void ConservativeRun::melt_what_appeared(const Values &before)
+  {
+    const auto appeared
+        = [&](unsigned int node) { return before[node] * state.level_set[node] < 0; };
+    for(const Triangle &triangle : mesh.triangles)
+      for(const unsigned int node : triangle.nodes)
+        if(appeared(node))
+          for(const unsigned int other : triangle.nodes)
+          {
+            const bool solid = state.level_set[node] < 0;
+            if(appeared(other) || (state.level_set[other] < 0) != solid)
+              temperatures[solid ? 0 : 1][other]
+                  = solid && !powers.empty() ? -sources.value(mesh.nodes[other], powers)
+                                             : 0;
+          }
   }
 
   void ConservativeRun::turn_small_bodies()

@@ -66,6 +66,7 @@ namespace meltfront::reference_fem::cut::conservative
     void turn_small_bodies();
     void restore_slopes();
     void let_phases_appear();
+    void melt_what_appeared(const Values &before);
     double tolerated_excess() const;
     std::array<double, 2> tolerated_heat() const;
     bool misses_a_phase(const Step &step) const;

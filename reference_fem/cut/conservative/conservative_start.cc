@@ -139,26 +139,43 @@ namespace meltfront::reference_fem::cut::conservative
 
   /** Temperatures of the heat that was handed over. Hats of which little lies in a phase
    * may hold more than temperatures within the bounds can: then heat is spread as far as
-   * it takes for them to keep to the bounds. */
+   * it takes for them to keep to the bounds, or to leave them least. */
   void ConservativeRun::settle_temperatures()
   {
     const StepFrame frame(mesh, state.level_set, 1);
     even_out(frame);
     const double spacings = mesh.spacing * mesh.spacing / fastest_diffusivity();
-    const auto keeps_to_bounds = [&]
+    const auto excess = [&]
     {
-      const auto [lowest, highest] = extremes();
-      const double tolerated = tolerated_excess();
-      return lowest >= bounds.lower - tolerated && highest <= bounds.upper + tolerated;
+      const double melting = scene.material.melting_temperature;
+      double largest = 0;
+      for(const CutTriangle &cut : frame.front.cut)
+        for(const unsigned int node : cut.place->nodes)
+        {
+          const double value
+              = temperatures[state.level_set[node] < 0 ? 0 : 1][node] + melting;
+          largest = std::max({largest, bounds.lower - value, value - bounds.upper});
+        }
+      return largest;
     };
     const std::array<Values, 2> handed_over = state.heat;
+    std::array<Values, 2> best = state.heat, best_temperatures = temperatures;
+    double least = excess();
     for(double share = 4 * share_of_projection;
-        share <= farthest_spread && !keeps_to_bounds(); share *= 4)
+        share <= farthest_spread && !(least <= tolerated_excess()); share *= 4)
     {
       state.heat = handed_over;
       temperatures = spread_heat(assembly, frame, {time, time, powers}, share * spacings,
                                  state.heat);
+      if(excess() < least)
+      {
+        least = excess();
+        best = state.heat;
+        best_temperatures = temperatures;
+      }
     }
+    state.heat = best;
+    temperatures = best_temperatures;
   }
 
   /** Of the site that is nearest to a node, in the node's phase; at corners of triangles

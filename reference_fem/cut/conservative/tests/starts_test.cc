@@ -61,6 +61,24 @@ namespace meltfront::reference_fem::tests
       EXPECT_GE(fitted_order(n, errors), 1);
     }
 
+    /** The corner of Rathjen and Jiji (1971), of which the similar problem is solved by
+     * collocation. */
+    TEST(EnthalpyStart, ACornerOfHeldWallsFreezesAsTheSimilarProblemSays)
+    {
+      constexpr double solid_at_end = 0.267720;
+      Material material = material_of_starts();
+      material.latent_heat = 0.25;
+      Scene scene = box(material, 2, {0, 0, 0}, {1, 1, 0}, 0.3, 0.01);
+      hold(scene, Side::x_min, -1);
+      hold(scene, Side::y_min, -1);
+      for(const int n : {28, 32, 36})
+      {
+        const Course course = run_from_one_phase(scene, n);
+        EXPECT_LE(course.worst_budget_defect(), round_off) << n;
+        EXPECT_NEAR(course.solid.back(), solid_at_end, 1e-3 * solid_at_end) << n;
+      }
+    }
+
     TEST(EnthalpyStart, ABlockMeltsFromAllSidesUntilNothingIsLeft)
     {
       Scene scene
