@@ -63,9 +63,8 @@ namespace meltfront::particles
         }
         else
           scheme.emplace(plan, state_of_all.size(), state_of_all.size(), flows.threads());
-        flows.prepare_step(
-            scene.start_time,
-            cases::end_of_piece(breakpoints, scene.start_time, time_of(1)));
+        flows.prepare_step(scene.start_time,
+                           cases::end_of_piece(plan.ends, scene.start_time, time_of(1)));
         flows.hold_walls(0, view());
         extremes = flows.follow(view());
         initial_heat = heat_content();
@@ -118,7 +117,7 @@ namespace meltfront::particles
       {
         return step == plan.steps ? scene.end_time
                                   : cases::snap_to_breakpoint(
-                                      breakpoints, scene.start_time + step * plan.step);
+                                      plan.ends, scene.start_time + step * plan.step);
       }
 
       std::span<const double> concentration(std::size_t solute) const
@@ -146,7 +145,7 @@ namespace meltfront::particles
         else
           while(begin < end)
           {
-            const double next = cases::end_of_piece(breakpoints, begin, end);
+            const double next = cases::end_of_piece(plan.ends, begin, end);
             advance_explicitly(step, begin, next, heat);
             begin = next;
           }
@@ -325,7 +324,6 @@ namespace meltfront::particles
       cases::TemperatureBounds bounds;
       double particle_mass;
       StepPlan plan;
-      std::vector<double> breakpoints = cases::breakpoints_of(scene); ///< s
 
       std::size_t fields; ///< that steps change: enthalpy, then concentrations
       std::vector<double> state_of_all; ///< field after field

@@ -1,6 +1,7 @@
 #include <cases/compensated_sum.h>
 #include <cases/error.h>
 #include <cases/scene.h>
+#include <cases/step_ends.h>
 #include <cases/stopwatch.h>
 #include <cases/temperature_slack.h>
 #include <cases/time_integral.h>
@@ -104,9 +105,8 @@ namespace meltfront::particles
         weights = dis.weights;
         for(const std::uint32_t a : dis.dirichlet)
           weights[a] = 0; // holds a boundary value only
-        flows.prepare_step(
-            scene.start_time,
-            cases::end_of_piece(breakpoints, scene.start_time, time_of(1)));
+        flows.prepare_step(scene.start_time,
+                           cases::end_of_piece(plan.ends, scene.start_time, time_of(1)));
         flows.hold_walls(0);
         sites.update();
         initial_heat = sites.heat_content(dis.cross_section).initial;
@@ -164,7 +164,7 @@ namespace meltfront::particles
           const double end = time_of(step);
           for(double begin = time_of(step - 1); begin < end;)
           {
-            const double next = cases::end_of_piece(breakpoints, begin, end);
+            const double next = cases::end_of_piece(plan.ends, begin, end);
             boundary_heat.add(stepper.advance(step, begin, next) / dis.cross_section);
             begin = next;
           }
@@ -192,7 +192,13 @@ namespace meltfront::particles
         const double duration = scene.end_time - scene.start_time;
         const long steps = std::max(
             fewest_steps, static_cast<long>(std::ceil(duration / longest * (1 - 1e-12))));
-        return {steps, duration / steps, 1, {flows.monotone_step()}, 1, 0};
+        return {steps,
+                duration / steps,
+                1,
+                {flows.monotone_step()},
+                1,
+                0,
+                cases::step_ends(scene, parameters.sph.n, duration / steps)};
       }
 
       /** Time after a step; the end exactly. */
@@ -200,7 +206,7 @@ namespace meltfront::particles
       {
         return step == plan.steps ? scene.end_time
                                   : cases::snap_to_breakpoint(
-                                      breakpoints, scene.start_time + step * plan.step);
+                                      plan.ends, scene.start_time + step * plan.step);
       }
 
       /** The maximum principle, for every particle that has mass; a known liquidus. */
@@ -300,7 +306,6 @@ namespace meltfront::particles
       TwoPopulationFlow flows;
       cases::TemperatureBounds bounds;
       StepPlan plan;
-      std::vector<double> breakpoints = cases::breakpoints_of(scene); ///< s
       TwoPopulationStepper stepper;
       std::vector<double> weights, temperature, solid_fraction; ///< for snapshots
       double initial_heat = 0, initial_mass = 0;

@@ -2,6 +2,7 @@
 
 #include <cases/error.h>
 #include <cases/exact/front_start.h>
+#include <cases/step_ends.h>
 
 #include <fmt/format.h>
 
@@ -66,6 +67,9 @@ namespace meltfront::reference_fem::cut
     , heat(scene, state.mesh->spacing, options.stabilisation, options.speed_smoothing)
     , bounds(cases::temperature_bounds(scene))
     , breakpoints(cases::breakpoints_of(scene))
+    , step_ends(cases::step_ends(scene, resolution.n,
+                                 (scene.end_time - scene.start_time)
+                                     / static_cast<double>(options.fewest_steps)))
   {
     start();
   }
@@ -195,7 +199,7 @@ namespace meltfront::reference_fem::cut
 
   double CutRun::next_stop() const
   {
-    return cases::end_of_piece(breakpoints, state.time, scene.end_time);
+    return cases::end_of_piece(step_ends, state.time, scene.end_time);
   }
 
   double CutRun::next_step() const

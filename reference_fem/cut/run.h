@@ -88,7 +88,8 @@ namespace meltfront::reference_fem::cut
     State state;
     HeatProblem heat;
     cases::TemperatureBounds bounds;
-    std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
+    std::vector<double> breakpoints; ///< of the scene (s)
+    std::vector<double> step_ends;   ///< cases::step_ends()
     std::string start_in_words;
     long unknowns_at_start = 0;
 

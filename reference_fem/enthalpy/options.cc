@@ -1,4 +1,6 @@
 #include <cases/error.h>
+#include <cases/step_ends.h>
+#include <cases/time_integral.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/options.h>
 
@@ -40,10 +42,17 @@ namespace meltfront::reference_fem
     if(options.front_within_cells && options.dimension > 1)
       throw cases::Refusal("fem-enthalpy takes fronts at their places within cells "
                            "(front = within_cells) in one dimension only");
-    if(options.steps == 0)
+    if(options.steps > 0)
+      options.step_ends = cases::breakpoints_of(scene);
+    else
+    {
       options.steps
           = std::max(fewest_steps, std::lround(options.steps_per_cell
                                                * cells_along(scene, resolution.n)));
+      options.step_ends = cases::step_ends(scene, resolution.n,
+                                           (scene.end_time - scene.start_time)
+                                               / static_cast<double>(options.steps));
+    }
     return options;
   }
 
@@ -55,10 +64,12 @@ namespace meltfront::reference_fem
     options.add(
         "steps_per_cell", steps_per_cell,
         "Time steps over the run per cell along the domain's side; at least 50 in "
-        "all.",
+        "all, and more where what walls prescribe swings faster.",
         1e-6, 1e6);
-    options.add("steps", steps, "Time steps over the run; 0: from steps_per_cell.", 0,
-                1e9);
+    options.add(
+        "steps", steps,
+        "Time steps over the run, whatever walls prescribe; 0: from steps_per_cell.", 0,
+        1e9);
     options.add("start_halvings", start_halvings,
                 "The first step is replaced by steps that double from 2^-start_halvings "
                 "of it.",

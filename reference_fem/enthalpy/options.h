@@ -29,6 +29,7 @@ namespace meltfront::reference_fem
     Preconditioner preconditioner = Preconditioner::automatic;
     double checkpoint = 0;    ///< between states that are kept (s of wall time); 0: none
     bool distributed = false; ///< the engine of several ranks, also on one
+    std::vector<double> step_ends{}; ///< where steps end in between (s)
   };
 
   /** Their values, made out for a scene.

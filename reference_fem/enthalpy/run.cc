@@ -41,7 +41,7 @@ namespace meltfront::reference_fem
     , time_before(scene.start_time)
     , breakpoints(cases::breakpoints_of(scene))
     , queue(scene.start_time, scene.end_time, options.steps, options.start_halvings,
-            breakpoints)
+            options.step_ends)
   {
     if(motion && options.dimension > 1)
       throw cases::Refusal("fem-enthalpy moves displaced liquid in one dimension only");

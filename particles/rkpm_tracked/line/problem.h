@@ -53,7 +53,8 @@ namespace meltfront::particles::rkpm_tracked
     std::function<double(double x, double time)> volumetric_source; ///< W/m^3, or empty
     /** The mean over a time of the heat released (W/m^3). */
     std::function<double(double x, double begin, double end)> mean_release;
-    std::vector<double> breakpoints; ///< at which steps are to end (s)
+    std::vector<double> breakpoints; ///< at which steps begin anew (s)
+    std::vector<double> step_ends;   ///< cases::step_ends(), breakpoints too
     Displaced displaced = Displaced::liquid;
     bool metastable = false; ///< phases beyond the melting temperature are meant
 

@@ -191,11 +191,11 @@ namespace meltfront::particles::rkpm_tracked
         return result;
       }
 
-      /** Advance to a time, or to a breakpoint before it. */
+      /** Advance to a time, or to where a step has to end before it. */
       void advance(double target)
       {
         const double end
-            = cases::end_of_piece(problem.breakpoints, stepper.state().time, target);
+            = cases::end_of_piece(problem.step_ends, stepper.state().time, target);
         stepper.advance(end, [this](const LineState &begin) { after_step(begin); });
         if(!std::ranges::binary_search(problem.breakpoints, end))
           return;

@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <cases/initial_level.h>
+#include <cases/step_ends.h>
 #include <cases/time_integral.h>
 #include <cases/wall_law.h>
 #include <particles/core/arrangement.h>
@@ -217,6 +218,11 @@ namespace meltfront::particles::rkpm_tracked
         = std::min(most_growth, spacing / (graded_share * domain.side()));
     lay_nodes(problem, lower, upper, spacing, parameters.jitter, seed);
     problem.breakpoints = cases::breakpoints_of(scene);
+    // Steps that are equal in the root of time are up to twice as long as their mean.
+    problem.step_ends
+        = cases::step_ends(scene, parameters.cells,
+                           (parameters.clock == Clock::time ? 1 : 2)
+                               * (scene.end_time - scene.start_time) / parameters.steps);
     if(scene.volumetric_source)
     {
       const double beside = 1e-11 * (scene.end_time - scene.start_time);

@@ -3,6 +3,7 @@
 #include <particles/rkpm_tracked/plane/topology.h>
 
 #include <cases/error.h>
+#include <cases/step_ends.h>
 
 #include <fmt/format.h>
 
@@ -65,6 +66,8 @@ namespace meltfront::particles::rkpm_tracked
     , marked(nodes, std::max(1, resolution.threads))
     , bounds(cases::temperature_bounds(scene))
     , breakpoints(cases::breakpoints_of(scene))
+    , step_ends(cases::step_ends(scene, resolution.n,
+                                 (scene.end_time - scene.start_time) / parameters.steps))
   {
     if(parameters.time_scheme == TimeScheme::bdf3)
       throw cases::Refusal("rkpm-tracked steps by bdf2 or backward-euler in the plane");
@@ -90,7 +93,7 @@ namespace meltfront::particles::rkpm_tracked
 
   double PlaneRun::next_stop() const
   {
-    return cases::end_of_piece(breakpoints, state.time, scene.end_time);
+    return cases::end_of_piece(step_ends, state.time, scene.end_time);
   }
 
   double PlaneRun::next_step() const

@@ -92,7 +92,8 @@ namespace meltfront::particles::rkpm_tracked
     PlaneRelaxation relaxation;
     MarkedFront marked;
     cases::TemperatureBounds bounds;
-    std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
+    std::vector<double> breakpoints; ///< of the scene (s)
+    std::vector<double> step_ends;   ///< cases::step_ends()
     std::string start_in_words;
     std::size_t front_at_start = 0; ///< particles
     PlaneState state;

@@ -139,7 +139,7 @@ namespace meltfront::particles
         duration = 0.5 * kink;
     }
     const double last = dis.scene.end_time;
-    return cases::end_of_piece(breakpoints, begin,
+    return cases::end_of_piece(plan.ends, begin,
                                begin + 1.01 * duration >= last ? last : begin + duration);
   }
 

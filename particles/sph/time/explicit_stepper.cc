@@ -19,7 +19,7 @@ namespace meltfront::particles
     const double end = time_of(step);
     while(begin < end)
     {
-      const double next = cases::end_of_piece(breakpoints, begin, end);
+      const double next = cases::end_of_piece(plan.ends, begin, end);
       cross(step, begin, next);
       begin = next;
     }

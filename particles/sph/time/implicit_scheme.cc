@@ -53,7 +53,7 @@ namespace meltfront::particles
               : cases::snap_to_breakpoint(breakpoints, start + step * plan.step);
     while(begin < end)
     {
-      const double next = cases::end_of_piece(breakpoints, begin, end);
+      const double next = cases::end_of_piece(plan.ends, begin, end);
       if(scheme_of(step, begin) != scheme)
       {
         const double middle = 0.5 * (begin + next);
@@ -135,8 +135,7 @@ namespace meltfront::particles
     {
       // No rest much shorter than the steps is left over.
       const double end = cases::end_of_piece(
-          breakpoints, begin,
-          begin + 1.01 * next_step >= last ? last : begin + next_step);
+          plan.ends, begin, begin + 1.01 * next_step >= last ? last : begin + next_step);
       WallHeat added;
       const double error = compare(subject, begin, end, with, added);
       constexpr double caution = 0.9, least = 0.2, most = 2;

@@ -21,7 +21,6 @@ namespace meltfront::particles
     : heat_flow(heat_flow)
     , dis(discretisation)
     , plan(plan)
-    , breakpoints(cases::breakpoints_of(discretisation.scene))
     , n(initial.size())
     , method(std::move(method))
     , enthalpy(std::move(initial))
@@ -31,7 +30,7 @@ namespace meltfront::particles
     enthalpy.resize(heat_flow.padded_size(), 0.);
     heat_flow.prepare_step(
         dis.scene.start_time,
-        cases::end_of_piece(breakpoints, dis.scene.start_time, time_of(1)));
+        cases::end_of_piece(plan.ends, dis.scene.start_time, time_of(1)));
     heat_flow.hold_walls(0, enthalpy);
     follow();
   }
@@ -46,7 +45,7 @@ namespace meltfront::particles
   {
     return step == plan.steps ? dis.scene.end_time
                               : cases::snap_to_breakpoint(
-                                  breakpoints, dis.scene.start_time + step * plan.step);
+                                  plan.ends, dis.scene.start_time + step * plan.step);
   }
 
   double Stepper::advance(long step, double begin)

@@ -82,8 +82,7 @@ namespace meltfront::particles
     HeatFlow &heat_flow;
     const Discretisation &dis;
     const StepPlan plan;
-    const std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
-    const std::size_t n;                   ///< particles
+    const std::size_t n; ///< particles
     const std::string method;
     std::vector<double> enthalpy; ///< per mass, the state (J/kg), padded
     long repeated = 0;

@@ -1,4 +1,6 @@
 #include <cases/error.h>
+#include <cases/step_ends.h>
+#include <cases/time_integral.h>
 #include <particles/sph/time/time_stepping.h>
 
 #include <fmt/format.h>
@@ -204,29 +206,47 @@ namespace meltfront::particles
       }
       return plan;
     }
+    StepPlan plan_lengths(const SphParameters &p, const cases::Scene &scene,
+                          const StepLimits &limits, double smoothing_length)
+    {
+      const double duration = scene.end_time - scene.start_time;
+      const double euler
+          = p.step_factor > 0
+                ? p.step_factor * (guarded(p) ? limits.monotone : limits.stable)
+                : published_step(scene.material, smoothing_length);
+      if(p.time_scheme == TimeScheme::automatic)
+        return {0, std::min(euler, duration / fewest_steps), 1, limits, 1, 0};
+      if(is_implicit(p.time_scheme) && p.steps == 0)
+      {
+        const long steps = steps_within(duration, euler);
+        return {steps, duration / steps, 1, limits, 1, 0};
+      }
+      if(!is_implicit(p.time_scheme) && guarded(p))
+        refuse_unstable_step(euler, limits.monotone);
+      StepPlan plan = p.steps > 0 ? plan_given_steps(p, duration, euler, limits)
+                                  : plan_long_steps(p, duration, euler, limits);
+      plan.step = duration / plan.steps;
+      plan.euler_substeps = static_cast<int>(steps_within(plan.step, euler));
+      return plan;
+    }
+
+    /** Of the steps that a plan may lead to. */
+    double longest_step(const SphParameters &p, const StepPlan &plan, double duration)
+    {
+      if(p.time_scheme == TimeScheme::automatic)
+        return duration / fewest_steps;
+      return p.step_error > 0 ? duration : plan.step;
+    }
   } // namespace
 
   StepPlan plan_steps(const SphParameters &p, const cases::Scene &scene,
                       const StepLimits &limits, double smoothing_length)
   {
-    const double duration = scene.end_time - scene.start_time;
-    const double euler
-        = p.step_factor > 0
-              ? p.step_factor * (guarded(p) ? limits.monotone : limits.stable)
-              : published_step(scene.material, smoothing_length);
-    if(p.time_scheme == TimeScheme::automatic)
-      return {0, std::min(euler, duration / fewest_steps), 1, limits, 1, 0};
-    if(is_implicit(p.time_scheme) && p.steps == 0)
-    {
-      const long steps = steps_within(duration, euler);
-      return {steps, duration / steps, 1, limits, 1, 0};
-    }
-    if(!is_implicit(p.time_scheme) && guarded(p))
-      refuse_unstable_step(euler, limits.monotone);
-    StepPlan plan = p.steps > 0 ? plan_given_steps(p, duration, euler, limits)
-                                : plan_long_steps(p, duration, euler, limits);
-    plan.step = duration / plan.steps;
-    plan.euler_substeps = static_cast<int>(steps_within(plan.step, euler));
+    StepPlan plan = plan_lengths(p, scene, limits, smoothing_length);
+    plan.ends = p.steps > 0 ? cases::breakpoints_of(scene)
+                            : cases::step_ends(
+                                scene, p.n,
+                                longest_step(p, plan, scene.end_time - scene.start_time));
     return plan;
   }
 

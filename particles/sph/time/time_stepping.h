@@ -56,12 +56,14 @@ namespace meltfront::particles
                          ///< or broke a bound
     long resolved_steps; ///< so many first steps are resolved by Euler steps: a
                          ///< discontinuous start is not smooth enough for a super step
+    std::vector<double> ends{}; ///< where steps end in between (s): cases::step_ends()
   };
 
   /**
    * Divide a duration into equal steps. Super steps are kept short enough for at least
    * 200 of them, with fewer stages where these suffice; implicit steps may be of any
-   * length, and so may those in multiples of the stability limit.
+   * length, and so may those in multiples of the stability limit. Unless a number of
+   * steps is asked for, steps follow what walls prescribe.
    * @throws cases::Refusal if an explicit step asked for exceeds monotone_step, but for
    * multiples of the stability limit.
    */

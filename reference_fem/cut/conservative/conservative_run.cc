@@ -1,6 +1,7 @@
 #include <reference_fem/cut/conservative/conservative_run.h>
 
 #include <cases/error.h>
+#include <cases/step_ends.h>
 #include <cases/time_integral.h>
 #include <reference_fem/cut/conservative/appearance.h>
 #include <reference_fem/cut/conservative/initial_front.h>
@@ -79,7 +80,9 @@ namespace meltfront::reference_fem::cut::conservative
     , assembly(scene, mesh, sources,
                {options.stabilisation.penalty, options.stabilisation.ghost})
     , bounds(cases::temperature_bounds(scene))
-    , breakpoints(cases::breakpoints_of(scene))
+    , step_ends(cases::step_ends(scene, resolution.n,
+                                 (scene.end_time - scene.start_time)
+                                     / static_cast<double>(options.fewest_steps)))
     , appearance(mesh, scene, reach_of_distance * mesh.spacing)
     , time(scene.start_time)
   {
@@ -119,7 +122,7 @@ namespace meltfront::reference_fem::cut::conservative
           fmt::format("moves at {:.3g} m/s, for which steps would be shorter than {:g} "
                       "of the run",
                       front_speed, shortest_step));
-    const double rest = cases::end_of_piece(breakpoints, time, scene.end_time) - time;
+    const double rest = cases::end_of_piece(step_ends, time, scene.end_time) - time;
     if(step >= rest * (1 - 1e-10))
       return rest;
     return step > rest / 2 ? rest / 2 : step;
@@ -191,7 +194,7 @@ namespace meltfront::reference_fem::cut::conservative
   void ConservativeRun::make_step()
   {
     double duration = next_step();
-    const double stop = cases::end_of_piece(breakpoints, time, scene.end_time);
+    const double stop = cases::end_of_piece(step_ends, time, scene.end_time);
     const auto end = [&] { return duration == stop - time ? stop : time + duration; };
     Step step;
     int halvings = 0;

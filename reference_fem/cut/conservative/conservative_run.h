@@ -96,7 +96,7 @@ namespace meltfront::reference_fem::cut::conservative
     const LineSources sources;
     PhaseAssembly assembly;
     const cases::TemperatureBounds bounds;
-    const std::vector<double> breakpoints; ///< of the scene, at which steps end (s)
+    const std::vector<double> step_ends; ///< cases::step_ends()
     const AppearanceSetting appearance;
     std::string start_in_words;
 

@@ -38,7 +38,7 @@ namespace meltfront::reference_fem
     , time_before(scene.start_time)
     , breakpoints(cases::breakpoints_of(scene))
     , queue(scene.start_time, scene.end_time, options.steps, options.start_halvings,
-            breakpoints)
+            options.step_ends)
   {
     if(options.refine_at_front)
       throw cases::Refusal(
