@@ -176,6 +176,31 @@ namespace meltfront::cases
       return upper - lower;
     }
 
+    /** Until the next breakpoint, a jump is followed like the half of a swing that is as
+     * large. */
+    void follow_jumps(const std::vector<Place> &places, double range,
+                      const std::vector<double> &breakpoints,
+                      std::vector<Interval> &intervals)
+    {
+      std::size_t interval = 0;
+      for(std::size_t i = 0; i < breakpoints.size(); ++i)
+      {
+        const double begin = breakpoints[i];
+        while(interval < intervals.size() && intervals[interval].begin < begin)
+          ++interval;
+        const double end
+            = i + 1 < breakpoints.size() ? breakpoints[i + 1] : intervals.back().end;
+        const double beside = 1e-9 * (end - begin);
+        double jump = 0;
+        for(const auto &[field, position] : places)
+          jump = std::max(jump, std::abs((*field)(position, begin + beside)
+                                         - (*field)(position, begin - beside)));
+        const double rate = std::sqrt(jump / range) / (end - begin);
+        for(; interval < intervals.size() && intervals[interval].begin < end; ++interval)
+          intervals[interval].rate = std::max(intervals[interval].rate, rate);
+      }
+    }
+
     /** How fast what walls prescribe swings, in intervals that cover the run and end at
      * its breakpoints; empty where nothing does. */
     std::vector<Interval> swings_of(const Scene &scene,
@@ -213,6 +238,7 @@ namespace meltfront::cases
         learn(i, i + 1);
         learn(i + 1, i);
       }
+      follow_jumps(places, range, breakpoints, result);
       return result;
     }
 

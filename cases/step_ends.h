@@ -12,7 +12,8 @@ namespace meltfront::cases
    * breakpoints_of(), and, where the temperature of a wall or beside it swings faster
    * than steps of the `longest` length (s) follow, times between which no such
    * temperature departs from a straight line by more than about 1/(4 n) of the scene's
-   * temperature range. Twice as many cells n take sqrt(2) times as many steps there: the
+   * temperature range; after a jump as many as in the half of a swing that is as
+   * large. Twice as many cells n take sqrt(2) times as many steps there: the
    * error of a scheme of second order falls as 1/n, and is seen by whoever compares
    * levels. Where `longest` is short enough there are the breakpoints only.
    *

@@ -117,6 +117,22 @@ TEST(StepEnds, KeepBreakpointsAndEnclosedJumpsThatHaveNone)
   EXPECT_EQ(step_ends(slab(jump), 40, 0.01), std::vector<double>{0.3});
 }
 
+TEST(StepEnds, FollowWhatJumpsSoonAgain)
+{
+  constexpr int halves = 512;
+  Field square = in_time([](double t) { return int(halves * t) % 2 == 0 ? 1. : -1.; });
+  for(int i = 1; i < halves; ++i)
+    square.breakpoints.push_back(double(i) / halves);
+  for(const int n : {10, 40, 160})
+  {
+    const auto ends = step_ends(slab(square), n, 0.01);
+    // The first half is no jump.
+    EXPECT_NEAR(double(ends.size()) / (halves - 1), std::ceil(2 * std::sqrt(n)), 0.01);
+    for(const double time : square.breakpoints)
+      EXPECT_TRUE(std::ranges::binary_search(ends, time));
+  }
+}
+
 TEST(StepEnds, WhatCannotBeSampledIsRefused)
 {
   EXPECT_THROW(step_ends(slab(swing(1.234e7)), 40, 0.01), Refusal);

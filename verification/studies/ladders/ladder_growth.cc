@@ -24,6 +24,7 @@ namespace meltfront::verification
     /** Predictions of the growth are within 2 in 9 of 10. */
     constexpr double safety = 1.5;
     constexpr double shortest_limit = 1; // s
+    constexpr double share_of_first_level = 0.25;
     /** Times as many cells as were asked for that are taken so that squares fill a box;
      * else methods stretch them, or refuse by name. */
     constexpr double most_to_fit = 1.5;
@@ -111,7 +112,10 @@ namespace meltfront::verification
     matrix.name = title;
     matrix.title = title;
     matrix.remarks = remarks;
-    matrix.time_limit = std::max(seconds_left(), shortest_limit);
+    // Who takes longer than that at first has no time for a second level, and would leave
+    // the others none.
+    const double share = made.runs.empty() ? share_of_first_level : 1;
+    matrix.time_limit = std::max(share * seconds_left(), shortest_limit);
     for(const GrowingLadder &ladder : growing)
       if(!ladder.resolutions.empty())
       {
