@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace meltfront::cases
 {
@@ -117,6 +118,16 @@ namespace meltfront::cases
     }
   } // namespace
 
+  Domain wall_of(const Domain &domain, Side side)
+  {
+    Domain wall = domain;
+    const auto normal = static_cast<std::size_t>(side) / 2;
+    const bool upper = static_cast<std::size_t>(side) % 2 == 1;
+    const double place = (upper ? domain.upper : domain.lower)[normal];
+    wall.lower[normal] = wall.upper[normal] = place;
+    return wall;
+  }
+
   void visit_densely(const Scene &scene, const std::vector<const Field *> &fields,
                      const PointVisitor &visit)
   {
@@ -225,25 +236,41 @@ namespace meltfront::cases
     }
   }
 
+  void visit_wall_densely(const Scene &scene, Side side, const Field &field,
+                          const PointVisitor &visit)
+  {
+    const Domain &domain = scene.domain;
+    if(domain.round() && domain.dimension == 2 && scene.symmetry == Symmetry::none
+       && !is_exact(field))
+    {
+      const double radius = side == Side::inner ? domain.inner_radius : domain.radius;
+      constexpr int places = samples_of_directions[1];
+      for(int i = 0; i < places; ++i)
+      {
+        const double angle = 2 * std::numbers::pi * i / places;
+        visit({radius * std::cos(angle), radius * std::sin(angle), 0});
+      }
+      return;
+    }
+    if(!domain.rectangular())
+    {
+      visit_wall(domain, side, visit);
+      return;
+    }
+    Scene wall;
+    wall.domain = wall_of(domain, side);
+    visit_densely(wall, {&field}, visit);
+  }
+
   void visit_wall_values(const Scene &scene, Side side, const Field &field,
                          const ValueVisitor &visit)
   {
     std::vector<Position> positions;
     const auto collect = [&](const Position &p) { positions.push_back(p); };
-    const bool flat = scene.domain.rectangular();
-    if(flat && !may_depend_on(field.expression, "t"))
-    {
-      // Along the wall only, and so more densely.
-      const auto normal = static_cast<std::size_t>(side) / 2;
-      const bool upper = static_cast<std::size_t>(side) % 2 == 1;
-      Scene wall;
-      wall.domain = scene.domain;
-      const double place = (upper ? scene.domain.upper : scene.domain.lower)[normal];
-      wall.domain.lower[normal] = wall.domain.upper[normal] = place;
-      visit_densely(wall, {&field}, collect);
-    }
-    else
+    if(may_depend_on(field.expression, "t"))
       visit_wall(scene.domain, side, collect);
+    else
+      visit_wall_densely(scene, side, field, collect);
     visit_values_in_time(scene, field, positions, visit);
   }
 

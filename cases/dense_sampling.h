@@ -20,6 +20,15 @@ namespace meltfront::cases
   void visit_densely(const Scene &scene, const std::vector<const Field *> &fields,
                      const PointVisitor &visit);
 
+  /** The wall of a slab, a box or a body about an axis, as a domain without extent along
+   * its normal. */
+  Domain wall_of(const Domain &domain, Side side);
+
+  /** Visit points of a wall as visit_densely() does, of a circle at 4097 angles,
+   * of other walls that bend those of visit_wall(). */
+  void visit_wall_densely(const Scene &scene, Side side, const Field &field,
+                          const PointVisitor &visit);
+
   /** Called with a value at a position and a time. */
   using ValueVisitor = std::function<void(double)>;
 

@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <cases/numbers.h>
+#include <verification/measure/checks/unresolved_data.h>
 #include <verification/measure/formulas/front_shape.h>
 #include <verification/run/end_profile.h>
 #include <verification/run/heat_observer.h>
@@ -41,6 +42,9 @@ namespace meltfront::verification
 
   void HeatObserver::start()
   {
+    if(const std::string unresolved = unresolved_data(scene, description.spacing);
+       !unresolved.empty())
+      throw cases::Refusal(unresolved);
     checks.emplace(scene, capabilities, method, description.spacing);
     reader.emplace(scene, exact, description.spacing, description.smoothing_length);
     start_measures(MeasuredScenes::with_heat, nullptr);

@@ -1,0 +1,205 @@
+#include <cases/dense_sampling.h>
+#include <cases/expression_words.h>
+#include <cases/sampling.h>
+#include <cases/scene_heat.h>
+#include <verification/measure/checks/scene_quadrature.h>
+#include <verification/measure/checks/unresolved_data.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace meltfront::verification
+{
+  namespace
+  {
+    using cases::Position;
+
+    /** Of the range of all given temperatures. */
+    constexpr double narrow_departure = 0.25;
+
+    /** A spacing is halved no more often than that to find one that does. */
+    constexpr int most_halvings = 12;
+
+    constexpr int times_of_run = 9;
+
+    /** A temperature that is given at places of a domain, which is flat for a wall. */
+    struct GivenTemperature
+    {
+      std::string name;
+      const cases::Field &field;
+      const cases::Domain &domain;
+      std::vector<Position> places;
+      std::vector<double> times;
+    };
+
+    bool varies_in_space(const cases::Field &field)
+    {
+      return !field.constant && cases::may_depend_on(field.expression, "xyz");
+    }
+
+    std::vector<double> times_of(const cases::Scene &scene, const cases::Field &field)
+    {
+      std::vector<double> times{scene.start_time};
+      constexpr double golden = 0.6180339887498949;
+      if(cases::may_depend_on(field.expression, "t"))
+        for(int i = 1; i < times_of_run; ++i)
+          times.push_back(scene.start_time
+                          + std::fmod(golden * i, 1.)
+                                * (scene.end_time - scene.start_time));
+      return times;
+    }
+
+    /** Places far enough from most values to be part of a feature. */
+    class Feature
+    {
+    public:
+      Feature(const GivenTemperature &given, double range)
+        : given(given)
+        , least(narrow_departure * range)
+      {
+        for(const double time : given.times)
+          add_places(time);
+      }
+
+      /** Where what lies between points one spacing apart departs most. */
+      std::optional<Position> narrower_than(double spacing) const
+      {
+        std::optional<Position> found;
+        double largest = least;
+        for(const Suspect &suspect : suspects)
+          for(int d = 0; d < given.domain.dimension; ++d)
+            if(const double departure = departure_of(suspect, d, spacing / 2);
+               departure > largest)
+            {
+              largest = departure;
+              found = suspect.place;
+            }
+        return found;
+      }
+
+    private:
+      struct Suspect
+      {
+        Position place;
+        double time, value;
+      };
+
+      void add_places(double time)
+      {
+        std::vector<double> values;
+        for(const Position &place : given.places)
+          values.push_back(given.field(place, time));
+        std::vector<double> sorted = values;
+        const auto middle = sorted.begin() + static_cast<long>(sorted.size() / 2);
+        std::ranges::nth_element(sorted, middle);
+        for(std::size_t i = 0; i < values.size(); ++i)
+          if(std::abs(values[i] - *middle) > least)
+            suspects.push_back({given.places[i], time, values[i]});
+      }
+
+      /** From the nearer of the values beside a place in one direction, 0 if it lies
+       * between them. Beyond the end of a domain lies what is before it. */
+      double departure_of(const Suspect &suspect, int d, double distance) const
+      {
+        const cases::Domain &domain = given.domain;
+        if(!cases::may_depend_on(given.field.expression, std::string(1, "xyz"[d]))
+           || (domain.rectangular() && domain.lower[d] == domain.upper[d]))
+          return 0;
+        std::array<double, 2> departures{};
+        std::array<bool, 2> inside{};
+        for(const int side : {0, 1})
+        {
+          Position beside = suspect.place;
+          beside[d] += side == 0 ? -distance : distance;
+          inside[side] = lies_in_domain(beside);
+          departures[side] = suspect.value - given.field(beside, suspect.time);
+        }
+        for(const int side : {0, 1})
+          if(!inside[side])
+            departures[side] = inside[1 - side] ? departures[1 - side] : 0;
+        return departures[0] * departures[1] > 0
+                   ? std::min(std::abs(departures[0]), std::abs(departures[1]))
+                   : 0;
+      }
+
+      bool lies_in_domain(const Position &p) const
+      {
+        if(given.domain.rectangular())
+          for(int d = 0; d < given.domain.dimension; ++d)
+            if(p[d] < given.domain.lower[d] || p[d] > given.domain.upper[d])
+              return false;
+        return cases::contains(given.domain, p);
+      }
+
+      const GivenTemperature &given;
+      double least;
+      std::vector<Suspect> suspects;
+    };
+
+    std::string describe(const GivenTemperature &given, double range, double spacing)
+    {
+      const Feature feature(given, range);
+      const std::optional<Position> place = feature.narrower_than(spacing);
+      if(!place)
+        return "";
+      double finer = spacing;
+      for(int i = 0; i < most_halvings && feature.narrower_than(finer); ++i)
+        finer /= 2;
+      return fmt::format(
+          "{} has a feature at ({:.4g}, {:.4g}, {:.4g}) that is narrower "
+          "than the spacing of {:.3g} m; {:.3g} m or less would resolve it",
+          given.name, (*place)[0], (*place)[1], (*place)[2], spacing, finer);
+    }
+
+    bool gives_a_temperature(const cases::Boundary &boundary)
+    {
+      using cases::BoundaryKind;
+      return !boundary.exact
+             && (boundary.kind == BoundaryKind::fixed_temperature
+                 || boundary.kind == BoundaryKind::heat_transfer
+                 || boundary.kind == BoundaryKind::radiation)
+             && varies_in_space(boundary.value);
+    }
+  } // namespace
+
+  std::string unresolved_data(const cases::Scene &scene, double spacing)
+  {
+    const cases::TemperatureBounds bounds = cases::given_temperatures(scene);
+    const double range = bounds.upper - bounds.lower;
+    if(!(range > 0) || !std::isfinite(range))
+      return "";
+    const cases::Field &initial = scene.initial.temperature;
+    if(!scene.initial.exact && initial.value && initial.expression != "exact"
+       && varies_in_space(initial))
+    {
+      GivenTemperature given{
+          "the initial temperature", initial, scene.domain, {}, {scene.start_time}};
+      cases::visit_densely(scene, {&initial},
+                           [&](const Position &p) { given.places.push_back(p); });
+      if(const std::string found = describe(given, range, spacing); !found.empty())
+        return found;
+    }
+    for(const cases::Side side : scene.sides())
+    {
+      const cases::Boundary &boundary = scene.boundary(side);
+      if(!gives_a_temperature(boundary))
+        continue;
+      const cases::Domain wall = scene.domain.rectangular()
+                                     ? cases::wall_of(scene.domain, side)
+                                     : scene.domain;
+      std::vector<Position> places;
+      cases::visit_wall_densely(scene, side, boundary.value,
+                                [&](const Position &p) { places.push_back(p); });
+      const GivenTemperature given{
+          fmt::format("the temperature that is given at {}", name_of(scene.domain, side)),
+          boundary.value, wall, std::move(places), times_of(scene, boundary.value)};
+      if(const std::string found = describe(given, range, spacing); !found.empty())
+        return found;
+    }
+    return "";
+  }
+} // namespace meltfront::verification

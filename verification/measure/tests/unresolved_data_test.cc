@@ -1,0 +1,111 @@
+#include <verification/measure/checks/unresolved_data.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace
+{
+  using namespace meltfront::cases;
+  using meltfront::verification::unresolved_data;
+
+  Field field_of(const std::string &words, std::function<double(const Position &)> value)
+  {
+    return {words,
+            [value = std::move(value)](const Position &p, double) { return value(p); }};
+  }
+
+  /** A box of 1 by 0.8 at -1, all walls insulated. */
+  Scene unit_box()
+  {
+    Scene scene;
+    scene.domain.shape = DomainShape::box;
+    scene.domain.dimension = 2;
+    scene.domain.upper = {1, 0.8, 0};
+    scene.initial.temperature = Field::uniform(-1);
+    for(int side = 0; side < 4; ++side)
+      scene.boundaries[side] = Boundary();
+    return scene;
+  }
+
+  double bell(double distance, double width)
+  {
+    return std::exp(-distance * distance / (width * width));
+  }
+
+  Field spot_on_wall(double width)
+  {
+    return field_of("exp(-((y - 0.3137)/w)^2)",
+                    [width](const Position &p) { return bell(p[1] - 0.3137, width); });
+  }
+} // namespace
+
+TEST(UnresolvedData, SpotsOnWallsNarrowerThanTheSpacing)
+{
+  Scene scene = unit_box();
+  for(const BoundaryKind kind : {BoundaryKind::fixed_temperature,
+                                 BoundaryKind::heat_transfer, BoundaryKind::radiation})
+  {
+    scene.boundaries[0] = Boundary{kind, spot_on_wall(0.004)};
+    const std::string found = unresolved_data(scene, 0.025);
+    EXPECT_NE(found.find("x_min"), std::string::npos) << found;
+    EXPECT_NE(found.find("(0, 0.313"), std::string::npos) << found;
+    EXPECT_NE(found.find("m or less would"), std::string::npos) << found;
+    EXPECT_EQ(unresolved_data(scene, 0.0031), "");
+  }
+  // What a flux brings in is booked, and the book is held against the data.
+  scene.boundaries[0] = Boundary{BoundaryKind::flux, spot_on_wall(0.004)};
+  EXPECT_EQ(unresolved_data(scene, 0.025), "");
+}
+
+TEST(UnresolvedData, StepsAndWideBellsPass)
+{
+  Scene scene = unit_box();
+  scene.boundaries[0] = Boundary{BoundaryKind::fixed_temperature, spot_on_wall(0.06)};
+  EXPECT_EQ(unresolved_data(scene, 0.05), "");
+  scene.boundaries[0] = Boundary{BoundaryKind::fixed_temperature,
+                                 field_of("if(y < 0.3137, 1, -1)", [](const Position &p)
+                                          { return p[1] < 0.3137 ? 1. : -1.; })};
+  EXPECT_EQ(unresolved_data(scene, 0.1), "");
+  scene.initial.temperature = field_of("if(x < 0.5, 1, -1)", [](const Position &p)
+                                       { return p[0] < 0.5 ? 1. : -1.; });
+  EXPECT_EQ(unresolved_data(scene, 0.1), "");
+}
+
+TEST(UnresolvedData, InitialTemperatures)
+{
+  Scene scene = unit_box();
+  scene.initial.temperature = field_of(
+      "-1 + 500*exp(-((x - 0.3137)^2 + (y - 0.4043)^2)/0.000016)", [](const Position &p)
+      { return -1 + 500 * bell(std::hypot(p[0] - 0.3137, p[1] - 0.4043), 0.004); });
+  EXPECT_NE(unresolved_data(scene, 0.0125), "");
+  EXPECT_EQ(unresolved_data(scene, 0.003), "");
+  // A ridge along the diagonal, and a layer on a wall.
+  scene.initial.temperature = field_of("exp(-((x - y)/0.004)^2)", [](const Position &p)
+                                       { return bell(p[0] - p[1], 0.004); });
+  EXPECT_NE(unresolved_data(scene, 0.0125), "");
+  scene.initial.temperature = field_of("exp(-y/0.001)", [](const Position &p)
+                                       { return std::exp(-p[1] / 0.001); });
+  EXPECT_NE(unresolved_data(scene, 0.0125), "");
+}
+
+TEST(UnresolvedData, SpotsOnRoundWalls)
+{
+  Scene scene;
+  scene.domain.shape = DomainShape::ball;
+  scene.domain.dimension = 2;
+  scene.domain.radius = 1;
+  scene.initial.temperature = Field::uniform(-1);
+  const auto spot = [](double width)
+  {
+    return Boundary{
+        BoundaryKind::fixed_temperature,
+        field_of("exp(-((x - 0.6)^2 + (y - 0.8)^2)/w^2)", [width](const Position &p)
+                 { return bell(std::hypot(p[0] - 0.6, p[1] - 0.8), width); })};
+  };
+  scene.boundaries[static_cast<int>(Side::outer)] = spot(0.01);
+  EXPECT_NE(unresolved_data(scene, 0.05), "");
+  scene.boundaries[static_cast<int>(Side::outer)] = spot(0.2);
+  EXPECT_EQ(unresolved_data(scene, 0.05), "");
+}
