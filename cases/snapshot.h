@@ -21,7 +21,7 @@ namespace meltfront::cases
     double sources = 0;  ///< heat from sources since the start (negative for sinks)
     double initial = 0;  ///< stored + latent at the start
     /** Whether the method balances heat; collocation, which solves equations at points,
-     * does not: its defect is NaN. */
+     * does not: its defect is NaN, and what is stored as well if it keeps no book. */
     bool conservative = true;
 
     /** stored + latent - initial - boundary - sources; NaN if not conservative. */

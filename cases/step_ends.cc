@@ -41,6 +41,7 @@ namespace meltfront::cases
     struct Interval
     {
       double begin = 0, end = 0, rate = 0;
+      bool jumps = false; ///< however short it is
     };
 
     bool prescribes_a_temperature(const Boundary &boundary)
@@ -83,7 +84,8 @@ namespace meltfront::cases
       {
         sample(begin, end);
         const double departure = largest_departure();
-        if(std::isfinite(departure) && departure > followed && depth < deepest)
+        const bool is_followed = !(std::isfinite(departure) && departure > followed);
+        if(!is_followed && depth < deepest)
         {
           const double middle = 0.5 * (begin + end);
           search(begin, middle, depth + 1);
@@ -95,7 +97,7 @@ namespace meltfront::cases
               "a wall's temperature swings faster than steps can follow, at t = {:.6g} s "
               "within {:.2g} s: prescribe its mean",
               begin, end - begin));
-        found.push_back({begin, end, departure > 0 ? largest_rate() : 0});
+        found.push_back({begin, end, departure > 0 ? largest_rate() : 0, !is_followed});
       }
 
       const std::vector<Interval> &intervals() const
@@ -203,8 +205,8 @@ namespace meltfront::cases
 
     /** How fast what walls prescribe swings, in intervals that cover the run and end at
      * its breakpoints; empty where nothing does. */
-    std::vector<Interval> swings_of(const Scene &scene,
-                                    const std::vector<double> &breakpoints)
+    std::vector<Interval>
+    swings_of(const Scene &scene, const std::vector<double> &breakpoints, bool jumps_too)
     {
       const std::vector<Place> places = places_of(scene);
       if(places.empty())
@@ -226,6 +228,11 @@ namespace meltfront::cases
       // many steps as those beside it, in as much time.
       const std::vector<Interval> &found = search.intervals();
       std::vector<Interval> result = found;
+      if(!jumps_too)
+      {
+        std::erase_if(result, [](const Interval &interval) { return interval.jumps; });
+        return result;
+      }
       const auto length = [&](std::size_t i) { return found[i].end - found[i].begin; };
       const auto learn = [&](std::size_t i, std::size_t beside)
       {
@@ -268,7 +275,7 @@ namespace meltfront::cases
   std::vector<double> step_ends(const Scene &scene, int n, double longest)
   {
     const std::vector<double> breakpoints = breakpoints_of(scene);
-    const std::vector<Interval> swings = swings_of(scene, breakpoints);
+    const std::vector<Interval> swings = swings_of(scene, breakpoints, true);
     const double steps_of_rate = std::sqrt(n / departure_times_cells);
     const auto is_fast
         = [&](const Interval &swing) { return swing.rate * steps_of_rate * longest > 1; };
@@ -293,7 +300,7 @@ namespace meltfront::cases
   double longest_step_of_walls(const Scene &scene, int n)
   {
     double fastest = 0;
-    for(const Interval &swing : swings_of(scene, breakpoints_of(scene)))
+    for(const Interval &swing : swings_of(scene, breakpoints_of(scene), false))
       fastest = std::max(fastest, swing.rate);
     return 1 / (fastest * std::sqrt(n / departure_times_cells));
   }

@@ -25,8 +25,8 @@ namespace meltfront::cases
    */
   std::vector<double> step_ends(const Scene &scene, int n, double longest);
 
-  /** The longest equal steps that follow all that is said at step_ends() (s); infinite
-   * where nothing swings. */
+  /** The longest equal steps that follow all swings as step_ends() does (s), whatever
+   * jumps; infinite where nothing swings. */
   double longest_step_of_walls(const Scene &scene, int n);
 } // namespace meltfront::cases
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace meltfront::particles
 {
@@ -33,6 +34,9 @@ namespace meltfront::particles
       snapshot.heat.stored = stored_heat();
       snapshot.heat.initial = initial_heat;
     }
+    // Who keeps no book has no answer to what was taken in: not zero.
+    if(!snapshot.heat.conservative)
+      snapshot.heat.stored = std::numeric_limits<double>::quiet_NaN();
     return snapshot;
   }
 

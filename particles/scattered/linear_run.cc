@@ -1,5 +1,6 @@
 #include <cases/error.h>
 #include <cases/overshoot.h>
+#include <cases/step_ends.h>
 #include <cases/time_integral.h>
 #include <particles/scattered/linear_choices.h>
 #include <particles/scattered/linear_growth.h>
@@ -60,11 +61,30 @@ namespace meltfront::particles
         require_steady_rows(scene, problem, solver_parameters, description.method);
       return;
     }
+    if(options.steps == 0)
+      follow_walls(resolution.n);
     length = (scene.end_time - scene.start_time) / double(steps);
     start();
     solver.emplace(make_solver(system(length), 0));
     if(scene.inclusion)
       require_stable_steps(problem, *solver, rate_of(length), steps, description.method);
+  }
+
+  /** Steps that walls call for, but that rows with a mass of neighbours do not take, are
+   * refused. */
+  void LinearRun::follow_walls(int cells)
+  {
+    const double wanted = std::ceil((scene.end_time - scene.start_time)
+                                    / cases::longest_step_of_walls(scene, cells));
+    if(wanted <= double(steps))
+      return;
+    if(wanted > double(most_monotone_steps(scene, problem, sites)))
+      throw cases::Refusal(fmt::format(
+          "{} would need {:.0f} steps to follow the temperatures of the walls, and steps "
+          "so short break the maximum principle with nodes so far apart; take more of "
+          "them",
+          description.method, wanted));
+    steps = static_cast<long>(wanted);
   }
 
   bool LinearRun::steady() const

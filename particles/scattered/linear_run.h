@@ -26,6 +26,8 @@ namespace meltfront::particles
     cases::Snapshot snapshot(long k, double time) override; // in linear_report.cc
     bool steady() const;
 
+    void follow_walls(int cells);
+
     /** The unknowns whose temperatures are the initial ones. */
     void start();
 
