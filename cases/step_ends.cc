@@ -27,7 +27,7 @@ namespace meltfront::cases
     constexpr int deepest = 16;
 
     constexpr std::size_t most_intervals = 400'000;
-    constexpr std::size_t most_places = 33;
+    constexpr std::size_t most_places = 129;
 
     /** What is prescribed at a place of a wall. */
     struct Place
@@ -61,7 +61,8 @@ namespace meltfront::cases
         if(!prescribes_a_temperature(boundary) || TimeMean(boundary.value).steady())
           continue;
         std::vector<Position> points;
-        visit_wall(scene.domain, side, [&](const Position &p) { points.push_back(p); });
+        visit_wall_densely(scene, side, boundary.value,
+                           [&](const Position &p) { points.push_back(p); });
         const bool uniform = !may_depend_on(boundary.value.expression, "xyz");
         const std::size_t places = uniform ? 1 : std::min(points.size(), most_places);
         for(std::size_t i = 0; i < places; ++i)

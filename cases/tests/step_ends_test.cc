@@ -104,6 +104,23 @@ TEST(StepEnds, AreWhereTheWallSwings)
   EXPECT_LT(largest_departure(burst, ends), 0.02);
 }
 
+TEST(StepEnds, FollowASpotThatMovesAlongAWall)
+{
+  Scene scene = slab(Field::uniform(0));
+  scene.symmetry = Symmetry::none;
+  scene.domain.shape = DomainShape::box;
+  scene.domain.dimension = 2;
+  scene.domain.upper = {1, 1, 0};
+  scene.boundaries[static_cast<int>(Side::y_min)] = Boundary();
+  scene.boundaries[static_cast<int>(Side::y_max)] = Boundary();
+  scene.boundaries[static_cast<int>(Side::x_min)]->value
+      = {"exp(-((y - t)/0.02)^2)", [](const Position &p, double t)
+         { return std::exp(-std::pow((p[1] - t) / 0.02, 2)); }};
+  const auto ends = step_ends(scene, 50, 0.02);
+  for(std::size_t i = 1; i < ends.size(); ++i)
+    EXPECT_LT(ends[i] - ends[i - 1], 0.006) << ends[i];
+}
+
 TEST(StepEnds, KeepBreakpointsAndEnclosedJumpsThatHaveNone)
 {
   Field jump = in_time([](double t) { return t < 0.3 ? 0. : 1.; });

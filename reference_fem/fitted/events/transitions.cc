@@ -21,12 +21,6 @@ namespace meltfront::reference_fem::fitted
     constexpr double cells_in_layer = 2;
     constexpr int steps_to_passing = 28;
 
-    HeatContent sum_of(const HeatContent &a, const HeatContent &b)
-    {
-      return {a.sensible + b.sensible, a.latent + b.latent, a.walls + b.walls,
-              a.sources + b.sources};
-    }
-
     /** Halve the cells of an interval on both sides of the face at @p place until those
      * next to it are that small. */
     std::vector<double> halved_towards(std::vector<double> shares, const double place,
@@ -256,6 +250,29 @@ namespace meltfront::reference_fem::fitted
                                      walls));
   }
 
+  namespace
+  {
+    /** What the last of a layer held goes to the node next to its place, of those that no
+     * wall holds. */
+    void keep_heat(const FittedProblem &problem, const double time, const double place,
+                   const double heat, Vector<double> &u)
+    {
+      const RayMesh &mesh = problem.mesh();
+      unsigned int nearest = RayMesh::none;
+      const auto distance = [&](unsigned int level)
+      { return std::abs(problem.coordinate(0, level, u) - place); };
+      for(unsigned int level = 1; level + 1 < mesh.n_levels(); ++level)
+        if(mesh.front_at(level) == RayMesh::none
+           && (nearest == RayMesh::none || distance(level) < distance(nearest)))
+          nearest = level;
+      const HeatContent now = problem.heat(time, u);
+      Vector<double> warmer = u;
+      warmer[nearest] += 1;
+      u[nearest] += (heat - now.sensible - now.latent)
+                    / (problem.heat(time, warmer).sensible - now.sensible);
+    }
+  } // namespace
+
   RunSegment remaining_stretch(const EventScene &setting, const RunSegment &past,
                                const double time, const Vector<double> &u,
                                const unsigned int vanished)
@@ -291,11 +308,12 @@ namespace meltfront::reference_fem::fitted
                      .value(old.coordinate(0, remains.levels[i], u))
                  - left.problem->source(mesh_left.interval_of(i), time).value(r);
       }
-    const HeatContent before = old.heat(time, u),
-                      now = left.problem->heat(time, left.state);
-    left.before = sum_of(past.before, before);
-    left.before.sensible -= now.sensible;
-    left.before.latent -= now.latent;
+    const HeatContent before = old.heat(time, u);
+    keep_heat(*left.problem, time, remains.place, before.sensible + before.latent,
+              left.state);
+    left.before = past.before;
+    left.before.walls += before.walls;
+    left.before.sources += before.sources;
     return drawn_segment(setting, left, {remains.place}, physics.clock,
                          what_vanishes(setting, mesh, vanished, remains.place));
   }
