@@ -35,6 +35,9 @@ namespace meltfront::reference_fem
    */
   StepFormula bdf2_step(double before, double now, double next);
 
+  /** Of steps by bdf2_step, within its bound. */
+  inline constexpr double largest_growth_of_bdf2 = 2.4;
+
   /**
    * The times that a run steps to. Steps can be halved; since a halved step is followed
    * by one of at most twice its size, the ratio of steps stays within bdf2_step's bound.
@@ -80,6 +83,13 @@ namespace meltfront::reference_fem
     void halve(double now)
     {
       sooner.push_back(now + (next() - now) / 2);
+    }
+
+    /** Halve the next step until it is no more than so many times the last one. */
+    void limit_growth(double before, double now, double growth)
+    {
+      while(next() - now > growth * (now - before))
+        halve(now);
     }
 
     /** What of it changes in the course of a run (Boost.Serialization). */

@@ -107,9 +107,9 @@ namespace meltfront::reference_fem
   StepFormula RankRun::formula(double next) const
   {
     // A formula of two steps spans no breakpoint, and is stable for a limited growth.
-    constexpr double largest_growth = 2.4;
-    const bool two_steps = options.bdf2 && continues()
-                           && next - time <= largest_growth * (time - time_before);
+    const bool two_steps
+        = options.bdf2 && continues()
+          && next - time <= largest_growth_of_bdf2 * (time - time_before);
     return two_steps ? bdf2_step(time_before, time, next)
                      : backward_euler_step(time, next);
   }
@@ -263,8 +263,13 @@ namespace meltfront::reference_fem
       u_accepted = u;
       reached(0, time);
     }
+    // Where walls call for short steps among long ones, these do not fall back to first
+    // order.
+    const bool grows_slowly = options.step_ends.size() > breakpoints.size();
     while(!queue.empty())
     {
+      if(grows_slowly && continues())
+        queue.limit_growth(time_before, time, largest_growth_of_bdf2);
       StepFormula step = formula(queue.next());
       const StepOutcome outcome = solve(step);
       if(!outcome.converged)
