@@ -50,9 +50,8 @@ namespace meltfront::verification::tests
           // The wall at its coldest, which equal steps may see alone, melts nothing, at
           // its mean or its hottest a third more.
           EXPECT_GT(tracked, 0.1);
-          for(const auto &method :
-              {reference_fem::make_fem_enthalpy(), particles::make_sph(),
-               particles::make_sph_mixture()})
+          for(const auto &method : {reference_fem::make_fem_enthalpy(),
+                                    particles::make_sph(), particles::make_sph_mixture()})
             EXPECT_NEAR(molten(*method, scene, 160) / tracked, 1, 0.06)
                 << method->name() << " " << periods << " " << int(kind);
         }
