@@ -118,6 +118,14 @@ namespace meltfront::cases
     }
   } // namespace
 
+  bool gives_temperature(const Boundary &boundary)
+  {
+    return !boundary.exact
+           && (boundary.kind == BoundaryKind::fixed_temperature
+               || boundary.kind == BoundaryKind::heat_transfer
+               || boundary.kind == BoundaryKind::radiation);
+  }
+
   Domain wall_of(const Domain &domain, Side side)
   {
     Domain wall = domain;

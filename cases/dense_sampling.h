@@ -20,6 +20,10 @@ namespace meltfront::cases
   void visit_densely(const Scene &scene, const std::vector<const Field *> &fields,
                      const PointVisitor &visit);
 
+  /** Whether a boundary prescribes its temperature or one beside it, other than an exact
+   * solution's. */
+  bool gives_temperature(const Boundary &boundary);
+
   /** The wall of a slab, a box or a body about an axis, as a domain without extent along
    * its normal. */
   Domain wall_of(const Domain &domain, Side side);

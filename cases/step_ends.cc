@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <span>
 
 namespace meltfront::cases
 {
@@ -44,21 +44,13 @@ namespace meltfront::cases
       bool jumps = false; ///< however short it is
     };
 
-    bool prescribes_a_temperature(const Boundary &boundary)
-    {
-      return !boundary.exact && !boundary.value.constant
-             && (boundary.kind == BoundaryKind::fixed_temperature
-                 || boundary.kind == BoundaryKind::heat_transfer
-                 || boundary.kind == BoundaryKind::radiation);
-    }
-
     std::vector<Place> places_of(const Scene &scene)
     {
       std::vector<Place> result;
       for(const Side side : scene.sides())
       {
         const Boundary &boundary = scene.boundary(side);
-        if(!prescribes_a_temperature(boundary) || TimeMean(boundary.value).steady())
+        if(!gives_temperature(boundary) || TimeMean(boundary.value).steady())
           continue;
         std::vector<Position> points;
         visit_wall_densely(scene, side, boundary.value,
@@ -98,7 +90,7 @@ namespace meltfront::cases
               "a wall's temperature swings faster than steps can follow, at t = {:.6g} s "
               "within {:.2g} s: prescribe its mean",
               begin, end - begin));
-        found.push_back({begin, end, departure > 0 ? largest_rate() : 0, !is_followed});
+        found.push_back({begin, end, largest_rate(), !is_followed});
       }
 
       const std::vector<Interval> &intervals() const
@@ -210,9 +202,7 @@ namespace meltfront::cases
     swings_of(const Scene &scene, const std::vector<double> &breakpoints, bool jumps_too)
     {
       const std::vector<Place> places = places_of(scene);
-      if(places.empty())
-        return {};
-      const double range = temperature_range(scene, places);
+      const double range = places.empty() ? 0 : temperature_range(scene, places);
       if(!(range > 0))
         return {};
       std::vector<double> stops = breakpoints;

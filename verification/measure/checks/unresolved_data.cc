@@ -154,16 +154,6 @@ namespace meltfront::verification
           "than the spacing of {:.3g} m; {:.3g} m or less would resolve it",
           given.name, (*place)[0], (*place)[1], (*place)[2], spacing, finer);
     }
-
-    bool gives_a_temperature(const cases::Boundary &boundary)
-    {
-      using cases::BoundaryKind;
-      return !boundary.exact
-             && (boundary.kind == BoundaryKind::fixed_temperature
-                 || boundary.kind == BoundaryKind::heat_transfer
-                 || boundary.kind == BoundaryKind::radiation)
-             && varies_in_space(boundary.value);
-    }
   } // namespace
 
   std::string unresolved_data(const cases::Scene &scene, double spacing)
@@ -186,7 +176,7 @@ namespace meltfront::verification
     for(const cases::Side side : scene.sides())
     {
       const cases::Boundary &boundary = scene.boundary(side);
-      if(!gives_a_temperature(boundary))
+      if(!cases::gives_temperature(boundary) || !varies_in_space(boundary.value))
         continue;
       const cases::Domain wall = scene.domain.rectangular()
                                      ? cases::wall_of(scene.domain, side)
