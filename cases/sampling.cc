@@ -1,6 +1,8 @@
 #include <cases/sampling.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace meltfront::cases
 {
@@ -27,18 +29,46 @@ namespace meltfront::cases
       mesh.visit_wall(wall, levels, [&](const Position &p, double) { visit(p); });
     }
 
+    /** Points of a circle or sphere about the origin: those of the square's or cube's
+     * faces about it, moved along their radius, so that no radius is too small for them.
+     */
+    void visit_round_wall(int dimension, double radius, int across,
+                          const PointVisitor &visit)
+    {
+      const int layers = dimension == 3 ? across : 1;
+      for(int k = 0; k < layers; ++k)
+        for(int j = 0; j < across; ++j)
+          for(int i = 0; i < across; ++i)
+          {
+            const int half = across / 2;
+            const std::array<int, 3> index{i - half, j - half, layers > 1 ? k - half : 0};
+            const auto on_face = [half](int d) { return std::abs(d) == half; };
+            if(std::ranges::none_of(index, on_face))
+              continue;
+            Position p{double(index[0]), double(index[1]), double(index[2])};
+            const double distance = coordinate(Symmetry::spherical, p);
+            for(double &component : p)
+              component *= radius / distance;
+            visit(p);
+          }
+    }
+
+    void visit_shell(const Domain &domain, const PointVisitor &visit)
+    {
+      for(int i = 0; i < samples_across; ++i)
+        visit_round_wall(
+            domain.dimension,
+            domain.inner_radius
+                + (domain.radius - domain.inner_radius) * i / (samples_across - 1),
+            domain.dimension == 2 ? samples_across : samples_across / 3, visit);
+    }
+
     bool on_side(const Domain &domain, Side side, const Position &p)
     {
-      const double tolerance = 1e-9 * domain.side();
-      const double distance = coordinate(
-          domain.dimension == 2 ? Symmetry::cylindrical : Symmetry::spherical, p);
-      if(side == Side::outer)
-        return distance > domain.radius * (1 - 2. / samples_across);
-      if(side == Side::inner)
-        return distance < domain.inner_radius + domain.radius * 2. / samples_across;
-      const int d = static_cast<int>(side) / 2;
-      const bool upper = static_cast<int>(side) % 2 == 1;
-      return std::abs(p[d] - (upper ? domain.upper[d] : domain.lower[d])) < tolerance;
+      const auto d = static_cast<std::size_t>(side) / 2;
+      const bool upper = static_cast<std::size_t>(side) % 2 == 1;
+      return std::abs(p[d] - (upper ? domain.upper[d] : domain.lower[d]))
+             < 1e-9 * domain.side();
     }
   } // namespace
 
@@ -57,6 +87,11 @@ namespace meltfront::cases
 
   void visit_points(const Domain &domain, const PointVisitor &visit)
   {
+    if(domain.inner_radius > 0)
+    {
+      visit_shell(domain, visit);
+      return;
+    }
     const bool ball = domain.round();
     std::array<int, 3> count{1, 1, 1};
     for(int d = 0; d < domain.dimension; ++d)
@@ -97,20 +132,18 @@ namespace meltfront::cases
       visit_mesh_wall(*domain.mesh, index_of_mesh_wall(side), visit);
       return;
     }
+    if(domain.round())
+    {
+      visit_round_wall(
+          domain.dimension, side == Side::inner ? domain.inner_radius : domain.radius,
+          domain.dimension == 2 ? 2 * samples_across - 1 : samples_across, visit);
+      return;
+    }
     visit_points(domain,
-                 [&](Position p)
+                 [&](const Position &p)
                  {
-                   if(!on_side(domain, side, p))
-                     return;
-                   if(side == Side::outer || side == Side::inner)
-                   {
-                     const double distance = coordinate(Symmetry::spherical, p);
-                     for(double &component : p)
-                       component
-                           *= (side == Side::outer ? domain.radius : domain.inner_radius)
-                              / distance;
-                   }
-                   visit(p);
+                   if(on_side(domain, side, p))
+                     visit(p);
                  });
   }
 } // namespace meltfront::cases

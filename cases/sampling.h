@@ -18,11 +18,12 @@ namespace meltfront::cases
   bool contains(const Domain &domain, const Position &p);
 
   /** Visit the sample points that lie in a domain, those on its walls included, and
-   * points along an outline or the vertices of a mesh. */
+   * points along an outline or the vertices of a mesh; of a shell those on circles or
+   * spheres between its walls, however thin it is. */
   void visit_points(const Domain &domain, const PointVisitor &visit);
 
-  /** Visit the sample points of a wall: of a round one those on the rays of the samples
-   * next to it, at which a value that varies along the wall is to be taken. */
+  /** Visit the sample points of a wall, at which a value that varies along it is to be
+   * taken: of a round one some hundreds in all directions, however narrow it is. */
   void visit_wall(const Domain &domain, Side side, const PointVisitor &visit);
 } // namespace meltfront::cases
 

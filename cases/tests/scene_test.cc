@@ -1,5 +1,6 @@
 #include <cases/domain_measure.h>
 #include <cases/error.h>
+#include <cases/sampling.h>
 #include <cases/scene.h>
 #include <cases/snapshot.h>
 
@@ -101,6 +102,33 @@ TEST(TemperatureBounds, AreTheExtremesOfInitialAndWallTemperatures)
   bounds = temperature_bounds(scene);
   EXPECT_EQ(bounds.lower, -2);
   EXPECT_EQ(bounds.upper, 5);
+}
+
+TEST(TemperatureBounds, SeeInnerWallsHoweverNarrowAndShellsHoweverThin)
+{
+  for(const int dimension : {2, 3})
+    for(const double inner_radius : {1e-9, 1e-3, 0.5, 0.999, 1 - 1e-9})
+    {
+      Scene scene;
+      scene.domain.shape = DomainShape::shell;
+      scene.domain.dimension = dimension;
+      scene.domain.inner_radius = inner_radius;
+      scene.domain.radius = 1;
+      scene.initial.temperature = Field::uniform(5);
+      scene.end_time = 1;
+      for(const Side side : {Side::inner, Side::outer})
+        scene.boundaries[static_cast<std::size_t>(side)]
+            = {BoundaryKind::fixed_temperature, Field::uniform(5)};
+      // Lowest in the direction of y, beside the wall that is bent most.
+      Field cold{"5 - 7*t*(y > 0)", [](const Position &p, double time)
+                 { return p[1] > 0 ? 5 - 7 * time : 5; }};
+      scene.boundaries[static_cast<std::size_t>(Side::inner)]->value = cold;
+      EXPECT_NEAR(temperature_bounds(scene).lower, -2, 0.01) << inner_radius;
+      int points = 0;
+      visit_points(scene.domain,
+                   [&](const Position &p) { points += contains(scene.domain, p); });
+      EXPECT_GT(points, 1000) << inner_radius;
+    }
 }
 
 TEST(TemperatureBounds, HoldTheFrontOfAMetastablePhase)
