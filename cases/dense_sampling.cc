@@ -68,15 +68,6 @@ namespace meltfront::cases
       return numbers;
     }
 
-    /** A field whose words name no variable at all, and that is not constant, was made
-     * otherwise: it may depend on any. */
-    bool depends(const Field &field, const std::string &variable)
-    {
-      return !field.constant
-             && (may_depend_on(field.expression, variable)
-                 || !may_depend_on(field.expression, "xyzt"));
-    }
-
     void visit_radii(const Domain &domain, const std::vector<double> &named,
                      const PointVisitor &visit)
     {
@@ -118,6 +109,13 @@ namespace meltfront::cases
     }
   } // namespace
 
+  bool may_vary_with(const Field &field, const std::string &variable)
+  {
+    return !field.constant
+           && (may_depend_on(field.expression, variable)
+               || !may_depend_on(field.expression, "xyzt"));
+  }
+
   bool gives_temperature(const Boundary &boundary)
   {
     return !boundary.exact
@@ -151,7 +149,7 @@ namespace meltfront::cases
     {
       const std::string variable(1, "xyz"[d]);
       matters[d] = std::ranges::any_of(fields, [&](const Field *field)
-                                       { return depends(*field, variable); });
+                                       { return may_vary_with(*field, variable); });
       directions += matters[d];
     }
     const bool tells_inside = domain.round() || domain.irregular();

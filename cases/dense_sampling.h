@@ -5,6 +5,7 @@
 #include <cases/scene.h>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace meltfront::cases
@@ -19,6 +20,10 @@ namespace meltfront::cases
    */
   void visit_densely(const Scene &scene, const std::vector<const Field *> &fields,
                      const PointVisitor &visit);
+
+  /** Whether a field may depend on a variable, a letter. One whose words name none, and
+   * that is not constant, was made otherwise: it may depend on any. */
+  bool may_vary_with(const Field &field, const std::string &variable);
 
   /** Whether a boundary prescribes its temperature or one beside it, other than an exact
    * solution's. */

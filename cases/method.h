@@ -57,6 +57,8 @@ namespace meltfront::cases
     int dimension = 1; ///< in which the scene is simulated
     double spacing
         = 0; ///< particle spacing or cell size (m): the h of convergence tables
+    double resolved_width
+        = 0; ///< of the narrowest walls that finer cells resolve (m), 0: the spacing
     double smoothing_length = 0; ///< of the particles' kernel (m), 0 for a mesh
     double time_step = 0;        ///< of a full step (s)
     long unknowns = 0;

@@ -6,12 +6,22 @@
 
 namespace meltfront::reference_fem::fitted
 {
+  namespace
+  {
+    /** Elements along a line are graded beside walls and of degree four: of an inner wall
+     * an eighth as wide as a spacing the solid in a pipe was 0.3 % off, of one a
+     * twentieth as wide 7 %. */
+    constexpr double widths_of_wall = 0.125;
+  } // namespace
+
   cases::RunDescription FittedRun::describe() const
   {
     const RayMesh &mesh = problem->mesh();
     cases::RunDescription result;
     result.dimension = options.dimension;
     result.spacing = scene.domain.side() / options.cells;
+    if(options.dimension == 1)
+      result.resolved_width = widths_of_wall * result.spacing;
     result.time_step = (scene.end_time - scene.start_time) / options.steps;
     result.unknowns = problem->size();
     result.parameters

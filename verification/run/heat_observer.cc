@@ -42,9 +42,12 @@ namespace meltfront::verification
 
   void HeatObserver::start()
   {
-    if(const std::string unresolved = unresolved_data(scene, description.spacing);
-       !unresolved.empty())
-      throw cases::Refusal(unresolved);
+    const double spacing = description.spacing, width = description.resolved_width;
+    for(const std::string &unresolved :
+        {unresolved_walls(scene, spacing, width > 0 ? width : spacing),
+         unresolved_data(scene, spacing)})
+      if(!unresolved.empty())
+        throw cases::Refusal(unresolved);
     checks.emplace(scene, capabilities, method, description.spacing);
     reader.emplace(scene, exact, description.spacing, description.smoothing_length);
     start_measures(MeasuredScenes::with_heat, nullptr);

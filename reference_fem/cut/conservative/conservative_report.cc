@@ -83,8 +83,10 @@ namespace meltfront::reference_fem::cut::conservative
   Point ConservativeRun::in_domain(const Point &point) const
   {
     const double radius = point.norm();
-    if(!scene.domain.round() || !(radius > 0))
+    if(!scene.domain.round())
       return point;
+    if(!(radius > 0))
+      return {scene.domain.inner_radius, 0};
     return Point(std::clamp(radius, scene.domain.inner_radius, scene.domain.radius)
                  / radius * point);
   }

@@ -140,6 +140,43 @@ namespace meltfront::verification
       std::vector<Suspect> suspects;
     };
 
+    constexpr double rounding = 1e-9;
+
+    bool drives_heat(const cases::Scene &scene, cases::Side side)
+    {
+      const cases::BoundaryKind kind = scene.boundary(side).kind;
+      return kind != cases::BoundaryKind::insulated
+             && kind != cases::BoundaryKind::periodic;
+    }
+
+    /** Of a wall about a centre or an axis that drives heat (m); 0 if there is none. */
+    double radius_of_hole(const cases::Scene &scene)
+    {
+      const cases::Domain &domain = scene.domain;
+      if(domain.shape == cases::DomainShape::shell)
+        return drives_heat(scene, cases::Side::inner) ? domain.inner_radius : 0;
+      if(domain.shape == cases::DomainShape::axisymmetric)
+        return drives_heat(scene, cases::Side::x_min) ? domain.lower[0] : 0;
+      return 0;
+    }
+
+    /** Whether what a box is given may vary in a direction. */
+    bool varies_along(const cases::Scene &scene, int d)
+    {
+      const std::string variable(1, "xyz"[d]);
+      const auto varies = [&](const cases::Field &field)
+      { return cases::may_vary_with(field, variable); };
+      return drives_heat(scene, static_cast<cases::Side>(2 * d))
+             || drives_heat(scene, static_cast<cases::Side>(2 * d + 1))
+             || !scene.sources.empty() || varies(scene.initial.temperature)
+             || (scene.volumetric_source && varies(*scene.volumetric_source))
+             || std::ranges::any_of(scene.sides(),
+                                    [&](cases::Side side) {
+                                      return drives_heat(scene, side)
+                                             && varies(scene.boundary(side).value);
+                                    });
+    }
+
     std::string describe(const GivenTemperature &given, double range, double spacing)
     {
       const Feature feature(given, range);
@@ -189,6 +226,35 @@ namespace meltfront::verification
           boundary.value, wall, std::move(places), times_of(scene, boundary.value)};
       if(const std::string found = describe(given, range, spacing); !found.empty())
         return found;
+    }
+    return "";
+  }
+
+  std::string unresolved_walls(const cases::Scene &scene, double spacing, double width)
+  {
+    const cases::Domain &domain = scene.domain;
+    if(const double thickness = domain.radius - domain.inner_radius;
+       domain.shape == cases::DomainShape::shell && thickness < width * (1 - rounding))
+      return fmt::format(
+          "the shell is {:.3g} m thick, less than the spacing of {:.3g} m; "
+          "n has to be {:.3g} times as large at least",
+          thickness, width, width / thickness);
+    if(const double diameter = 2 * radius_of_hole(scene);
+       diameter > 0 && diameter < width * (1 - rounding))
+      return fmt::format(
+          "the inner wall is {:.3g} m across, less than the {:.3g} m that a "
+          "spacing of {:.3g} m resolves; n has to be {:.3g} times as large "
+          "at least",
+          diameter, width, spacing, width / diameter);
+    if(!domain.rectangular())
+      return "";
+    for(int d = 0; d < domain.dimension; ++d)
+    {
+      const double across = domain.upper[d] - domain.lower[d];
+      if(across < spacing * (1 - rounding) && varies_along(scene, d))
+        return fmt::format("the domain is {:.3g} m wide along {}, less than the spacing "
+                           "of {:.3g} m; n has to be {:.3g} times as large at least",
+                           across, "xyz"[d], spacing, spacing / across);
     }
     return "";
   }

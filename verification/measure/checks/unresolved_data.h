@@ -20,6 +20,21 @@ namespace meltfront::verification
    * @return a sentence with the place and a spacing that would do; empty if there is none
    */
   std::string unresolved_data(const cases::Scene &scene, double spacing);
+
+  /**
+   * Which part of the domain is too narrow for a spacing, so that refining may change
+   * little until it no longer is: a wall about a centre or an axis that drives heat and
+   * whose diameter is less than the width, or a box or shell thinner than the spacing in
+   * a direction in which something varies (walls that drive heat there, sources, the
+   * initial temperature or the heat released). Outlines and meshes are left out: their
+   * cells fit them.
+   *
+   * @param spacing m
+   * @param width that finer cells beside walls resolve (m), the spacing where there are
+   * none
+   * @return a sentence that names it and a spacing that would do; empty if there is none
+   */
+  std::string unresolved_walls(const cases::Scene &scene, double spacing, double width);
 } // namespace meltfront::verification
 
 #endif

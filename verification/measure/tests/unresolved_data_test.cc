@@ -9,6 +9,7 @@ namespace
 {
   using namespace meltfront::cases;
   using meltfront::verification::unresolved_data;
+  using meltfront::verification::unresolved_walls;
 
   Field field_of(const std::string &words, std::function<double(const Position &)> value)
   {
@@ -108,4 +109,71 @@ TEST(UnresolvedData, SpotsOnRoundWalls)
   EXPECT_NE(unresolved_data(scene, 0.05), "");
   scene.boundaries[static_cast<int>(Side::outer)] = spot(0.2);
   EXPECT_EQ(unresolved_data(scene, 0.05), "");
+}
+
+TEST(UnresolvedWalls, AnInnerWallFarNarrowerThanTheSpacing)
+{
+  for(const int dimension : {2, 3})
+  {
+    Scene scene;
+    scene.domain.shape = DomainShape::shell;
+    scene.domain.dimension = dimension;
+    scene.domain.inner_radius = 1e-3;
+    scene.domain.radius = 1;
+    scene.initial.temperature = Field::uniform(1);
+    scene.boundaries[static_cast<int>(Side::outer)] = Boundary();
+    scene.boundaries[static_cast<int>(Side::inner)] = Boundary();
+    EXPECT_EQ(unresolved_walls(scene, 0.05, 0.05), "");
+    for(const BoundaryKind kind : {BoundaryKind::fixed_temperature, BoundaryKind::flux,
+                                   BoundaryKind::heat_transfer, BoundaryKind::radiation})
+    {
+      scene.boundaries[static_cast<int>(Side::inner)]
+          = Boundary{kind, Field::uniform(-1)};
+      const std::string found = unresolved_walls(scene, 0.05, 0.05);
+      EXPECT_NE(found.find("0.002 m across"), std::string::npos) << found;
+      EXPECT_NE(found.find("25 times as large"), std::string::npos) << found;
+      EXPECT_EQ(unresolved_walls(scene, 0.05, 0.002), "");
+      EXPECT_EQ(unresolved_walls(scene, 0.002, 0.002), "");
+    }
+    scene.domain.inner_radius = 0.97;
+    EXPECT_NE(unresolved_walls(scene, 0.05, 0.05).find("0.03 m thick"),
+              std::string::npos);
+    EXPECT_EQ(unresolved_walls(scene, 0.03, 0.03), "");
+  }
+}
+
+TEST(UnresolvedWalls, AWallAboutAnAxis)
+{
+  Scene scene = unit_box();
+  scene.domain.shape = DomainShape::axisymmetric;
+  scene.boundaries[0] = Boundary{BoundaryKind::fixed_temperature, Field::uniform(1)};
+  EXPECT_EQ(unresolved_walls(scene, 0.05, 0.05), "");
+  scene.domain.lower[0] = 0.01;
+  EXPECT_NE(unresolved_walls(scene, 0.05, 0.05).find("0.02 m across"), std::string::npos);
+  EXPECT_EQ(unresolved_walls(scene, 0.02, 0.02), "");
+  scene.boundaries[0] = Boundary();
+  EXPECT_EQ(unresolved_walls(scene, 0.05, 0.05), "");
+}
+
+TEST(UnresolvedWalls, ABoxThinnerThanTheSpacing)
+{
+  Scene scene = unit_box();
+  scene.domain.upper[1] = 0.01;
+  EXPECT_EQ(unresolved_walls(scene, 0.05, 0.05), "");
+  scene.boundaries[0] = Boundary{BoundaryKind::fixed_temperature, Field::uniform(1)};
+  EXPECT_EQ(unresolved_walls(scene, 0.05, 0.05), "");
+  scene.boundaries[3] = Boundary{BoundaryKind::flux, Field::uniform(1)};
+  const std::string found = unresolved_walls(scene, 0.05, 0.05);
+  EXPECT_NE(found.find("0.01 m wide along y"), std::string::npos) << found;
+  EXPECT_NE(found.find("5 times as large"), std::string::npos) << found;
+  EXPECT_EQ(unresolved_walls(scene, 0.01, 0.01), "");
+  scene.boundaries[3] = Boundary();
+  scene.boundaries[0] = Boundary{BoundaryKind::heat_transfer,
+                                 field_of("y", [](const Position &p) { return p[1]; })};
+  EXPECT_NE(unresolved_walls(scene, 0.05, 0.05), "");
+  scene.boundaries[0] = Boundary();
+  scene.initial.temperature = field_of("x", [](const Position &p) { return p[0]; });
+  EXPECT_EQ(unresolved_walls(scene, 0.05, 0.05), "");
+  scene.initial.temperature = field_of("y", [](const Position &p) { return p[1]; });
+  EXPECT_NE(unresolved_walls(scene, 0.05, 0.05), "");
 }
