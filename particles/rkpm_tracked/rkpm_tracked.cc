@@ -90,7 +90,7 @@ namespace meltfront::particles
       RkpmTracked()
         : Method(method_name,
                  "Sharp front: particles on the front move with the Stefan speed, solid "
-                 "and liquid are collocated apart with reproducing kernels.")
+                 "and liquid are solved for apart with reproducing kernels.")
       {
       }
 

@@ -16,6 +16,28 @@ namespace meltfront::particles::rkpm_tracked
      */
     constexpr double widest_default = 3.6;
 
+    /** Diffusivities farther apart than this: with 100 balances still were the better, on
+     * slabs that melt with a Stefan number of ten. */
+    constexpr double far_apart = 150;
+
+    /** A front that runs into a phase whose layer no node resolves loses a part of its
+     * heat with balances (10 % of it with diffusivities 1000 apart), while collocation
+     * fits the slope there. */
+    Form choose_form(const cases::Scene &scene, int basis_order)
+    {
+      if(basis_order > 2)
+        return Form::collocation;
+      const double ratio
+          = scene.material.solid.diffusivity() / scene.material.liquid.diffusivity();
+      const bool resolved = std::max(ratio, 1 / ratio) < far_apart;
+      const bool held = std::ranges::none_of(
+          scene.sides(), [&](cases::Side side)
+          { return cases::prescribes_heat(scene.boundary(side).kind); });
+      return resolved || !held || scene.domain.shape == cases::DomainShape::shell
+                 ? Form::balances
+                 : Form::collocation;
+    }
+
     Clock choose_clock(const cases::Scene &scene, const std::string &word)
     {
       if(word == "t")
@@ -34,6 +56,16 @@ namespace meltfront::particles::rkpm_tracked
     options.add("dimension", dimension,
                 "Dimension in which a symmetric scene is simulated; 0: the lowest.", 0,
                 2);
+    options.add(
+        "form", form,
+        "Along a line: balances of cells, which lose no heat and are of second "
+        "order in space, or collocation, whose order grows with the basis; "
+        "automatic: balances for a basis of order 2, unless the diffusivities are "
+        "more than 150 times apart and walls are held or insulated. Where the "
+        "densities differ it is collocation.",
+        {{"automatic", Form::automatic},
+         {"balances", Form::balances},
+         {"collocation", Form::collocation}});
     options.add("basis_order", basis_order,
                 "Order of the polynomials that are reproduced.", 2, 4);
     options.add(
@@ -77,8 +109,8 @@ namespace meltfront::particles::rkpm_tracked
     options.add("jitter", jitter,
                 "Largest displacement of jittered nodes over the spacing.", 0, 0.45);
     options.add("wall_spacing", wall_spacing,
-                "Distance of nodes beside walls that exchange heat or give a flux, over "
-                "that within; 1: the same.",
+                "Along a line with balances: distance of nodes beside walls that are not "
+                "insulated, over that within; 1: the same.",
                 1e-4, 1);
     options.add(
         "start", start,
@@ -151,6 +183,8 @@ namespace meltfront::particles::rkpm_tracked
                            ? steps_where_only_space_is_refined
                            : std::max(fewest_steps, 3 * resolution.n / 2);
     }
+    if(result.form == Form::automatic)
+      result.form = choose_form(scene, result.basis_order);
     if(result.dilation == 0)
       result.dilation = std::min(result.basis_order + reach_beyond_order, widest_default);
     result.clock = choose_clock(scene, result.clock_name);

@@ -65,6 +65,15 @@ namespace meltfront::particles::rkpm_tracked
     lennard_jones ///< as published: the Lennard-Jones energy alone
   };
 
+  /** What is solved for at the nodes of a line where the densities are alike. */
+  enum class Form
+  {
+    automatic,  ///< collocation for a basis of a higher order than 2, and for layers
+                ///< that no node resolves; balances else
+    balances,   ///< of cells about the nodes, which lose no heat
+    collocation ///< the equations themselves, as where the densities differ
+  };
+
   /** What n refines. */
   enum class Refine
   {
@@ -82,6 +91,7 @@ namespace meltfront::particles::rkpm_tracked
     int cells = 80;    ///< between nodes along the domain's side
     int steps = 0;     ///< planned over the run; where fronts are fast there are more
     Refine refine = Refine::both;
+    Form form = Form::automatic;
     int basis_order = 2;
     double dilation = 0; ///< radius of the kernel over the spacing
     TimeScheme time_scheme = TimeScheme::bdf2;

@@ -118,29 +118,36 @@ namespace meltfront::particles::rkpm_tracked
     return sum;
   }
 
-  /** The slope at a front for what flows through the first face; the heat of cells that
-   * the front changes comes to it. */
-  double LineCollocation::balanced_front_slope(std::size_t side,
+  /** The slope at a front for what flows through the first face and what is released in
+   * the front's cell; the heat of cells that the front changes comes to it. */
+  double LineCollocation::balanced_front_slope(std::size_t side, bool solid,
                                                std::span<const double> values) const
   {
     const std::vector<double> &x = cloud.position[0];
     const std::size_t front = side == 0 ? 0 : x.size() - 1;
     const std::size_t next = side == 0 ? 1 : front - 1;
-    return area(problem.symmetry, (x[front] + x[next]) / 2)
-           * face_slope(side == 0 ? 0 : next, values) / area(problem.symmetry, x[front]);
+    const double released
+        = volumes[front] * unseen[side].seen / problem.phase(solid).conductivity;
+    return (area(problem.symmetry, (x[front] + x[next]) / 2)
+                * face_slope(side == 0 ? 0 : next, values)
+            + (side == 0 ? released : -released))
+           / area(problem.symmetry, x[front]);
   }
 
   /** The slope at a wall of what flows in through it: it heats the wall's cell or goes on
    * through the first face. */
-  double LineCollocation::balanced_wall_slope(std::size_t side, double diffusivity,
+  double LineCollocation::balanced_wall_slope(std::size_t side, bool solid,
                                               const StepTerms &terms,
                                               std::span<const double> values) const
   {
     const std::vector<double> &x = cloud.position[0];
+    const double diffusivity = problem.phase(solid).diffusivity(),
+                 capacity = problem.phase(solid).volumetric_heat_capacity();
     const std::size_t wall = side == 0 ? 0 : x.size() - 1;
     const std::size_t next = side == 0 ? 1 : wall - 1;
-    const double change
-        = terms.leading * values[wall] + terms.history[first + wall - offset];
+    double change = terms.leading * values[wall] + terms.history[first + wall - offset];
+    if(problem.volumetric_source)
+      change -= problem.volumetric_source(x[wall], terms.time) / capacity;
     return (area(problem.symmetry, (x[wall] + x[next]) / 2)
                 * face_slope(side == 0 ? 0 : next, values)
             + (side == 0 ? -1 : 1) * volumes[wall] * change / diffusivity)
@@ -150,7 +157,6 @@ namespace meltfront::particles::rkpm_tracked
   EndSlopes LineCollocation::balanced_slopes(const LineInterval &interval,
                                              const StepTerms &terms) const
   {
-    const double diffusivity = problem.phase(interval.solid).diffusivity();
     const std::array<bool, 2> front{interval.lower_front, interval.upper_front};
     EndSlopes result{};
     const bool film = is_held_film(interval);
@@ -158,9 +164,9 @@ namespace meltfront::particles::rkpm_tracked
       if(film)
         result[side] = face_slope(0, right_side);
       else if(front[side])
-        result[side] = balanced_front_slope(side, right_side);
+        result[side] = balanced_front_slope(side, interval.solid, right_side);
       else if(side == 1 || !problem.axis)
-        result[side] = balanced_wall_slope(side, diffusivity, terms, right_side);
+        result[side] = balanced_wall_slope(side, interval.solid, terms, right_side);
     return result;
   }
 } // namespace meltfront::particles::rkpm_tracked

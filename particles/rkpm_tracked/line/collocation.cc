@@ -297,14 +297,16 @@ namespace meltfront::particles::rkpm_tracked
     constexpr std::size_t fewest_points = 4;
     constexpr double beside = 1e-9;
     constexpr int bisections = 30;
+    constexpr double middle_of_cell = 0.25; // of the way to the first node
     const std::vector<double> &x = cloud.position[0];
-    if(x.size() < fewest_points)
-      return {};
     const auto point = [&](std::size_t from_front)
     { return side == 0 ? x[from_front] : x[x.size() - 1 - from_front]; };
     const auto density
         = [&](double place) { return problem.volumetric_source(place, time); };
-    const double front = point(0), way = point(1) - front, at_node = density(point(1));
+    const double front = point(0), way = point(1) - front;
+    if(x.size() < fewest_points)
+      return {.seen = density(front + middle_of_cell * way)};
+    const double at_node = density(point(1));
     const double rise = (density(point(2)) - at_node) / (point(2) - point(1)) * way;
     const auto excess = [&](double share)
     { return density(front + share * way) - at_node - rise * (share - 1); };
@@ -315,7 +317,7 @@ namespace meltfront::particles::rkpm_tracked
       const double middle = (within + beyond) / 2;
       (std::abs(excess(middle)) > std::abs(jump) / 2 ? within : beyond) = middle;
     }
-    return {jump, within * std::abs(way)};
+    return {jump, within * std::abs(way), at_node + rise * (middle_of_cell - 1)};
   }
 
   /**

@@ -116,6 +116,7 @@ namespace meltfront::particles::rkpm_tracked
     {
       double density = 0; ///< D, W/m^3
       double reach = 0;   ///< s from the front on, m
+      double seen = 0;    ///< what the nodes continue to the front's cell, W/m^3
     };
 
     UnseenRelease unseen_release(std::size_t side, double time) const;
@@ -133,9 +134,9 @@ namespace meltfront::particles::rkpm_tracked
     void measure_cells();
     const LineStencil &balance(std::size_t point);
     double face_slope(std::size_t face, std::span<const double> values) const;
-    double balanced_front_slope(std::size_t side, std::span<const double> values) const;
-    double balanced_wall_slope(std::size_t side, double diffusivity,
-                               const StepTerms &terms,
+    double balanced_front_slope(std::size_t side, bool solid,
+                                std::span<const double> values) const;
+    double balanced_wall_slope(std::size_t side, bool solid, const StepTerms &terms,
                                std::span<const double> values) const;
     EndSlopes balanced_slopes(const LineInterval &interval, const StepTerms &terms) const;
     void add_release(const LineInterval &interval, double time);

@@ -56,15 +56,14 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<double> breakpoints; ///< at which steps begin anew (s)
     std::vector<double> step_ends;   ///< cases::step_ends(), breakpoints too
     Displaced displaced = Displaced::liquid;
+    Form form = Form::balances;
     bool metastable = false; ///< phases beyond the melting temperature are meant
 
-    /** Whether rows are balances of cells rather than collocation: where a wall
-     * prescribes heat, all of it is to be found in the domain. */
+    /** Whether rows are balances of cells, which lose no heat, rather than collocation:
+     * where nothing moves. */
     bool balanced() const
     {
-      return material.solid.density == material.liquid.density
-             && std::ranges::any_of(walls, [](const LineWall &wall)
-                                    { return cases::prescribes_heat(wall.kind); });
+      return form == Form::balances && material.solid.density == material.liquid.density;
     }
 
     /** Distance of nodes about a place (m): from what it is beside a wall it grows with

@@ -83,6 +83,9 @@ namespace meltfront::particles::rkpm_tracked
         cases::RunDescription result;
         result.dimension = 1;
         result.spacing = problem.spacing;
+        for(const double beside_wall : problem.wall_spacing)
+          if(beside_wall > 0)
+            result.resolved_width = beside_wall;
         result.smoothing_length = 0;
         result.time_step = (scene.end_time - scene.start_time) / parameters.steps;
         result.unknowns = static_cast<long>(problem.nodes.size() + initial.fronts.size());
@@ -94,6 +97,7 @@ namespace meltfront::particles::rkpm_tracked
                                            parameters.jitter)
                              : ""),
              ""},
+            {"form", problem.balanced() ? "balances of cells" : "collocation", ""},
             {"kernel", "cubic spline, fixed at each node, for each phase apart", ""},
             {"basis order", std::to_string(parameters.basis_order), ""},
             {"dilation", fmt::format("{:g}", parameters.dilation), "spacings"},

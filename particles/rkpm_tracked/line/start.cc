@@ -201,6 +201,7 @@ namespace meltfront::particles::rkpm_tracked
     LineProblem problem;
     problem.symmetry = scene.symmetry;
     problem.material = scene.material;
+    problem.form = parameters.form;
     const double lower = domain.round() ? (ball ? 0 : domain.inner_radius) : 0;
     const double upper = domain.round() ? domain.radius : domain.side();
     problem.axis = ball;

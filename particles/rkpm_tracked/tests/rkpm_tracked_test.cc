@@ -64,8 +64,7 @@ namespace meltfront::particles::rkpm_tracked
       }
       EXPECT_GE(fitted_order(errors), 1.8);
       EXPECT_LE(std::abs(errors[3]), 1e-5);
-      EXPECT_GE(fitted_order(defects), 1.8);
-      EXPECT_LE(defects[3], 1.4e-4);
+      EXPECT_LE(std::ranges::max(defects), 1e-9);
     }
 
     cases::Scene cold_bar(double end)
@@ -101,13 +100,12 @@ namespace meltfront::particles::rkpm_tracked
                        std::to_string(similar.back() * 1e6) + "e-6 similar, "
                            + std::to_string(steady.back() * 1e6) + "e-6 quasi-steady");
       }
-      // The coarsest are better than their order makes them.
-      EXPECT_GE(fitted_order(similar), 1.1);
-      EXPECT_LE(std::abs(similar[0]), 1.3e-4);
-      EXPECT_LE(std::abs(similar[3]), 8e-6);
-      EXPECT_GE(fitted_order(steady), 1.1);
-      EXPECT_LE(std::abs(steady[0]), 2.4e-4);
-      EXPECT_LE(std::abs(steady[3]), 1.2e-5);
+      EXPECT_GE(fitted_order(similar), 1.8);
+      EXPECT_LE(std::abs(similar[0]), 2.6e-4);
+      EXPECT_LE(std::abs(similar[3]), 5e-6);
+      EXPECT_GE(fitted_order(steady), 1.8);
+      EXPECT_LE(std::abs(steady[0]), 2.8e-4);
+      EXPECT_LE(std::abs(steady[3]), 5e-6);
     }
 
     TEST(RkpmTracked, FreezesFromTheUpperWallAlike)
@@ -193,10 +191,68 @@ namespace meltfront::particles::rkpm_tracked
       }
     }
 
+    /** The front at rest in a shell whose walls are held, where what the solid conducts
+     * is what the liquid does. */
+    double front_at_rest(const cases::Scene &scene, double inner, double outer)
+    {
+      const bool sphere = scene.symmetry == cases::Symmetry::spherical;
+      const double lower = scene.domain.inner_radius, upper = scene.domain.radius;
+      const auto resistance = [sphere](double from, double to)
+      { return sphere ? 1 / from - 1 / to : std::log(to / from); };
+      const double solid = -inner * scene.material.solid.conductivity,
+                   liquid = outer * scene.material.liquid.conductivity;
+      double below = lower, above = upper;
+      for(int i = 0; i < 100; ++i)
+      {
+        const double middle = (below + above) / 2;
+        (solid * resistance(middle, upper) > liquid * resistance(lower, middle) ? below
+                                                                                : above)
+            = middle;
+      }
+      return below;
+    }
+
+    // Collocated, nodes beside a narrow wall lost the heat that it takes: a front stood
+    // at a tenth of its way.
+    TEST(RkpmTracked, InnerWallsThatAreHeldHoweverNarrow)
+    {
+      for(const auto symmetry :
+          {cases::Symmetry::cylindrical, cases::Symmetry::spherical})
+        for(const double inner_radius : {0.3, 0.1, 0.03, 0.01})
+        {
+          const double inner = symmetry == cases::Symmetry::spherical ? -4 : -1;
+          cases::Scene scene;
+          scene.symmetry = symmetry;
+          scene.domain.shape = cases::DomainShape::shell;
+          scene.domain.dimension = symmetry == cases::Symmetry::cylindrical ? 2 : 3;
+          scene.domain.inner_radius = inner_radius;
+          scene.domain.radius = 1;
+          scene.material.latent_heat = 0.5;
+          scene.material.solid.conductivity = 1.5;
+          scene.initial.temperature = cases::Field::uniform(0.2);
+          scene.end_time = 20;
+          set_boundary(scene, Side::inner, fixed_wall(inner));
+          set_boundary(scene, Side::outer, fixed_wall(0.2));
+          const double exact = front_at_rest(scene, inner, 0.2);
+          std::vector<double> errors;
+          for(const int n : {20, 40, 80, 160})
+          {
+            const Course recorder = run(scene, n);
+            errors.push_back(recorder.front_points[0].at(0) - exact);
+            EXPECT_LE(recorder.worst_budget_defect(), 2e-2) << inner_radius;
+            RecordProperty("front_" + std::to_string(scene.domain.dimension) + "d_"
+                               + std::to_string(inner_radius) + "_" + std::to_string(n),
+                           std::to_string(errors.back() / exact));
+          }
+          EXPECT_LE(std::abs(errors[0]), 0.05 * exact) << inner_radius;
+          EXPECT_LE(std::abs(errors[3]), 0.003 * exact) << inner_radius;
+        }
+    }
+
     TEST(RkpmTracked, RefusesWhatItCannotFollow)
     {
       cases::Scene scene = cold_bar(0.01);
-      EXPECT_THROW(run(scene, 1), cases::Refusal);
+      EXPECT_THROW(run(scene, 1, {{"wall_spacing", "1"}}), cases::Refusal);
       cases::Scene conduction = scene;
       conduction.material.latent_heat = 0;
       EXPECT_THROW(run(conduction, 20), cases::Refusal);

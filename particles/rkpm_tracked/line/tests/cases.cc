@@ -110,6 +110,7 @@ namespace meltfront::particles::rkpm_tracked
     LineProblem problem = unit_slab(
         run.material, run.n, [](double) { return hot; }, far, run.jitter);
     problem.displaced = run.displaced;
+    problem.form = Form::collocation;
     const LineSettings settings{run.basis_order, default_dilation(run.basis_order),
                                 run.interpolation_distance, run.time_order};
     LineSolver solver(problem, settings);

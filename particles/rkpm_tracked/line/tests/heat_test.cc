@@ -181,6 +181,32 @@ namespace meltfront::particles::rkpm_tracked
       EXPECT_LT(lost(recorder, latent_heat), 0.01);
     }
 
+    /** At rest k T' = flux - release x in the liquid, whose wall gives the flux, and the
+     * front stands where the solid conducts all of it to its held wall. */
+    TEST(LineHeat, ReleaseBesideAFrontIsAllConductedAway)
+    {
+      const double flux = 0.5, density = 6, cold = -2;
+      cases::Scene scene = slab(material(1, 2, 0.8), 0, 4);
+      scene.initial.temperature = cases::Field::uniform(0.4);
+      scene.volumetric_source = cases::Field::uniform(density);
+      set_boundary(scene, Side::x_min, {BoundaryKind::flux, cases::Field::uniform(flux)});
+      set_boundary(scene, Side::x_max, fixed_wall(cold));
+      // -cold = (flux + density X)/k_s (1 - X) + density (1 - X)^2/(2 k_s), k_s = 1
+      double below = 0, above = 1;
+      for(int i = 0; i < 100; ++i)
+      {
+        const double x = (below + above) / 2, way = 1 - x;
+        const double warmer = way * (flux + density * x + density * way / 2);
+        (warmer > -cold ? below : above) = x;
+      }
+      for(const int n : {20, 40, 80})
+      {
+        const Course recorder = run(scene, n);
+        EXPECT_NEAR(recorder.front_points[0].at(0), below, 1e-6) << n;
+        EXPECT_LE(recorder.worst_budget_defect(), 1e-3) << n;
+      }
+    }
+
     // V h/a is 1.5e3 to 180 at first, 40 to 5 at the end: without the fit the front is
     // 14 % ahead, however many nodes there are.
     TEST(LineHeat, AFrontMeetsTheHeatOfALayerThatNoNodeResolves)

@@ -179,9 +179,12 @@ namespace meltfront::particles::rkpm_tracked
       {
         const cases::Material material = bar_material(ratio, 70 / stefan);
         const ExactLine exact = neumann(material);
-        const LineProblem problem = unit_slab(
+        LineProblem problem = unit_slab(
             material, 80, [](double) { return hot; },
             [&](double t) { return exact.temperature(1., t); });
+        // With balances the front's speed varies as nodes pass through a layer that is
+        // not resolved.
+        problem.form = Form::collocation;
         Watched run(problem, {}, 120, 1e-4);
         run.stepper.start(state_of(exact, problem, exact.time_of(0.06)), {});
         run.advance(exact.time_of(0.18));
