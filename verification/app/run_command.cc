@@ -218,11 +218,11 @@ namespace meltfront::verification
       try
       {
         request.at("method").get_to(result.method);
-        request.at("n").get_to(result.n);
+        result.n = whole_number_in<int>(request.at("n"));
         request.at("settings").get_to(result.settings);
-        request.at("seed").get_to(result.seed);
-        request.at("threads").get_to(result.threads);
-        request.at("frames").get_to(result.frames);
+        result.seed = whole_number_in<std::uint64_t>(request.at("seed"));
+        result.threads = whole_number_in<int>(request.at("threads"));
+        result.frames = whole_number_in<int>(request.at("frames"));
         return {request.at("case").get<StoredCase>(), result, shared};
       }
       catch(const nlohmann::json::exception &problem)

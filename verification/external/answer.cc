@@ -2,6 +2,7 @@
 #include <cases/error.h>
 #include <verification/external/answer.h>
 #include <verification/external/protocol.h>
+#include <verification/record/json_values.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -237,10 +238,19 @@ namespace meltfront::verification::external
       fail(
           fmt::format("follows the line that ends it: '{}'", quoted(line.substr(0, 60))));
     cases::Cost cost;
-    cost.steps = last["steps"];
+    const auto number = [&](const char *key) -> long
+    {
+      if(!last.contains(key))
+        return 0;
+      if(!last[key].is_number_integer())
+        fail(fmt::format("gives as '{}' a number that is not written as a whole one",
+                         key));
+      return whole_number_in<long>(last[key]);
+    };
+    cost.steps = number("steps");
     cost.unknowns = described.unknowns;
-    cost.work = last.value("work", 0L);
-    cost.solver_iterations = last.value("solver_iterations", 0L);
+    cost.work = number("work");
+    cost.solver_iterations = number("solver_iterations");
     return cost;
   }
 } // namespace meltfront::verification::external

@@ -3,6 +3,7 @@
 #include <verification/external/command.h>
 #include <verification/external/manifest.h>
 #include <verification/external/protocol.h>
+#include <verification/record/json_values.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -36,6 +37,14 @@ namespace meltfront::verification::external
       return values;
     }
 
+    std::vector<int> dimensions_in(const json &shape)
+    {
+      std::vector<int> values;
+      for(const auto &dimension : shape.at("dimensions"))
+        values.push_back(whole_number_in<int>(dimension));
+      return values;
+    }
+
     constexpr auto n_shapes
         = static_cast<std::size_t>(cases::DomainShape::axisymmetric) + 1;
     constexpr auto n_problems
@@ -51,12 +60,14 @@ namespace meltfront::verification::external
       for(const auto &shape : manifest.at("shapes"))
         result.shapes.push_back(
             {value_of<cases::DomainShape>(shape.at("shape"), n_shapes),
-             shape.at("dimensions").get<std::vector<int>>(),
+             dimensions_in(shape),
              values_of<cases::BoundaryKind>(shape.at("walls"), cases::n_boundary_kinds)});
       result.front_origins = values_of<cases::FrontOrigin>(manifest.at("front_origins"),
                                                            cases::n_front_origins);
-      result.most_fronts = manifest.value("most_fronts", 0);
-      result.most_threads = manifest.value("most_threads", 1);
+      if(const auto fronts = manifest.find("most_fronts"); fronts != manifest.end())
+        result.most_fronts = whole_number_in<int>(*fronts);
+      if(const auto threads = manifest.find("most_threads"); threads != manifest.end())
+        result.most_threads = whole_number_in<int>(*threads);
       result.conserves_heat = manifest.value("conserves_heat", true);
       if(const auto overshoot = manifest.find("overshoot"); overshoot != manifest.end())
         result.overshoot = {overshoot->at("at_twenty").get<double>(),

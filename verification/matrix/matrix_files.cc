@@ -55,9 +55,9 @@ namespace meltfront::verification
       record.case_name = planned.at("case");
       record.method = planned.at("method");
       record.label = planned.at("label");
-      record.n = planned.at("n");
-      record.seed = planned.at("seed");
-      record.threads = planned.at("threads");
+      record.n = whole_number_in<int>(planned.at("n"));
+      record.seed = whole_number_in<std::uint64_t>(planned.at("seed"));
+      record.threads = whole_number_in<int>(planned.at("threads"));
       record.message = "it has not been run yet";
       return record;
     }

@@ -224,7 +224,7 @@ namespace meltfront::verification
     if(status == to_string(RunStatus::refused))
       return progress.run_refused(kind_of(job), message);
     // Repeats are made of short runs only, and say nothing of longer ones.
-    const int repeats = std::max(1, record.at("repeats").get<int>());
+    const int repeats = std::max(1, whole_number_in<int>(record.at("repeats")));
     const std::string how = seconds > 0 ? fmt::format("{} in {:.2f} s", status, seconds)
                                         : fmt::format("{} elsewhere", status);
     // What took another process no time here took some all the same.

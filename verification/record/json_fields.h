@@ -96,6 +96,8 @@ namespace meltfront::verification
       fields(JsonFieldReader{json}, value);
     else if constexpr(std::same_as<T, double>)
       value = number_in(json);
+    else if constexpr(std::integral<T> && !std::same_as<T, bool>)
+      value = whole_number_in<T>(json);
     else if constexpr(std::same_as<T, std::vector<double>>)
       value = numbers_in(json);
     else if constexpr(std::same_as<T, std::map<std::string, double>>)

@@ -5,8 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <concepts>
+#include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace meltfront::verification
@@ -23,6 +26,21 @@ namespace meltfront::verification
   std::vector<double> numbers_in(const nlohmann::json &json);
   cases::Position position_in(const nlohmann::json &json);
   std::map<std::string, double> named_numbers_in(const nlohmann::json &json);
+
+  /** A whole number as it is written: JSON's library would cast any other, which for one
+   * like 1e20 is undefined. @throws nlohmann::json::exception if it is none, or too large
+   */
+  template <std::integral T>
+  T whole_number_in(const nlohmann::json &json)
+  {
+    using Integer = nlohmann::json::number_integer_t;
+    const auto number = json.get_ref<const Integer &>();
+    if constexpr(sizeof(T) < sizeof(Integer))
+      if(!std::in_range<T>(number))
+        throw nlohmann::json::other_error::create(
+            501, std::to_string(number) + " is too large a number", &json);
+    return static_cast<T>(number);
+  }
 
   /** @throws cases::OutputError if the file cannot be read or does not hold JSON. */
   nlohmann::json read_json(const std::string &path);

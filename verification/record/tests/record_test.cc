@@ -52,7 +52,7 @@ namespace meltfront::verification
       record.options = {{"step_factor", "1.1"}, {"time_scheme", "euler"}};
       record.status = RunStatus::finished;
       record.message = "a \"quoted\" line\nand <another> & more";
-      record.description = {2, 0.1, 0.12, 1e-5, 160, {{"kernel", "cubic spline", ""}}};
+      record.description = {2, 0.1, 0, 0.12, 1e-5, 160, {{"kernel", "cubic spline", ""}}};
       record.effects = {{cases::Effect::phase_change, true, "latent heat is not zero"},
                         {cases::Effect::wall_flux, false, "no wall has a flux"}};
       record.cost.setup_wall = 0.1;
@@ -90,6 +90,20 @@ namespace meltfront::verification
       record.frames = {{0.05, {0.1, 0.2}, {0.3, nan}}, {0.1, {0.4}, {0.5}}};
       record.provenance = {{"case_text", "set title = x"}, {"date", "today"}};
       return record;
+    }
+
+    TEST(JsonValues, WholeNumbersAreTakenAsTheyAreWrittenOnly)
+    {
+      const auto number = [](const char *text)
+      { return whole_number_in<int>(nlohmann::json::parse(text)); };
+      EXPECT_EQ(number("-12"), -12);
+      for(const char *text : {"1e20", "1.5", "3.0", "4294967296", "\"3\"", "null", "true",
+                              "99999999999999999999"})
+        EXPECT_THROW(number(text), nlohmann::json::exception) << text;
+      constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
+      EXPECT_EQ(
+          whole_number_in<std::uint64_t>(nlohmann::json::parse(std::to_string(largest))),
+          largest);
     }
 
     TEST(RunRecord, ComesBackFromItsFile)

@@ -125,11 +125,12 @@ namespace meltfront::verification
         throw damaged("is the checkpoint of another run than request.json beside it");
       if(header.at("state_hash") != sha256(result.state))
         throw damaged("is damaged or cut off");
-      result.step = header.at("step");
+      result.step = whole_number_in<long>(header.at("step"));
       result.time = number_in(header.at("time"));
-      result.observed_bytes = header.at("observed_bytes");
-      result.kept = header.at("kept");
-      result.resumptions = header.at("resumptions");
+      result.observed_bytes
+          = whole_number_in<std::uintmax_t>(header.at("observed_bytes"));
+      result.kept = whole_number_in<long>(header.at("kept"));
+      result.resumptions = whole_number_in<int>(header.at("resumptions"));
     }
     catch(const nlohmann::json::exception &)
     {

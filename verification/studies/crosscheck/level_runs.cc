@@ -177,7 +177,7 @@ namespace meltfront::verification
   void from_json(const nlohmann::json &json, LevelRun &run)
   {
     run.method = json.at("method");
-    run.n = json.at("n");
+    run.n = whole_number_in<int>(json.at("n"));
     const std::string status = json.at("status");
     run.status = status == to_string(RunStatus::finished)  ? RunStatus::finished
                  : status == to_string(RunStatus::refused) ? RunStatus::refused
