@@ -233,12 +233,15 @@ namespace meltfront::verification
   std::string unresolved_walls(const cases::Scene &scene, double spacing, double width)
   {
     const cases::Domain &domain = scene.domain;
+    // One cell across would be as thick as the shell, whatever n asks for.
     if(const double thickness = domain.radius - domain.inner_radius;
-       domain.shape == cases::DomainShape::shell && thickness < width * (1 - rounding))
+       domain.shape == cases::DomainShape::shell && thickness < 2 * width * (1 - rounding)
+       && (drives_heat(scene, cases::Side::inner)
+           || drives_heat(scene, cases::Side::outer)))
       return fmt::format(
-          "the shell is {:.3g} m thick, less than the spacing of {:.3g} m; "
-          "n has to be {:.3g} times as large at least",
-          thickness, width, width / thickness);
+          "the shell is {:.3g} m thick, less than two spacings of {:.3g} m; "
+          "n has to be larger",
+          thickness, width);
     if(const double diameter = 2 * radius_of_hole(scene);
        diameter > 0 && diameter < width * (1 - rounding))
       return fmt::format(

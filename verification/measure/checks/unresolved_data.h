@@ -24,9 +24,10 @@ namespace meltfront::verification
   /**
    * Which part of the domain is too narrow for a spacing, so that refining may change
    * little until it no longer is: a wall about a centre or an axis that drives heat and
-   * whose diameter is less than the width, or a box or shell thinner than the spacing in
-   * a direction in which something varies (walls that drive heat there, sources, the
-   * initial temperature or the heat released). Outlines and meshes are left out: their
+   * whose diameter is less than the width, a shell with a wall that drives heat of less
+   * than two widths, or a box thinner than the spacing in a direction in which something
+   * varies (walls that drive heat there, sources, the initial temperature or the heat
+   * released). Outlines and meshes are left out: their
    * cells fit them.
    *
    * @param spacing m

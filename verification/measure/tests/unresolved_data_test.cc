@@ -138,7 +138,8 @@ TEST(UnresolvedWalls, AnInnerWallFarNarrowerThanTheSpacing)
     scene.domain.inner_radius = 0.97;
     EXPECT_NE(unresolved_walls(scene, 0.05, 0.05).find("0.03 m thick"),
               std::string::npos);
-    EXPECT_EQ(unresolved_walls(scene, 0.03, 0.03), "");
+    EXPECT_NE(unresolved_walls(scene, 0.03, 0.03), "");
+    EXPECT_EQ(unresolved_walls(scene, 0.015, 0.015), "");
   }
 }
 
