@@ -63,8 +63,8 @@ namespace meltfront::particles::rkpm_tracked
         "Along a line: balances of cells, which lose no heat and are of second "
         "order in space, or collocation, whose order grows with the basis; "
         "automatic: balances for a basis of order 2, unless the diffusivities are "
-        "more than 150 times apart and walls are held or insulated. Where the "
-        "densities differ it is collocation.",
+        "more than 50 times apart, or nodes relaxed, and walls held or insulated. "
+        "Where the densities differ it is collocation.",
         {{"automatic", Form::automatic},
          {"balances", Form::balances},
          {"collocation", Form::collocation}});

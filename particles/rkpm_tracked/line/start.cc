@@ -210,6 +210,13 @@ namespace meltfront::particles::rkpm_tracked
           = wall_of(scene, domain.round() ? Side::inner : Side::x_min, lower);
     problem.walls[1] = wall_of(scene, domain.round() ? Side::outer : Side::x_max, upper);
     const double spacing = domain.side() / parameters.cells;
+    if(!problem.balanced() && domain.shape == cases::DomainShape::shell
+       && problem.walls[0].kind != BoundaryKind::insulated
+       && domain.inner_radius < spacing)
+      throw cases::Refusal(fmt::format(
+          "rkpm-tracked loses heat by collocation at an inner wall of radius {:.3g} m, "
+          "less than the spacing of {:.3g} m; n has to be {:.3g} times as large at least",
+          domain.inner_radius, spacing, spacing / domain.inner_radius));
     for(const std::size_t side : {0, 1})
       if(const LineWall &wall = problem.walls[side];
          problem.balanced() && parameters.wall_spacing < 1
