@@ -16,26 +16,17 @@ namespace meltfront::particles::rkpm_tracked
      */
     constexpr double widest_default = 3.6;
 
-    /** Diffusivities farther apart than this: of slabs that melt with a Stefan number of
-     * ten those 10 apart were the better with balances, those 100 apart in part. */
-    constexpr double far_apart = 50;
-
-    /** A front that runs into a phase whose layer no node resolves loses a part of its
-     * heat with balances (10 % of it with diffusivities 1000 apart), while collocation
-     * fits the slope there. On relaxed nodes the front of `bar-started` was four times as
-     * far off with balances. */
+    /** On relaxed nodes the front of `bar-started` was four times as far off with
+     * balances as with collocation. */
     Form choose_form(const cases::Scene &scene, const TrackingParameters &parameters)
     {
       if(parameters.basis_order > 2)
         return Form::collocation;
-      const double ratio
-          = scene.material.solid.diffusivity() / scene.material.liquid.diffusivity();
-      const bool resolved
-          = std::max(ratio, 1 / ratio) < far_apart && parameters.relax == 0;
       const bool held = std::ranges::none_of(
           scene.sides(), [&](cases::Side side)
           { return cases::prescribes_heat(scene.boundary(side).kind); });
-      return resolved || !held || scene.domain.shape == cases::DomainShape::shell
+      return parameters.relax == 0 || !held
+                     || scene.domain.shape == cases::DomainShape::shell
                  ? Form::balances
                  : Form::collocation;
     }
@@ -62,8 +53,8 @@ namespace meltfront::particles::rkpm_tracked
         "form", form,
         "Along a line: balances of cells, which lose no heat and are of second "
         "order in space, or collocation, whose order grows with the basis; "
-        "automatic: balances for a basis of order 2, unless the diffusivities are "
-        "more than 50 times apart, or nodes relaxed, and walls held or insulated. "
+        "automatic: balances for a basis of order 2, unless nodes are relaxed and all "
+        "walls held or insulated. "
         "Where the densities differ it is collocation.",
         {{"automatic", Form::automatic},
          {"balances", Form::balances},

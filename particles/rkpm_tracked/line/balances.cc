@@ -6,6 +6,12 @@
 
 namespace meltfront::particles::rkpm_tracked
 {
+  namespace
+  {
+    /** A front touches a node from this distance on, over the spacing. */
+    constexpr double touching = 0.01;
+  } // namespace
+
   /** A face is half a spacing nearer to the points beside it than these to each other. */
   void LineCollocation::evaluate_face(double place, LineStencil &stencil)
   {
@@ -22,7 +28,7 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   /** Weights of the slope half-way between a point and the next. */
-  const LineStencil &LineCollocation::face_stencil(std::size_t point)
+  void LineCollocation::face_stencil(std::size_t point)
   {
     const std::vector<double> &x = cloud.position[0];
     const double place = (x[point] + x[point + 1]) / 2;
@@ -39,23 +45,62 @@ namespace meltfront::particles::rkpm_tracked
       {
         row = known;
         row.first = known.first - first + offset;
-        return row;
+        return;
       }
     }
     evaluate_face(place, row);
-    return row;
   }
 
-  /** Slopes at all faces, and what the temperature at each point counts for in the heat
-   * of the phase. */
-  void LineCollocation::measure_cells()
+  bool LineCollocation::is_steep(const LineInterval &interval) const
+  {
+    return problem.balanced() && steep[interval.solid ? 1 : 0];
+  }
+
+  /** Slopes at all faces; straight ones, which overshoot nowhere, where a layer is
+   * thinner than a cell. */
+  void LineCollocation::find_faces(const LineInterval &interval, const StepTerms &terms)
   {
     const std::vector<double> &x = cloud.position[0];
     faces.resize(std::max(faces.size(), x.size()));
+    const std::size_t last = x.size() - 2;
+    for(std::size_t p = 0; p <= last; ++p)
+      if(is_steep(interval))
+      {
+        const double slope = 1 / (x[p + 1] - x[p]);
+        faces[p].first = p;
+        faces[p].slope = {-slope, slope};
+      }
+      else
+        face_stencil(p);
+    if(!is_steep(interval) || last == 0)
+      return;
+    if(interval.lower_front)
+      hasten(faces[0], x[1] - x[0], x[2] - x[1], interval, terms);
+    if(interval.upper_front)
+      hasten(faces[last], x[last + 1] - x[last], x[last] - x[last - 1], interval, terms);
+  }
+
+  /**
+   * A node that a front all but touches takes its temperature within the step, however
+   * badly the phase conducts: a layer without thickness would let the front find no place
+   * short of the node, whose cell's heat it needs.
+   */
+  void LineCollocation::hasten(LineStencil &face, double distance, double next,
+                               const LineInterval &interval, const StepTerms &terms) const
+  {
+    const double closer = std::max(touching * next - distance, 0.);
+    const double added = terms.leading * next / 2 * closer;
+    for(double &weight : face.slope)
+      weight *= 1 + added / problem.phase(interval.solid).diffusivity();
+  }
+
+  /** What the temperature at each point counts for in the heat of the phase. */
+  void LineCollocation::measure_cells()
+  {
+    const std::vector<double> &x = cloud.position[0];
     volumes.assign(x.size(), 0.);
     for(std::size_t p = 0; p + 1 < x.size(); ++p)
     {
-      face_stencil(p);
       const auto [own, next] = end_volumes(problem.symmetry, x[p], x[p + 1]);
       volumes[p] += own;
       volumes[p + 1] += next;
@@ -71,7 +116,7 @@ namespace meltfront::particles::rkpm_tracked
 
   void LineCollocation::measure_cells_of(const LineInterval &interval)
   {
-    gather(interval);
+    gather(interval, coincidence);
     measure_cells();
   }
 

@@ -83,15 +83,22 @@ namespace meltfront::particles::rkpm_tracked
             static_cast<std::size_t>(past - x.begin())};
   }
 
-  void LineCollocation::gather(const LineInterval &interval)
+  /** Over the spacing. Where a layer is thinner than a cell the heat of a node that is
+   * left out, a cell's all of a sudden, would leave the front no place. */
+  double LineCollocation::distance_left_out(const LineInterval &interval) const
+  {
+    return is_steep(interval) ? coincidence : interpolation_distance;
+  }
+
+  void LineCollocation::gather(const LineInterval &interval, double distance_left_out)
   {
     const std::vector<double> &x = problem.nodes;
     std::tie(all_first, all_end) = nodes_of(interval);
     first = all_first;
     end = all_end;
     // A node on a wall stays, however near the front is.
-    const double near_lower = interpolation_distance * problem.spacing_at(interval.lower);
-    const double near_upper = interpolation_distance * problem.spacing_at(interval.upper);
+    const double near_lower = distance_left_out * problem.spacing_at(interval.lower);
+    const double near_upper = distance_left_out * problem.spacing_at(interval.upper);
     const auto leave_out = [&](std::size_t node, double distance, double near)
     {
       const bool may_stay = distance > near / 4 && distance < 2 * near;
@@ -180,7 +187,10 @@ namespace meltfront::particles::rkpm_tracked
     const std::size_t points = cloud.size();
     right_side.resize(points);
     if(problem.balanced())
+    {
+      find_faces(interval, terms);
       measure_cells();
+    }
     for(std::size_t p = 0; p < points; ++p)
     {
       const LineStencil &row = problem.balanced() ? balance(p) : stencil(p);
@@ -254,7 +264,7 @@ namespace meltfront::particles::rkpm_tracked
   EndSlopes LineCollocation::solve(const LineInterval &interval, const StepTerms &terms,
                                    std::span<double> temperature)
   {
-    gather(interval);
+    gather(interval, distance_left_out(interval));
     if(cloud.size() < 2)
       throw cases::InputError("rkpm-tracked: a phase needs two points at least");
     unseen = {};
@@ -402,7 +412,7 @@ namespace meltfront::particles::rkpm_tracked
   void LineCollocation::gather_values(const LineInterval &interval,
                                       std::span<const double> temperature)
   {
-    gather(interval);
+    gather(interval, distance_left_out(interval));
     right_side.resize(cloud.size());
     for(std::size_t p = 0; p < cloud.size(); ++p)
     {

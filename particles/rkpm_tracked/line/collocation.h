@@ -65,11 +65,20 @@ namespace meltfront::particles::rkpm_tracked
       kept = keep;
     }
 
+    /** From now on the liquid and the solid (true) hold a layer that is thinner than a
+     * cell. Where rows are balances slopes in such a phase are straight, and none of its
+     * nodes is left out. */
+    void set_steep(std::array<bool, 2> phases)
+    {
+      steep = phases;
+    }
+
     /** Whether a phase that was solved for is all between a wall of given temperature and
      * a front, without a node inside. */
     bool is_held_film(const LineInterval &interval) const;
 
-    /** Measure the cells of an interval without a solve. */
+    /** Measure the cells of an interval without a solve, of all nodes: what the
+     * temperatures hold, whatever these are. */
     void measure_cells_of(const LineInterval &interval);
 
     /** What the nodes of the interval stand for that was solved for or measured; those
@@ -120,7 +129,8 @@ namespace meltfront::particles::rkpm_tracked
     };
 
     UnseenRelease unseen_release(std::size_t side, double time) const;
-    void gather(const LineInterval &interval);
+    double distance_left_out(const LineInterval &interval) const;
+    void gather(const LineInterval &interval, double distance_left_out);
     void make_regular_faces();
     void evaluate_stencil(double place, LineStencil &stencil);
     void evaluate_face(double place, LineStencil &stencil);
@@ -130,7 +140,11 @@ namespace meltfront::particles::rkpm_tracked
                       const StepTerms &terms);
     void add_wall_heat(std::size_t point, const LineInterval &interval,
                        const StepTerms &terms);
-    const LineStencil &face_stencil(std::size_t point);
+    void face_stencil(std::size_t point);
+    bool is_steep(const LineInterval &interval) const;
+    void find_faces(const LineInterval &interval, const StepTerms &terms);
+    void hasten(LineStencil &face, double distance, double next,
+                const LineInterval &interval, const StepTerms &terms) const;
     void measure_cells();
     const LineStencil &balance(std::size_t point);
     double face_slope(std::size_t face, std::span<const double> values) const;
@@ -159,6 +173,7 @@ namespace meltfront::particles::rkpm_tracked
     std::size_t all_first = 0, all_end = 0; ///< nodes of the interval
     std::size_t first = 0, end = 0;         ///< those that are collocated
     bool kept = false;                      ///< nodes are as they were last
+    std::array<bool, 2> steep{};            ///< liquid, solid
     std::vector<bool> interpolated;         ///< nodes, last
     std::size_t offset = 0;                 ///< of node `first` in the cloud
     ParticleStorage cloud;

@@ -12,6 +12,10 @@ namespace meltfront::particles::rkpm_tracked
   {
     /** Fronts are solved for to this, over the spacing. */
     constexpr double front_tolerance = 1e-10;
+    /** Where rows are balances the defect is heat that is lost: a bracket that closes
+     * about a jump leaves more of it than this, over the tolerance, and is no solution.
+     */
+    constexpr double most_lost = 1e3;
     constexpr int most_iterations = 60;
     /** From then on the points of phases are kept, where rows are balances: heat of cells
      * whose nodes come and go with the front is no function that has a zero. */
@@ -347,8 +351,12 @@ namespace meltfront::particles::rkpm_tracked
         change[j] = proposed[j] - fronts[j];
       if(largest(change) <= tolerance)
         return closing              ? StepOutcome::closing
-               : proposed == wanted ? StepOutcome::accepted
-                                    : StepOutcome::too_far;
+               : proposed != wanted ? StepOutcome::too_far
+               : problem.balanced()
+                       && largest(trial.defect)
+                              > most_lost * tolerance * std::abs(weights[0])
+                   ? StepOutcome::not_converged
+                   : StepOutcome::accepted;
       const std::vector<double> before = trial.defect;
       trial.state.fronts = proposed;
       evaluate(trial);
@@ -367,6 +375,7 @@ namespace meltfront::particles::rkpm_tracked
     times = history.times(time);
     weights = differentiation_weights(times);
     find_given_flux();
+    find_steep_phases();
     trial.state.fronts = predicted_fronts(time_step);
     const StepOutcome outcome = iterate(trial);
     counted.most_evaluations

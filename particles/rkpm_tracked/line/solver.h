@@ -111,6 +111,7 @@ namespace meltfront::particles::rkpm_tracked
     double place_before(double before, double now) const;
     void find_cells(LineState &state);
     void find_given_flux();
+    void find_steep_phases();
     void add_changed_cells(std::size_t number, const LineInterval &interval,
                            LineState &state, EndSlopes &slopes) const;
     void book_walls(LineState &state) const;
@@ -132,6 +133,9 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<double> weights;        ///< of backward differentiation
     std::vector<double> rate_history;   ///< of each node (K/s)
     std::array<double, 2> given_flux{}; ///< of the step in hand (W/m^2)
+    /** Until when the liquid and the solid hold a layer that no node resolves (s). */
+    std::array<double, 2> steep_until{-std::numeric_limits<double>::infinity(),
+                                      -std::numeric_limits<double>::infinity()};
     /** Derivatives of the fronts' speeds with respect to the fronts, by rows (1/s). */
     std::vector<double> slope;
     bool slope_known = false;

@@ -4,6 +4,13 @@
 
 namespace meltfront::particles::rkpm_tracked
 {
+  namespace
+  {
+    /** Spacings over the thickness of a layer before a front, V h/a, from which on slopes
+     * in that phase are straight. */
+    constexpr double steep_peclet = 0.5;
+  } // namespace
+
   /** Where a front was (m); where rows are balances as far away as what it has passed is
    * wide with its area of now, so that the latent heat is that between the places. */
   double LineSolver::place_before(double before, double now) const
@@ -12,6 +19,21 @@ namespace meltfront::particles::rkpm_tracked
       return before;
     const auto [own, other] = end_volumes(problem.symmetry, now, before);
     return now + (own + other) / area(problem.symmetry, now);
+  }
+
+  /** A layer that no node resolved is one until it has spread over a spacing. */
+  void LineSolver::find_steep_phases()
+  {
+    const LineState &now = history.newest();
+    for(std::size_t j = 0; j < now.fronts.size() && !problem.metastable; ++j)
+    {
+      const bool solid = now.solid(now.speed[j] > 0 ? j + 1 : j);
+      const double diffusivity = problem.phase(solid).diffusivity();
+      const double spacing = problem.spacing_at(now.fronts[j]);
+      if(std::abs(now.speed[j]) * spacing > steep_peclet * diffusivity)
+        steep_until[solid ? 1 : 0] = now.time + spacing * spacing / diffusivity;
+    }
+    collocation.set_steep({now.time < steep_until[0], now.time < steep_until[1]});
   }
 
   void LineSolver::find_cells(LineState &state)

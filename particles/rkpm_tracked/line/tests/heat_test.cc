@@ -235,5 +235,33 @@ namespace meltfront::particles::rkpm_tracked
         EXPECT_NEAR(run(scene, n).solid.back(), thickness, 0.01 * thickness) << n;
       }
     }
+
+    // Liquid comes to cold solid that conducts up to 1e9 times worse: nodes hold a cell's
+    // heat each when the front reaches them. Up to a tenth of the heat once got lost
+    // there.
+    TEST(LineHeat, AFrontThatMeltsABadConductorLosesNoHeat)
+    {
+      const double cold = -1, hot = 1, end = 0.15;
+      for(const double conductivity : {1e-2, 1e-3, 1e-9})
+        for(const double latent_heat : {0.1, 1.})
+        {
+          cases::Material of = material(latent_heat, 1, 1);
+          of.solid.conductivity = conductivity;
+          const double molten = cases::PlanarNeumann(of, hot, cold).front(end);
+          for(const int n : {20, 40, 80, 160})
+          {
+            cases::Scene scene = slab(of, 0, end);
+            scene.initial.temperature = cases::Field::uniform(cold);
+            set_boundary(scene, Side::x_max, {});
+            set_boundary(scene, Side::x_min, fixed_wall(hot));
+            const Course held = run(scene, n);
+            EXPECT_LE(held.worst_budget_defect(), 1e-7) << conductivity << ' ' << n;
+            EXPECT_NEAR(1 - held.solid.back(), molten, 0.3 / n) << conductivity;
+            set_boundary(scene, Side::x_min,
+                         {BoundaryKind::flux, cases::Field::uniform(3)});
+            EXPECT_LE(run(scene, n).worst_budget_defect(), 2e-5) << conductivity;
+          }
+        }
+    }
   } // namespace
 } // namespace meltfront::particles::rkpm_tracked
