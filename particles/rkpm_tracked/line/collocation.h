@@ -73,6 +73,12 @@ namespace meltfront::particles::rkpm_tracked
       steep = phases;
     }
 
+    /** Whether a phase holds such a layer. */
+    bool any_steep() const
+    {
+      return problem.balanced() && (steep[0] || steep[1]);
+    }
+
     /** Whether a phase that was solved for is all between a wall of given temperature and
      * a front, without a node inside. */
     bool is_held_film(const LineInterval &interval) const;

@@ -12,9 +12,9 @@ namespace meltfront::particles::rkpm_tracked
   {
     /** Fronts are solved for to this, over the spacing. */
     constexpr double front_tolerance = 1e-10;
-    /** Where rows are balances the defect is heat that is lost: a bracket that closes
-     * about a jump leaves more of it than this, over the tolerance, and is no solution.
-     */
+    /** The defect is heat that is lost. Where a layer is thinner than a cell a bracket
+     * that closes about a jump may leave a cell's heat over: more than this, over the
+     * tolerance, is no solution. */
     constexpr double most_lost = 1e3;
     constexpr int most_iterations = 60;
     /** From then on the points of phases are kept, where rows are balances: heat of cells
@@ -352,7 +352,7 @@ namespace meltfront::particles::rkpm_tracked
       if(largest(change) <= tolerance)
         return closing              ? StepOutcome::closing
                : proposed != wanted ? StepOutcome::too_far
-               : problem.balanced()
+               : collocation.any_steep() && !jumps_accepted
                        && largest(trial.defect)
                               > most_lost * tolerance * std::abs(weights[0])
                    ? StepOutcome::not_converged

@@ -86,6 +86,13 @@ namespace meltfront::particles::rkpm_tracked
       return collocation.work();
     }
 
+    /** Whether a step may end at a jump of what its front leaves over: the last resort.
+     */
+    void accept_jumps(bool accept)
+    {
+      jumps_accepted = accept;
+    }
+
     /** What an effect has cost. Phase change costs what is solved for the fronts once the
      * phases have been solved for where they are first thought to be; what is a factor of
      * all rows has neither memory nor time of its own. */
@@ -139,6 +146,7 @@ namespace meltfront::particles::rkpm_tracked
     /** Derivatives of the fronts' speeds with respect to the fronts, by rows (1/s). */
     std::vector<double> slope;
     bool slope_known = false;
+    bool jumps_accepted = false;
     LineCounters counted;
     cases::EffectMeter front_meter;
   };

@@ -28,6 +28,9 @@ namespace meltfront::particles::rkpm_tracked
     constexpr double wall_step = 0.25;
     constexpr double largest_excess = 1e-2;
     constexpr long most_events = 10000;
+    /** A step divided to this share of a planned one may lose heat; by how much the heat
+     * balance tells. */
+    constexpr double last_resort = 1e-2;
     /** A shorter step is taken where it overshoots by less than this share of what the
      * longer one does: else the cause is not the step. */
     constexpr double worth_halving = 0.75;
@@ -324,6 +327,7 @@ namespace meltfront::particles::rkpm_tracked
         throw cases::NumericalError(method_name, kept, state().time, "time step",
                                     "is too short to be added to the time");
       const std::deque<LineState> before = solver.states();
+      solver.accept_jumps(time_step < last_resort * rules.planned_step);
       const StepOutcome outcome = solver.step_to(end);
       if(outcome != StepOutcome::accepted)
       {
