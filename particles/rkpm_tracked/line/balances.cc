@@ -53,7 +53,7 @@ namespace meltfront::particles::rkpm_tracked
 
   bool LineCollocation::is_steep(const LineInterval &interval) const
   {
-    return problem.balanced() && steep[interval.solid ? 1 : 0];
+    return steep[interval.solid ? 1 : 0];
   }
 
   /** Slopes at all faces; straight ones, which overshoot nowhere, where a layer is
@@ -63,16 +63,19 @@ namespace meltfront::particles::rkpm_tracked
     const std::vector<double> &x = cloud.position[0];
     faces.resize(std::max(faces.size(), x.size()));
     const std::size_t last = x.size() - 2;
-    for(std::size_t p = 0; p <= last; ++p)
-      if(is_steep(interval))
-      {
-        const double slope = 1 / (x[p + 1] - x[p]);
-        faces[p].first = p;
-        faces[p].slope = {-slope, slope};
-      }
-      else
+    if(!is_steep(interval))
+    {
+      for(std::size_t p = 0; p <= last; ++p)
         face_stencil(p);
-    if(!is_steep(interval) || last == 0)
+      return;
+    }
+    for(std::size_t p = 0; p <= last; ++p)
+    {
+      const double slope = 1 / (x[p + 1] - x[p]);
+      faces[p].first = p;
+      faces[p].slope = {-slope, slope};
+    }
+    if(last == 0)
       return;
     if(interval.lower_front)
       hasten(faces[0], x[1] - x[0], x[2] - x[1], interval, terms);

@@ -90,15 +90,15 @@ namespace meltfront::particles::rkpm_tracked
     return is_steep(interval) ? coincidence : interpolation_distance;
   }
 
-  void LineCollocation::gather(const LineInterval &interval, double distance_left_out)
+  void LineCollocation::gather(const LineInterval &interval, double left_out_within)
   {
     const std::vector<double> &x = problem.nodes;
     std::tie(all_first, all_end) = nodes_of(interval);
     first = all_first;
     end = all_end;
     // A node on a wall stays, however near the front is.
-    const double near_lower = distance_left_out * problem.spacing_at(interval.lower);
-    const double near_upper = distance_left_out * problem.spacing_at(interval.upper);
+    const double near_lower = left_out_within * problem.spacing_at(interval.lower);
+    const double near_upper = left_out_within * problem.spacing_at(interval.upper);
     const auto leave_out = [&](std::size_t node, double distance, double near)
     {
       const bool may_stay = distance > near / 4 && distance < 2 * near;

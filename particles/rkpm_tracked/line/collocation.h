@@ -73,12 +73,6 @@ namespace meltfront::particles::rkpm_tracked
       steep = phases;
     }
 
-    /** Whether a phase holds such a layer. */
-    bool any_steep() const
-    {
-      return problem.balanced() && (steep[0] || steep[1]);
-    }
-
     /** Whether a phase that was solved for is all between a wall of given temperature and
      * a front, without a node inside. */
     bool is_held_film(const LineInterval &interval) const;
@@ -135,8 +129,9 @@ namespace meltfront::particles::rkpm_tracked
     };
 
     UnseenRelease unseen_release(std::size_t side, double time) const;
+    bool is_steep(const LineInterval &interval) const;
     double distance_left_out(const LineInterval &interval) const;
-    void gather(const LineInterval &interval, double distance_left_out);
+    void gather(const LineInterval &interval, double left_out_within);
     void make_regular_faces();
     void evaluate_stencil(double place, LineStencil &stencil);
     void evaluate_face(double place, LineStencil &stencil);
@@ -147,7 +142,6 @@ namespace meltfront::particles::rkpm_tracked
     void add_wall_heat(std::size_t point, const LineInterval &interval,
                        const StepTerms &terms);
     void face_stencil(std::size_t point);
-    bool is_steep(const LineInterval &interval) const;
     void find_faces(const LineInterval &interval, const StepTerms &terms);
     void hasten(LineStencil &face, double distance, double next,
                 const LineInterval &interval, const StepTerms &terms) const;

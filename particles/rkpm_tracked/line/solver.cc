@@ -352,7 +352,7 @@ namespace meltfront::particles::rkpm_tracked
       if(largest(change) <= tolerance)
         return closing              ? StepOutcome::closing
                : proposed != wanted ? StepOutcome::too_far
-               : collocation.any_steep() && !jumps_accepted
+               : (steep[0] || steep[1]) && !jumps_accepted
                        && largest(trial.defect)
                               > most_lost * tolerance * std::abs(weights[0])
                    ? StepOutcome::not_converged

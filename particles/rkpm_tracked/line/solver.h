@@ -143,6 +143,7 @@ namespace meltfront::particles::rkpm_tracked
     /** Until when the liquid and the solid hold a layer that no node resolves (s). */
     std::array<double, 2> steep_until{-std::numeric_limits<double>::infinity(),
                                       -std::numeric_limits<double>::infinity()};
+    std::array<bool, 2> steep{}; ///< in the step in hand
     /** Derivatives of the fronts' speeds with respect to the fronts, by rows (1/s). */
     std::vector<double> slope;
     bool slope_known = false;

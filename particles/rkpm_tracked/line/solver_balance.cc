@@ -25,7 +25,9 @@ namespace meltfront::particles::rkpm_tracked
   void LineSolver::find_steep_phases()
   {
     const LineState &now = history.newest();
-    for(std::size_t j = 0; j < now.fronts.size() && !problem.metastable; ++j)
+    if(!problem.balanced() || problem.metastable)
+      return;
+    for(std::size_t j = 0; j < now.fronts.size(); ++j)
     {
       const bool solid = now.solid(now.speed[j] > 0 ? j + 1 : j);
       const double diffusivity = problem.phase(solid).diffusivity();
@@ -33,7 +35,8 @@ namespace meltfront::particles::rkpm_tracked
       if(std::abs(now.speed[j]) * spacing > steep_peclet * diffusivity)
         steep_until[solid ? 1 : 0] = now.time + spacing * spacing / diffusivity;
     }
-    collocation.set_steep({now.time < steep_until[0], now.time < steep_until[1]});
+    steep = {now.time < steep_until[0], now.time < steep_until[1]};
+    collocation.set_steep(steep);
   }
 
   void LineSolver::find_cells(LineState &state)

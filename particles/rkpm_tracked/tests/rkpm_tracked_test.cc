@@ -247,7 +247,9 @@ namespace meltfront::particles::rkpm_tracked
           EXPECT_LE(std::abs(errors[0]), 0.05 * exact) << inner_radius;
           EXPECT_LE(std::abs(errors[3]), 0.003 * exact) << inner_radius;
           if(inner_radius < 0.1)
+          {
             EXPECT_THROW(run(scene, 20, {{"form", "collocation"}}), cases::Refusal);
+          }
         }
     }
 
