@@ -172,12 +172,6 @@ namespace meltfront::reference_fem::cut::conservative
     return farthest <= farthest_move * mesh.spacing;
   }
 
-  void ConservativeRun::refuse_if_unresolved(const cases::NumericalError &error) const
-  {
-    if(const std::string reason = why_last_body_is_lost(); !reason.empty())
-      throw cases::Refusal(fmt::format("{}; {}", error.what(), reason));
-  }
-
   void ConservativeRun::step()
   {
     try
@@ -392,24 +386,6 @@ namespace meltfront::reference_fem::cut::conservative
   }
 
   /** Whether a body is too small for the cells, in words; else empty. */
-  std::string ConservativeRun::why_last_body_is_lost() const
-  {
-    constexpr double least_depth = 2.5; ///< spacings
-    const Front front(mesh, state.level_set);
-    for(const Body &body : bodies(mesh, front, state.level_set))
-    {
-      double depth = 0;
-      for(const unsigned int node : body.nodes)
-        depth = std::max(depth, std::abs(state.level_set[node]));
-      if(depth < least_depth * mesh.spacing)
-        return fmt::format("a body of {} is {:.2g} cells deep, and what is left of a "
-                           "phase is not resolved below {:.2g}",
-                           body.phase == Phase::solid ? "solid" : "liquid",
-                           depth / mesh.spacing, least_depth);
-    }
-    return {};
-  }
-
   /** What is left at hats that a phase or the front has gone from, as where a thin layer
    * vanishes at once: heat of a phase that is no longer near goes to the other's in the
    * same hat, debt of the front to the heat of the phase that is there. */
@@ -426,45 +402,6 @@ namespace meltfront::reference_fem::cut::conservative
         heat += std::exchange(state.heat[index(other)][node], 0);
       if(frame.displacement[node] < 0)
         heat -= latent_heat_of_volume() * std::exchange(state.debt[node], 0);
-    }
-  }
-
-  /** Lowest and highest temperature at nodes of the phases (K). */
-  std::pair<double, double> ConservativeRun::extremes() const
-  {
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-    for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
-      if(mesh.triangles[t].whole && !mesh.triangles[t].part.empty())
-        for(const unsigned int node : mesh.triangles[t].nodes)
-        {
-          const Phase phase = state.level_set[node] < 0 ? Phase::solid : Phase::liquid;
-          const double value
-              = scene.material.melting_temperature
-                + assembly.temperature(phase, t, mesh.nodes[node], temperatures, powers);
-          // A comparison passes over what is not a number.
-          if(!std::isfinite(value))
-            lowest = highest = value;
-          lowest = std::min(lowest, value);
-          highest = std::max(highest, value);
-        }
-    return {lowest, highest};
-  }
-
-  void ConservativeRun::check() const
-  {
-    const auto [lowest, highest] = extremes();
-    cases::require_sinks(scene, time, method_name);
-    cases::check_temperature(
-        bounds, lowest, highest, method_name, step_number, time,
-        cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain));
-    for(const Point &place : sources.places)
-    {
-      const Triangle &triangle = mesh.triangles[mesh.triangle_at(place)];
-      if(!(triangle.value(state.level_set, place) <= -mesh.spacing))
-        throw cases::Refusal(fmt::format(
-            "fem-cut: the source at ({:.6g}, {:.6g}) does not lie in the solid, at least "
-            "a cell from the front, at time {:.6g}",
-            place[0], place[1], time));
     }
   }
 } // namespace meltfront::reference_fem::cut::conservative

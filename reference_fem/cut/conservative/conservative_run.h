@@ -56,9 +56,15 @@ namespace meltfront::reference_fem::cut::conservative
     void require_resolved(const Front &front) const;
     void report_uniform_start();
 
+    // In conservative_bounds.cc:
+    void check() const;
+    std::pair<double, double> extremes() const;
+    void refuse_if_unresolved(const cases::NumericalError &error) const;
+    std::string why_last_body_is_lost() const;
+    std::string why_layer_is_lost() const;
+
     void step();
     void make_step();
-    void refuse_if_unresolved(const cases::NumericalError &error) const;
     double next_step() const;
     struct Step;
     bool attempt(double duration, double end, Step &step);
@@ -71,10 +77,7 @@ namespace meltfront::reference_fem::cut::conservative
     std::array<double, 2> tolerated_heat() const;
     bool misses_a_phase(const Step &step) const;
     void begin_anew();
-    std::string why_last_body_is_lost() const;
     void settle_hats();
-    std::pair<double, double> extremes() const;
-    void check() const;
     double latent_heat_of_volume() const;
     double domain_area() const;
     double stored_heat() const;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 
 namespace meltfront::reference_fem::tests
 {
@@ -96,6 +97,31 @@ namespace meltfront::reference_fem::tests
       set_boundary(scene, Side::x_min,
                    {.kind = BoundaryKind::flux, .value = Field::uniform(-0.1)});
       EXPECT_THROW(run_from_one_phase(scene, 12), Refusal);
+    }
+
+    TEST(EnthalpyStart, SaysThatALayerBesideTheFrontIsThinnerThanACell)
+    {
+      Material material = material_of_starts();
+      material.liquid.conductivity = 0.0033;
+      Scene scene = ball(material, 2, 2, 0.5, 0.5);
+      scene.domain.shape = DomainShape::shell;
+      scene.domain.inner_radius = 1;
+      set_boundary(scene, Side::inner,
+                   {.kind = BoundaryKind::heat_transfer,
+                    .value = Field::uniform(-2),
+                    .heat_transfer_coefficient = 5});
+      try
+      {
+        run_from_one_phase(scene, 40);
+        FAIL() << "ran";
+      }
+      catch(const Refusal &refusal)
+      {
+        const std::string reason = refusal.what();
+        EXPECT_NE(reason.find("temperatures of the liquid change within"),
+                  std::string::npos)
+            << reason;
+      }
     }
 
     TEST(EnthalpyStart, AColdRimIsFollowedFromWhereItsLayerIsResolved)
