@@ -2,6 +2,7 @@
 #include <particles/sph/wall_exchange.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace meltfront::particles
 {
@@ -87,17 +88,40 @@ namespace meltfront::particles
             growth};
   }
 
+  WallExchange::Exchange WallExchange::exchange(const cases::Boundary &wall, double depth,
+                                                double enthalpy, double ambient) const
+  {
+    const Layer own_layer = layer(wall, depth, enthalpy, ambient);
+    const cases::HeatThroughLayer through = cases::heat_through_layer(
+        wall, ambient, own_layer.temperature, own_layer.resistance);
+    const Exchange plain{through.flux, through.slope * own_layer.warming
+                                           + through.by_resistance * own_layer.growth};
+    const double latent = sharp_latent_heat, melting = material.melting_temperature;
+    const bool freezes = enthalpy > latent && ambient < melting;
+    const bool melts = enthalpy < 0 && ambient > melting;
+    if(!(latent > 0) || !(freezes || melts))
+      return plain;
+    const double conductivity = (freezes ? material.solid : material.liquid).conductivity;
+    const double from_front
+        = cases::heat_through_layer(wall, ambient, melting, depth / 2 / conductivity)
+              .flux;
+    const double excess = from_front - through.flux;
+    if(!(std::abs(from_front) > std::abs(through.flux)))
+      return plain;
+    const double sensible = freezes ? enthalpy - latent : -enthalpy;
+    const double share = latent / std::max(latent, sensible);
+    const double share_rate
+        = sensible > latent ? (freezes ? -1 : 1) * share / sensible : 0;
+    return {through.flux + share * excess,
+            (1 - share) * plain.rate + share_rate * excess};
+  }
+
   double WallExchange::add(double fraction, std::span<const double> enthalpy,
                            std::span<double> flow, double flow_scale)
   {
     return add(
         [&](std::size_t row, const cases::Boundary &wall, double ambient, double depth)
-        {
-          const Layer behind = layer(wall, depth, enthalpy[row], ambient);
-          return cases::heat_through_layer(wall, ambient, behind.temperature,
-                                           behind.resistance)
-              .flux;
-        },
+        { return exchange(wall, depth, enthalpy[row], ambient).flux; },
         fraction, flow, flow_scale);
   }
 
@@ -106,12 +130,7 @@ namespace meltfront::particles
   {
     differentiate(
         [&](std::size_t row, const cases::Boundary &wall, double ambient, double depth)
-        {
-          const Layer behind = layer(wall, depth, enthalpy[row], ambient);
-          const cases::HeatThroughLayer through = cases::heat_through_layer(
-              wall, ambient, behind.temperature, behind.resistance);
-          return through.slope * behind.warming + through.by_resistance * behind.growth;
-        },
+        { return exchange(wall, depth, enthalpy[row], ambient).rate; },
         fraction, diagonal, flow_scale);
   }
 

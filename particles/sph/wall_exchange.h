@@ -16,7 +16,10 @@ namespace meltfront::particles
    * behind a layer of its depth, through which heat flows steadily. What the layer is
    * made of is told by those who add the heat; of one substance it is of the particle's
    * own phase, or, while that melts, up to the front within it, of the phase that the
-   * surroundings make.
+   * surroundings make. Where they make another than the particle's, a front is on its way
+   * from the wall to the particle: half way, as between particles (SubParticlePair), if
+   * more heat passes through this phase then, so that a particle that conducts badly does
+   * not shut the wall off. This fades with latent over sensible heat.
    */
   class WallExchange
   {
@@ -115,6 +118,15 @@ namespace meltfront::particles
                 double ambient) const;
     Layer melting_layer(const cases::Boundary &wall, double depth, double enthalpy,
                         double ambient) const;
+
+    /** Heat from the wall and how it follows the particle's enthalpy. */
+    struct Exchange
+    {
+      double flux; ///< W/m^2
+      double rate; ///< W/m^2 per J/kg
+    };
+    Exchange exchange(const cases::Boundary &wall, double depth, double enthalpy,
+                      double ambient) const;
 
     struct CellAcross
     {
