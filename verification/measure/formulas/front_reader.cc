@@ -62,11 +62,21 @@ namespace meltfront::verification
         return {};
       const double at_wall = wall->value(start, scene.start_time);
       const double melting = scene.material.melting_temperature;
-      if(wall->kind == cases::BoundaryKind::fixed_temperature && at_wall != melting)
-        return at_wall < melting;
-      if(wall->kind == cases::BoundaryKind::flux && at_wall != 0)
-        return at_wall < 0;
-      return {};
+      switch(wall->kind)
+      {
+      case cases::BoundaryKind::fixed_temperature:
+      case cases::BoundaryKind::heat_transfer:
+      case cases::BoundaryKind::radiation:
+        if(at_wall != melting)
+          return at_wall < melting;
+        return {};
+      case cases::BoundaryKind::flux:
+        if(at_wall != 0)
+          return at_wall < 0;
+        return {};
+      default:
+        return {};
+      }
     }
 
     int sign(double value, double tolerance)

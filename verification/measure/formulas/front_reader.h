@@ -40,7 +40,8 @@ namespace meltfront::verification
    * shell. The exact solution says so; without one, the initial front of a symmetric
    * scene, the source that acts (a sink freezes), the initial front of a scene without
    * symmetry, the wall at the origin (x_min of a planar scene, the inner one of a shell:
-   * below the melting point, or cooling), or the initial temperature there.
+   * or its surroundings below the melting point, or cooling), or the initial temperature
+   * there.
    */
   bool solid_holds_origin(const cases::Scene &scene, const cases::ExactSolution *exact);
 

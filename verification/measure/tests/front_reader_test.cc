@@ -254,6 +254,13 @@ namespace meltfront::verification
       EXPECT_FALSE(solid_holds_origin(slab, nullptr));
       *wall = {cases::BoundaryKind::flux, cases::Field::uniform(-1), false};
       EXPECT_TRUE(solid_holds_origin(slab, nullptr));
+      for(const auto kind :
+          {cases::BoundaryKind::heat_transfer, cases::BoundaryKind::radiation})
+        for(const double surroundings : {-1, 1})
+        {
+          *wall = {.kind = kind, .value = cases::Field::uniform(surroundings)};
+          EXPECT_EQ(solid_holds_origin(slab, nullptr), surroundings < 0);
+        }
 
       auto box = tests::scene_of(DomainShape::box, 2, Symmetry::none);
       box.sources.push_back(
