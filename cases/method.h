@@ -59,6 +59,8 @@ namespace meltfront::cases
         = 0; ///< particle spacing or cell size (m): the h of convergence tables
     double resolved_width
         = 0; ///< of the narrowest walls that finer cells resolve (m), 0: the spacing
+    double node_distance
+        = 0; ///< largest of neighbouring nodes in a cell (m), 0: the spacing
     double smoothing_length = 0; ///< of the particles' kernel (m), 0 for a mesh
     double time_step = 0;        ///< of a full step (s)
     long unknowns = 0;

@@ -64,7 +64,7 @@ namespace meltfront::reference_fem
       cases::Demand demand(const cases::Scene &scene, const cases::EffectSet &,
                            const cases::Resolution &resolution) const override
       {
-        const auto options = cases::read_options(cut::RunOptions(), resolution.options);
+        const auto options = cut::options_for(scene, resolution);
         // As measured: of three states on a mesh, geometry and factors; of the
         // conservative scheme, from n = 32 to 64, mostly of UMFPACK's factors.
         const double per_cell

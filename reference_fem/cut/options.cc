@@ -1,7 +1,11 @@
 #include <reference_fem/cut/options.h>
 
+#include <cases/dense_sampling.h>
+#include <cases/expression_words.h>
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace meltfront::reference_fem::cut
@@ -38,7 +42,10 @@ namespace meltfront::reference_fem::cut
                 "CFL number of the front: cells that it crosses in a time step, at most.",
                 1e-4, 0.5);
     options.add("fewest_steps", fewest_steps,
-                "Time steps over the run are at least so many.", 1, 1e9);
+                "Time steps over the run are at least so many; 0: as many as cells along "
+                "the side and 20 or more, of the extension and where the scene gives "
+                "something that varies with time 100 or more.",
+                0, 1e9);
     options.add(
         "solves", solves,
         "Solves per step: the first on the front predicted from past speeds, each "
@@ -66,6 +73,43 @@ namespace meltfront::reference_fem::cut
                 "Penalty on jumps of the normal derivative between the cells at the "
                 "front.",
                 1e-4, 1e2);
+  }
+
+  namespace
+  {
+    /** Of what varies with time: as many as resolve ten swings. */
+    constexpr long fewest_of_varying_data = 100;
+    constexpr long fewest_of_constant_data = 20;
+
+    /** What an exact solution gives is as smooth as its front's motion. */
+    bool varies_with_time(const cases::Scene &scene)
+    {
+      const auto varies = [](const cases::Field &field)
+      { return field.expression != "exact" && cases::may_vary_with(field, "t"); };
+      return (scene.volumetric_source && varies(*scene.volumetric_source))
+             || std::ranges::any_of(scene.sources,
+                                    [](const cases::PointSource &source) {
+                                      return cases::may_depend_on(source.expression, "t");
+                                    })
+             || std::ranges::any_of(scene.boundaries,
+                                    [&](const std::optional<cases::Boundary> &wall) {
+                                      return wall && wall->value.value && !wall->exact
+                                             && varies(wall->value);
+                                    });
+    }
+  } // namespace
+
+  RunOptions options_for(const cases::Scene &scene, const cases::Resolution &resolution)
+  {
+    auto options = cases::read_options(RunOptions(), resolution.options);
+    if(options.fewest_steps > 0)
+      return options;
+    const bool conservative = chosen_scheme(options).scheme == Scheme::conservative;
+    options.fewest_steps = !conservative ? fewest_of_varying_data
+                           : varies_with_time(scene)
+                               ? std::max<long>(fewest_of_varying_data, resolution.n)
+                               : std::max<long>(fewest_of_constant_data, resolution.n);
+    return options;
   }
 
   std::string option_of_extension(const RunOptions &options)

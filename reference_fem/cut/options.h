@@ -43,7 +43,7 @@ namespace meltfront::reference_fem::cut
     int refinement = 0;
     BandWidths widths;
     double cfl = 0.25;
-    long fewest_steps = 100;
+    long fewest_steps = 0;
     int solves = 2;
     double speed_smoothing = 0.25;
     double seed_cells = 3;
@@ -59,6 +59,15 @@ namespace meltfront::reference_fem::cut
     Scheme scheme; ///< not automatic
     std::string why;
   };
+
+  /**
+   * The options of a run, with its fewest steps if none are given: of the conservative
+   * scheme as many as cells along the side, so that errors of time and of space fall
+   * alike, and twenty or more; a hundred or more where the scene gives something that
+   * varies with time, and of the extension.
+   * @throws cases::InputError
+   */
+  RunOptions options_for(const cases::Scene &scene, const cases::Resolution &resolution);
 
   /** The name of an option that is set and that only the extension knows; else empty. */
   std::string option_of_extension(const RunOptions &options);

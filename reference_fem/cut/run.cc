@@ -59,7 +59,7 @@ namespace meltfront::reference_fem::cut
     : scene(scene)
     , effects(effects)
     , resolution(resolution)
-    , options(cases::read_options(RunOptions(), resolution.options))
+    , options(options_for(scene, resolution))
     , finest_rim(options.refinement > 0 && scene.domain.round()
                      ? make_mesh(divided_at_rim(scene.domain), nullptr)
                      : nullptr)

@@ -12,6 +12,17 @@ namespace meltfront::reference_fem::fitted
      * an eighth as wide as a spacing the solid in a pipe was 0.3 % off, of one a
      * twentieth as wide 7 %. */
     constexpr double widths_of_wall = 0.125;
+
+    /** Of neighbouring nodes on the first ray (m). */
+    double largest_node_distance(const FittedProblem &problem,
+                                 const dealii::Vector<double> &state)
+    {
+      double largest = 0;
+      for(unsigned int level = 1; level < problem.mesh().n_levels(); ++level)
+        largest = std::max(largest, problem.coordinate(0, level, state)
+                                        - problem.coordinate(0, level - 1, state));
+      return largest;
+    }
   } // namespace
 
   cases::RunDescription FittedRun::describe() const
@@ -21,7 +32,10 @@ namespace meltfront::reference_fem::fitted
     result.dimension = options.dimension;
     result.spacing = scene.domain.side() / options.cells;
     if(options.dimension == 1)
+    {
       result.resolved_width = widths_of_wall * result.spacing;
+      result.node_distance = largest_node_distance(*problem, initial_state);
+    }
     result.time_step = (scene.end_time - scene.start_time) / options.steps;
     result.unknowns = problem->size();
     result.parameters

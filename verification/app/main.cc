@@ -83,22 +83,36 @@ namespace
     }
     return carry_out(command_line, ranks);
   }
+
+  int run_program(int argc, char **argv)
+  {
+    set_command_line(argc, argv);
+    CommandLine command_line;
+    const int ranks = started_ranks();
+    if(ranks > 1)
+      command_line.session.emplace(argc, argv);
+    const End end = parse_and_carry_out(command_line, argc, argv, ranks);
+    if(!end.sentence.empty())
+    {
+      std::fflush(stdout);
+      fmt::print(stderr, "meltfront: {}\n", end.sentence);
+    }
+    if(command_line.session)
+      command_line.session->end_together(end.sentence, end.status);
+    return end.status;
+  }
 } // namespace
 
 int main(int argc, char **argv)
 {
-  set_command_line(argc, argv);
-  CommandLine command_line;
-  const int ranks = started_ranks();
-  if(ranks > 1)
-    command_line.session.emplace(argc, argv);
-  const End end = parse_and_carry_out(command_line, argc, argv, ranks);
-  if(!end.sentence.empty())
+  try
   {
-    std::fflush(stdout);
-    fmt::print(stderr, "meltfront: {}\n", end.sentence);
+    return run_program(argc, argv);
   }
-  if(command_line.session)
-    command_line.session->end_together(end.sentence, end.status);
-  return end.status;
+  catch(const std::exception &error)
+  {
+    // Before there is a command: the program's own files are missing.
+    fmt::print(stderr, "meltfront: {}\n", error.what());
+    return output_failed;
+  }
 }

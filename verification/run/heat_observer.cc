@@ -42,10 +42,11 @@ namespace meltfront::verification
 
   void HeatObserver::start()
   {
-    const double spacing = description.spacing, width = description.resolved_width;
+    const double spacing = description.spacing;
+    const auto or_spacing = [&](double given) { return given > 0 ? given : spacing; };
     for(const std::string &unresolved :
-        {unresolved_walls(scene, spacing, width > 0 ? width : spacing),
-         unresolved_data(scene, spacing)})
+        {unresolved_walls(scene, spacing, or_spacing(description.resolved_width)),
+         unresolved_data(scene, or_spacing(description.node_distance))})
       if(!unresolved.empty())
         throw cases::Refusal(unresolved);
     checks.emplace(scene, capabilities, method, description.spacing);

@@ -71,10 +71,10 @@ namespace meltfront::particles::rkpm_tracked
       return places.position[0];
     }
 
-    /** Cells grow from walls that make them finer over a tenth of the domain's side, so
-     * that all are halved where n is doubled; but where there are few by this at most:
-     * each is then 1.28 times as long as the one before. */
-    constexpr double graded_share = 0.1, most_growth = 0.25;
+    /** Cells grow from walls that make them finer over two fifths of the domain's side,
+     * so that all are halved where n is doubled; but where there are fewer than ten by
+     * this at most: each is then 1.28 times as long as the one before. */
+    constexpr double graded_share = 0.4, most_growth = 0.25;
 
     /** Cells between nodes from a wall that makes them finer to a distance from it, and
      * back: beside the wall their length is growth times the distance beyond that at the

@@ -123,7 +123,7 @@ namespace meltfront::reference_fem::cut::conservative
   {
     const Front front(mesh, state.level_set);
     const Guess now{temperatures, state.level_set, segments_of(front), powers};
-    const std::array<CurvatureFit, 2> fits{
+    std::array<CurvatureFit, 2> fits{
         assembly.curvature_fit(Phase::solid, now),
         assembly.curvature_fit(Phase::liquid, now),
     };

@@ -48,7 +48,7 @@ namespace meltfront::reference_fem::cut::conservative
     /** Of the run: shorter steps are not made. */
     constexpr double shortest_step = 1e-8;
 
-    RunOptions checked(const RunOptions &options)
+    RunOptions checked(RunOptions options)
     {
       if(const std::string name = option_of_extension(options); !name.empty())
         throw cases::Refusal(
@@ -74,7 +74,7 @@ namespace meltfront::reference_fem::cut::conservative
     : scene(scene)
     , effects(effects)
     , resolution(resolution)
-    , options(checked(cases::read_options(RunOptions(), resolution.options)))
+    , options(checked(options_for(scene, resolution)))
     , mesh(scene.domain, resolution.n)
     , sources(scene, 1e-3 * mesh.spacing)
     , assembly(scene, mesh, sources,
@@ -178,10 +178,22 @@ namespace meltfront::reference_fem::cut::conservative
     {
       make_step();
     }
+    catch(const cases::Refusal &)
+    {
+      throw;
+    }
     catch(const cases::NumericalError &error)
     {
       refuse_if_unresolved(error);
       throw;
+    }
+    catch(const std::runtime_error &error)
+    {
+      const cases::NumericalError named(
+          method_name, step_number, time, "front",
+          fmt::format("cannot be followed: {}", error.what()));
+      refuse_if_unresolved(named);
+      throw named;
     }
   }
 
@@ -385,7 +397,6 @@ namespace meltfront::reference_fem::cut::conservative
     increment.assign(mesh.nodes.size(), 0);
   }
 
-  /** Whether a body is too small for the cells, in words; else empty. */
   /** What is left at hats that a phase or the front has gone from, as where a thin layer
    * vanishes at once: heat of a phase that is no longer near goes to the other's in the
    * same hat, debt of the front to the heat of the phase that is there. */

@@ -1,6 +1,6 @@
 #include <reference_fem/cut/conservative/curvature.h>
 
-#include <Eigen/QR>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,18 @@ namespace meltfront::reference_fem::cut::conservative
     /** Samples of the six coefficients of a parabola. */
     constexpr std::size_t fewest_samples = 10;
 
-    /** Pivot, of the largest one, below which a parabola is not told. */
-    constexpr double least_pivot = 1e-3;
+    /** Of the normal equations: pivot, of the largest one, below which a parabola is not
+     * told. */
+    constexpr double least_pivot = 1e-6;
+
+    using Coefficients = Eigen::Matrix<double, 6, 1>;
+
+    /** Of a parabola about the origin: value, slopes, second derivatives. */
+    Coefficients monomials(const Gradient &place)
+    {
+      const double x = place[0], y = place[1];
+      return {1, x, y, x * x / 2, x * y, y * y / 2};
+    }
   } // namespace
 
   Remainder::Remainder(const Curvature &curvature, const Triangle &triangle,
@@ -66,10 +76,9 @@ namespace meltfront::reference_fem::cut::conservative
   {
   }
 
-  std::vector<CurvatureFit::Sample> CurvatureFit::samples(const Point &centre) const
+  void CurvatureFit::find_samples(const Point &centre)
   {
     const Values &values = guess.temperatures[sense < 0 ? 0 : 1];
-    std::vector<Sample> found;
     for(double reach = fitted_reach; reach <= widest_reach; reach += wider)
     {
       found.clear();
@@ -90,36 +99,39 @@ namespace meltfront::reference_fem::cut::conservative
                                 add(sample->place, sample->value, sample->weight);
                             });
       if(found.size() >= fewest_samples)
-        break;
+        return;
     }
-    return found;
   }
 
-  Curvature CurvatureFit::operator()(const Triangle &triangle) const
+  Curvature CurvatureFit::operator()(const Triangle &triangle)
   {
-    const std::vector<Sample> found = samples(triangle.centre);
+    find_samples(triangle.centre);
     if(found.size() < fewest_samples)
       return {};
-    Eigen::Matrix<double, Eigen::Dynamic, 6> basis(found.size(), 6);
-    Eigen::VectorXd value(found.size());
-    double weights = 0;
-    for(std::size_t k = 0; k < found.size(); ++k)
+    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+    Coefficients load = Coefficients::Zero();
+    for(const auto &[place, value, weight] : found)
     {
-      const auto row = static_cast<Eigen::Index>(k);
-      const auto &[place, temperature, weight] = found[k];
-      const double x = place[0], y = place[1], root = std::sqrt(weight);
-      basis.row(row) << 1, x, y, x * x / 2, x * y, y * y / 2;
-      basis.row(row) *= root;
-      value[row] = root * temperature;
+      const Coefficients basis = monomials(place);
+      normal += weight * basis * basis.transpose();
+      load += weight * value * basis;
+    }
+    // Of a positive matrix the largest pivots are on the diagonal, and are the squares of
+    // those of a QR factorisation of what it is made of.
+    Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> fit;
+    fit.setThreshold(least_pivot);
+    if(!fit.compute(normal).isInvertible())
+      return {};
+    const Coefficients c = fit.solve(load);
+    double missed = 0, weights = 0;
+    for(const auto &[place, value, weight] : found)
+    {
+      const double off = monomials(place).dot(c) - value;
+      missed += weight * off * off;
       weights += weight;
     }
-    Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 6>> fit(basis);
-    fit.setThreshold(least_pivot);
-    if(fit.rank() < 6)
-      return {};
-    const Eigen::Matrix<double, 6, 1> c = fit.solve(value);
-    const double size = c[3] * c[3] + 2 * c[4] * c[4] + c[5] * c[5],
-                 missed = (basis * c - value).squaredNorm() / weights;
+    missed /= weights;
+    const double size = c[3] * c[3] + 2 * c[4] * c[4] + c[5] * c[5];
     if(!(size > 0))
       return {};
     const double factor = size / (size + 4 * missed) / (mesh.spacing * mesh.spacing);

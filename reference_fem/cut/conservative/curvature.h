@@ -76,7 +76,7 @@ namespace meltfront::reference_fem::cut::conservative
     CurvatureFit(const TriangleMesh &mesh, const std::vector<char> &inside, Phase phase,
                  const Guess &guess, std::vector<FrontSample> front);
 
-    Curvature operator()(const Triangle &triangle) const;
+    Curvature operator()(const Triangle &triangle);
 
   private:
     struct Sample
@@ -85,13 +85,14 @@ namespace meltfront::reference_fem::cut::conservative
       double value, weight;
     };
 
-    std::vector<Sample> samples(const Point &centre) const;
+    void find_samples(const Point &centre);
 
     const TriangleMesh &mesh;
     const std::vector<char> &inside;
     const double sense; ///< of the level set in the phase
     const Guess &guess;
     const std::vector<FrontSample> front;
+    std::vector<Sample> found; ///< about the triangle that is fitted
   };
 } // namespace meltfront::reference_fem::cut::conservative
 

@@ -175,7 +175,7 @@ namespace meltfront::reference_fem::cut::conservative
       if(has_ghost_penalty(context, edge))
         for(const unsigned int t : edge.triangles)
           needed[t] = true;
-    const CurvatureFit fit = curvature_fit(context.phase, context.guess);
+    CurvatureFit fit = curvature_fit(context.phase, context.guess);
     for(unsigned int t = 0; t < needed.size(); ++t)
       if(needed[t] && !at_contact(context.frame, mesh.triangles[t]))
         result[t] = fit(mesh.triangles[t]);

@@ -1,4 +1,6 @@
 #include <cases/error.h>
+#include <reference_fem/cut/cut.h>
+#include <reference_fem/cut/options.h>
 #include <reference_fem/cut/tests/cut_support.h>
 
 #include <gtest/gtest.h>
@@ -175,6 +177,34 @@ namespace meltfront::reference_fem::tests
       set_boundary(sudden, Side::y_min, {BoundaryKind::flux, Field::uniform(-0.028)});
       EXPECT_NE(why_refused(sudden, 34).find("what a wall gives jumped"),
                 std::string::npos);
+    }
+
+    long fewest_steps(const Scene &scene, int n, const OptionTexts &options = {})
+    {
+      return cut::options_for(scene, resolution_of(*make_fem_cut(), n, options))
+          .fewest_steps;
+    }
+
+    // Errors of time are to fall with those of space, and what swings is to be resolved.
+    TEST(FemCut, ThereAreAsManyStepsAsCellsOrMoreWhereSomethingVaries)
+    {
+      Scene scene = switched_on(1);
+      set_boundary(scene, Side::x_max,
+                   {BoundaryKind::fixed_temperature, Field::uniform(1)});
+      EXPECT_EQ(fewest_steps(scene, 48), 48);
+      EXPECT_EQ(fewest_steps(scene, 8), 20);
+      EXPECT_EQ(fewest_steps(scene, 48, {{"fewest_steps", "7"}}), 7);
+      EXPECT_EQ(fewest_steps(scene, 48, {{"degree", "2"}}), 100);
+      const Field swinging{"sin(9*t)",
+                           [](const Position &, double t) { return std::sin(9 * t); }};
+      Scene with_release = scene;
+      with_release.volumetric_source = swinging;
+      EXPECT_EQ(fewest_steps(with_release, 48), 100);
+      set_boundary(scene, Side::x_max, {BoundaryKind::flux, swinging});
+      EXPECT_EQ(fewest_steps(scene, 48), 100);
+      EXPECT_EQ(fewest_steps(scene, 148), 148);
+      scene.boundaries[static_cast<std::size_t>(Side::x_max)]->exact = true;
+      EXPECT_EQ(fewest_steps(scene, 48), 48);
     }
 
     std::string scheme_in_record(const OptionTexts &options)

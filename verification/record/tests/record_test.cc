@@ -52,7 +52,12 @@ namespace meltfront::verification
       record.options = {{"step_factor", "1.1"}, {"time_scheme", "euler"}};
       record.status = RunStatus::finished;
       record.message = "a \"quoted\" line\nand <another> & more";
-      record.description = {2, 0.1, 0, 0.12, 1e-5, 160, {{"kernel", "cubic spline", ""}}};
+      record.description = {.dimension = 2,
+                            .spacing = 0.1,
+                            .smoothing_length = 0.12,
+                            .time_step = 1e-5,
+                            .unknowns = 160,
+                            .parameters = {{"kernel", "cubic spline", ""}}};
       record.effects = {{cases::Effect::phase_change, true, "latent heat is not zero"},
                         {cases::Effect::wall_flux, false, "no wall has a flux"}};
       record.cost.setup_wall = 0.1;

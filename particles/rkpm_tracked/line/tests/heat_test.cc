@@ -121,6 +121,31 @@ namespace meltfront::particles::rkpm_tracked
       EXPECT_LT(std::abs(solid[2] - solid[3]), std::abs(solid[1] - solid[3]) / 2);
     }
 
+    // Cells that grow from a wall are to be halved with all others: as long as they were
+    // not, errors of n = 14 to 40 were alike, and no refining told of them.
+    TEST(LineHeat, ErrorsBetweenTwoWallsThatFreezeFallAsTheSquareOfTheSpacing)
+    {
+      cases::Scene scene = slab(material(1, 0.5, 1.2), 0, 0.05);
+      scene.material.solid.density = scene.material.liquid.density = 0.9;
+      scene.symmetry = cases::Symmetry::spherical;
+      scene.domain.shape = cases::DomainShape::shell;
+      scene.domain.dimension = 3;
+      scene.domain.inner_radius = 0.3;
+      scene.domain.radius = 1;
+      scene.initial.temperature = cases::Field::uniform(0.3);
+      cases::Boundary inner{BoundaryKind::heat_transfer, cases::Field::uniform(-1.5)};
+      inner.heat_transfer_coefficient = 20;
+      set_boundary(scene, Side::inner, inner);
+      set_boundary(scene, Side::outer, {BoundaryKind::flux, cases::Field::uniform(-1.5)});
+      constexpr double by_fitted_elements = 0.73288974; // n = 14, 20 and 40 agree in it
+      const std::vector<int> n{10, 14, 20, 28, 40};
+      std::vector<double> errors;
+      for(const int cells : n)
+        errors.push_back(std::abs(run(scene, cells).solid.back() - by_fitted_elements));
+      EXPECT_LE(errors.back(), 5e-4);
+      EXPECT_GE(fitted_order(n, errors), 1.7);
+    }
+
     // Above a wall that holds a temperature its heat is told by its cell.
     TEST(LineHeat, AWallThatTurnsColdGivesWhatIsFound)
     {
