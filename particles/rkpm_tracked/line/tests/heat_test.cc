@@ -143,7 +143,7 @@ namespace meltfront::particles::rkpm_tracked
       for(const int cells : n)
         errors.push_back(std::abs(run(scene, cells).solid.back() - by_fitted_elements));
       EXPECT_LE(errors.back(), 5e-4);
-      EXPECT_GE(fitted_order(n, errors), 1.7);
+      EXPECT_GE(test_support::fitted_order(n, errors), 1.7);
     }
 
     // Above a wall that holds a temperature its heat is told by its cell.
