@@ -43,7 +43,7 @@ namespace meltfront::reference_fem::cut
                 1e-4, 0.5);
     options.add("fewest_steps", fewest_steps,
                 "Time steps over the run are at least so many; 0: as many as cells along "
-                "the side and 20 or more, of the extension and where the scene gives "
+                "the side and 50 or more, of the extension and where the scene gives "
                 "something that varies with time 100 or more.",
                 0, 1e9);
     options.add(
@@ -79,7 +79,7 @@ namespace meltfront::reference_fem::cut
   {
     /** Of what varies with time: as many as resolve ten swings. */
     constexpr long fewest_of_varying_data = 100;
-    constexpr long fewest_of_constant_data = 20;
+    constexpr long fewest_of_constant_data = 50;
 
     /** What an exact solution gives is as smooth as its front's motion. */
     bool varies_with_time(const cases::Scene &scene)

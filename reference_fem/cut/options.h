@@ -63,7 +63,7 @@ namespace meltfront::reference_fem::cut
   /**
    * The options of a run, with its fewest steps if none are given: of the conservative
    * scheme as many as cells along the side, so that errors of time and of space fall
-   * alike, and twenty or more; a hundred or more where the scene gives something that
+   * alike, and fifty or more; a hundred or more where the scene gives something that
    * varies with time, and of the extension.
    * @throws cases::InputError
    */

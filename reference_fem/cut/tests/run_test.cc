@@ -191,8 +191,8 @@ namespace meltfront::reference_fem::tests
       Scene scene = switched_on(1);
       set_boundary(scene, Side::x_max,
                    {BoundaryKind::fixed_temperature, Field::uniform(1)});
-      EXPECT_EQ(fewest_steps(scene, 48), 48);
-      EXPECT_EQ(fewest_steps(scene, 8), 20);
+      EXPECT_EQ(fewest_steps(scene, 64), 64);
+      EXPECT_EQ(fewest_steps(scene, 8), 50);
       EXPECT_EQ(fewest_steps(scene, 48, {{"fewest_steps", "7"}}), 7);
       EXPECT_EQ(fewest_steps(scene, 48, {{"degree", "2"}}), 100);
       const Field swinging{"sin(9*t)",
@@ -204,7 +204,7 @@ namespace meltfront::reference_fem::tests
       EXPECT_EQ(fewest_steps(scene, 48), 100);
       EXPECT_EQ(fewest_steps(scene, 148), 148);
       scene.boundaries[static_cast<std::size_t>(Side::x_max)]->exact = true;
-      EXPECT_EQ(fewest_steps(scene, 48), 48);
+      EXPECT_EQ(fewest_steps(scene, 64), 64);
     }
 
     std::string scheme_in_record(const OptionTexts &options)
