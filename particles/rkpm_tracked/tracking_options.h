@@ -101,8 +101,8 @@ namespace meltfront::particles::rkpm_tracked
     double interpolation_distance = 0.1; ///< nodes nearer to a front are interpolated,
                                          ///< over the spacing
     bool jittered = false;
-    double jitter = 0.2;          ///< of inner nodes, over the spacing
-    double wall_spacing = 0.0625; ///< beside walls that give heat, over that within
+    double jitter = 0.2;        ///< of inner nodes, over the spacing
+    double wall_spacing = 0.05; ///< beside walls that give heat, over that within
     Start start = Start::automatic;
     bool exact_history = true; ///< before the start, where the start is exact
     Displaced displaced = Displaced::liquid;
