@@ -241,14 +241,33 @@ namespace meltfront::particles::rkpm_tracked
         }
         catch(const cases::NumericalError &error)
         {
-          if(stepper.unresolved_layer().empty())
-            throw;
-          throw cases::Refusal(
-              fmt::format("{}; {}", error.what(), stepper.unresolved_layer()));
+          for(const std::string &reason :
+              {stepper.unresolved_layer(), thin_phase_at_start()})
+            if(!reason.empty())
+              throw cases::Refusal(fmt::format("{}; {}", error.what(), reason));
+          throw;
         }
         report(state);
         if(parameters.relax > 0 && stepper.steps() % parameters.relax == 0)
           relax_nodes(step);
+      }
+
+      /** Which phase lay at the start between fronts that less than two spacings part, in
+       * words; else empty. */
+      std::string thin_phase_at_start() const
+      {
+        constexpr double fewest_spacings = 2;
+        for(std::size_t i = 1; i < initial.fronts.size(); ++i)
+        {
+          const double from = initial.fronts[i - 1], to = initial.fronts[i];
+          const double spacings = (to - from) / problem.spacing_at((from + to) / 2);
+          if(spacings < fewest_spacings)
+            return fmt::format(
+                "at the start a phase lies between {:.4g} and {:.4g} m, {:.2g} spacings "
+                "thick: take n {:.2g} times as large or more",
+                from, to, spacings, fewest_spacings / spacings);
+        }
+        return {};
       }
 
       /** @throws cases::Refusal where the heat released melts or freezes away from

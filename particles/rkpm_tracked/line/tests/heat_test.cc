@@ -146,6 +146,28 @@ namespace meltfront::particles::rkpm_tracked
       EXPECT_GE(test_support::fitted_order(n, errors), 1.7);
     }
 
+    // A layer of liquid of one cell, with nodes where the jumps of temperature about it
+    // cannot be told: what fails there is refused by what is too thin.
+    TEST(LineHeat, APhaseOfOneCellThatCannotBeFollowedIsRefusedByName)
+    {
+      cases::Scene scene = slab(material(1, 1, 1), 0, 0.03);
+      scene.initial.temperature = {"layer", [](const cases::Position &p, double)
+                                   { return p[0] > 0.49 && p[0] < 0.515 ? 0.01 : -0.1; }};
+      for(const Side side : {Side::x_min, Side::x_max})
+        set_boundary(scene, side, fixed_wall(-0.1));
+      try
+      {
+        run(scene, 42);
+        FAIL() << "followed";
+      }
+      catch(const cases::Refusal &refusal)
+      {
+        EXPECT_NE(std::string(refusal.what()).find("spacings thick: take n"),
+                  std::string::npos);
+      }
+      EXPECT_NEAR(run(scene, 84).solid.back(), 1, 1e-9);
+    }
+
     // Above a wall that holds a temperature its heat is told by its cell.
     TEST(LineHeat, AWallThatTurnsColdGivesWhatIsFound)
     {
