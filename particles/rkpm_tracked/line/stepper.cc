@@ -265,6 +265,28 @@ namespace meltfront::particles::rkpm_tracked
            || too_fast(1, upper - before.fronts.back(), upper - now.fronts.back());
   }
 
+  bool LineStepper::a_front_turned(const std::deque<LineState> &before) const
+  {
+    const LineState &now = state();
+    if(before.size() < 2 || now.fronts.size() != before[0].fronts.size()
+       || now.fronts.size() != before[1].fronts.size())
+      return false;
+    for(std::size_t j = 0; j < now.fronts.size(); ++j)
+      if((now.fronts[j] - before[0].fronts[j])
+             * (before[0].fronts[j] - before[1].fronts[j])
+         < 0)
+        return true;
+    return false;
+  }
+
+  void LineStepper::step_without_history(const LineState &before, double end)
+  {
+    const std::deque<LineState> with_history = solver.states();
+    solver.restart(before);
+    if(solver.step_to(end) != StepOutcome::accepted)
+      solver.restore(with_history);
+  }
+
   bool LineStepper::pass_wall(const std::deque<LineState> &before, double time_step)
   {
     if(problem.metastable)
@@ -334,6 +356,8 @@ namespace meltfront::particles::rkpm_tracked
         shorten(outcome, time_step);
         continue;
       }
+      if(!unresolved.empty() && a_front_turned(before))
+        step_without_history(before.front(), end);
       if(time_step > rules.shortest_step && vanishes_too_fast(before.front()))
       {
         ++shortened_steps;

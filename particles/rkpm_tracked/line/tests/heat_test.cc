@@ -289,6 +289,25 @@ namespace meltfront::particles::rkpm_tracked
       }
     }
 
+    // The layer of warm liquid is a thousandth of a cell: the front halts before each
+    // node, and formulas that look back ran past that place, from which it came back.
+    TEST(LineHeat, AFrontThatHaltsBeforeNodesDoesNotTurnBack)
+    {
+      cases::Material of = material(0.01, 1, 1);
+      of.liquid.conductivity = 1e-3;
+      for(const int n : {18, 20, 22, 24, 30, 32})
+      {
+        cases::Scene scene = slab(of, 0, 0.012);
+        scene.initial.temperature = {"begun", [](const cases::Position &p, double)
+                                     { return p[0] < 0.1 ? 10 * p[0] - 1 : 0.2; }};
+        set_boundary(scene, Side::x_min, fixed_wall(-1));
+        set_boundary(scene, Side::x_max, {});
+        const Course course = run(scene, n);
+        for(std::size_t i = 1; i < course.solid.size(); ++i)
+          EXPECT_LE(course.solid[i - 1] - course.solid[i], 1e-9) << n << ' ' << i;
+      }
+    }
+
     // Liquid comes to cold solid that conducts up to 1e9 times worse: nodes hold a cell's
     // heat each when the front reaches them. Up to a tenth of the heat once got lost
     // there.
