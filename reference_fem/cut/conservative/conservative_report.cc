@@ -52,6 +52,7 @@ namespace meltfront::reference_fem::cut::conservative
            {"stages whose passes did not settle", double(unsettled_stages)},
            {"small bodies booked as the other phase", double(turned_bodies)},
            {"bodies that appeared", double(appeared_bodies)},
+           {"steps of backward Euler after jumps at walls", double(euler_steps)},
            {"steps after which slopes of the level set were restored",
             double(restored_slopes)},
            {"largest area by which the front was behind its heat, of the domain",
@@ -127,6 +128,11 @@ namespace meltfront::reference_fem::cut::conservative
         assembly.curvature_fit(Phase::solid, now),
         assembly.curvature_fit(Phase::liquid, now),
     };
+    const auto bend = [&](unsigned int t, Phase phase)
+    {
+      return Remainder(fits[index(phase)](mesh.triangles[t]), mesh.triangles[t],
+                       mesh.nodes);
+    };
     sites.clear();
     for(unsigned int t = 0; t < mesh.triangles.size(); ++t)
       for(const Phase phase : phases)
@@ -134,10 +140,9 @@ namespace meltfront::reference_fem::cut::conservative
         const Polygon &part = front.part(t, phase);
         if(part.empty())
           continue;
-        const Triangle &triangle = mesh.triangles[t];
-        const Remainder bend(fits[index(phase)](triangle), triangle, mesh.nodes);
+        const Remainder missed = bend(t, phase);
         integrate(part, [&](const Point &point, double weight)
-                  { add_site(t, point, weight, phase, bend.value(point)); });
+                  { add_site(t, point, weight, phase, missed.value(point)); });
       }
     constexpr unsigned int none = static_cast<unsigned int>(-1);
     std::vector<unsigned int> site_of_node(mesh.nodes.size(), none);
@@ -149,9 +154,14 @@ namespace meltfront::reference_fem::cut::conservative
       {
         if(site_of_node[node] == none)
         {
-          const unsigned int t = mesh.triangle_at(in_domain(mesh.nodes[node]));
-          site_of_node[node] = add_site(t, mesh.nodes[node], 0,
-                                        phase_at(t, in_domain(mesh.nodes[node])), 0);
+          // One beyond the rim is shown on it, within a triangle; at its corners the
+          // linear function misses nothing.
+          const Point place = in_domain(mesh.nodes[node]);
+          const unsigned int t = mesh.triangle_at(place);
+          const Phase phase = phase_at(t, place);
+          site_of_node[node]
+              = add_site(t, place, 0, phase,
+                         place == mesh.nodes[node] ? 0 : bend(t, phase).value(place));
         }
         sites.cells.push_back(site_of_node[node]);
       }

@@ -45,6 +45,10 @@ namespace meltfront::reference_fem::cut::conservative
      * triangle that the front has crossed within a step then still lies in the band. */
     constexpr double steepest = 2;
 
+    /** Of a stage after a jump: the first has the parabolas of before it, the second
+     * those of what the first found. */
+    constexpr int damped_passes = 3;
+
     /** Of the run: shorter steps are not made. */
     constexpr double shortest_step = 1e-8;
 
@@ -64,7 +68,6 @@ namespace meltfront::reference_fem::cut::conservative
   {
     StageResult first, second;
     std::vector<double> powers;
-    int unknowns = 0;
     bool limited = false; ///< a pass was cut
   };
 
@@ -114,6 +117,8 @@ namespace meltfront::reference_fem::cut::conservative
     const double longest = whole / static_cast<double>(options.fewest_steps);
     double step = last_step > 0 ? std::min(longest, largest_growth * last_step)
                                 : first_step_share * longest;
+    if(damped_steps > 0)
+      step = std::max(step, damping_step());
     if(front_speed > 0)
       step = std::min(step, options.cfl * mesh.spacing / front_speed);
     if(!(step > shortest_step * whole))
@@ -128,29 +133,41 @@ namespace meltfront::reference_fem::cut::conservative
     return step > rest / 2 ? rest / 2 : step;
   }
 
-  /** @return false if the front moves too far */
-  bool ConservativeRun::attempt(double duration, double end, Step &step)
+  /** What a stage from the state on sets out from. */
+  StageData ConservativeRun::from_state(const StepFrame &frame, StageTime stage,
+                                        double duration) const
   {
-    const StepFrame frame(mesh, state.level_set, Constants().smoothing);
-    step.unknowns = frame.unknowns;
-    most_unknowns = std::max(most_unknowns, long(frame.unknowns));
-    const std::size_t nodes = mesh.nodes.size();
-    StageData data{
-        {time, time + gamma * duration, sources.powers(time + gamma * duration)},
-        gamma * duration,
-        state.heat,
-        state.debt,
-        increment,
-        {temperatures, state.level_set, segments_of(frame.front), powers}};
+    StageData data{std::move(stage),
+                   duration,
+                   state.heat,
+                   state.debt,
+                   increment,
+                   {temperatures, state.level_set, segments_of(frame.front), powers}};
     for(double &value : data.increment)
-      value *= last_step > 0 ? gamma * duration / last_step : 0;
-    step.first = solve_stage(assembly, scene, mesh, frame, data, options.passes);
+      value *= last_step > 0 ? duration / last_step : 0;
+    return data;
+  }
 
+  StageResult ConservativeRun::solve(const StepFrame &frame, const StageData &data)
+  {
+    StageResult result = solve_stage(assembly, scene, mesh, frame, data, options.passes);
+    solves += result.solves;
+    entries += result.entries;
+    return result;
+  }
+
+  void ConservativeRun::make_stages(const StepFrame &frame, double duration, double end,
+                                    Step &step)
+  {
+    StageData data = from_state(
+        frame, {time, time + gamma * duration, sources.powers(time + gamma * duration)},
+        gamma * duration);
+    step.first = solve(frame, data);
     data.time
         = {time, end, sources.remaining_powers(data.time.powers, 1 - gamma, time, end)};
     step.powers = data.time.powers;
     const double per_area = (1 - gamma) * duration / latent_heat_of_volume();
-    for(std::size_t node = 0; node < nodes; ++node)
+    for(std::size_t node = 0; node < mesh.nodes.size(); ++node)
     {
       for(std::size_t p = 0; p < 2; ++p)
         data.heat[p][node]
@@ -159,10 +176,31 @@ namespace meltfront::reference_fem::cut::conservative
       data.increment[node] = step.first.increment[node] / gamma;
     }
     data.guess = step.first.guess;
-    step.second = solve_stage(assembly, scene, mesh, frame, data, options.passes);
-    solves += step.first.solves + step.second.solves;
+    step.second = solve(frame, data);
     most_solves = std::max(most_solves, step.first.solves + step.second.solves);
-    entries += step.first.entries + step.second.entries;
+  }
+
+  /** Backward Euler's stage in place of both. */
+  void ConservativeRun::make_damped_stage(const StepFrame &frame, double duration,
+                                          double end, Step &step)
+  {
+    step.powers = sources.remaining_powers(powers, 0, time, end);
+    StageData data = from_state(frame, {time, end, step.powers}, duration);
+    data.fewest_passes = damped_passes;
+    step.second = solve(frame, data);
+    step.first = step.second;
+    most_solves = std::max(most_solves, step.second.solves);
+  }
+
+  /** @return false if the front moves too far */
+  bool ConservativeRun::attempt(double duration, double end, Step &step)
+  {
+    const StepFrame frame(mesh, state.level_set, Constants().smoothing);
+    most_unknowns = std::max(most_unknowns, long(frame.unknowns));
+    if(damped_steps > 0)
+      make_damped_stage(frame, duration, end, step);
+    else
+      make_stages(frame, duration, end, step);
     double farthest = 0;
     for(const CutTriangle &cut : frame.front.cut)
       for(const unsigned int node : cut.place->nodes)
@@ -253,13 +291,18 @@ namespace meltfront::reference_fem::cut::conservative
     boundary_heat += first * step.first.wall_power + second * step.second.wall_power;
     source_heat += first * (step.first.released_power + step.first.source_power)
                    + second * (step.second.released_power + step.second.source_power);
+    const double began = std::exchange(time, end);
+    if(damped_steps > 0)
+    {
+      --damped_steps;
+      ++euler_steps;
+    }
     state.heat = std::move(step.second.heat);
     state.debt = std::move(step.second.debt);
     temperatures = std::move(step.second.guess.temperatures);
     increment = std::move(step.second.increment);
     powers = std::move(step.powers);
     last_step = duration;
-    time = end;
     ++step_number;
     state.level_set = std::move(step.second.guess.level_set);
     turn_small_bodies();
@@ -271,6 +314,8 @@ namespace meltfront::reference_fem::cut::conservative
     let_phases_appear();
     melt_what_appeared(before);
     check();
+    if(std::ranges::binary_search(step_ends, time))
+      damp_jump_after_step(began);
   }
 
   /** What has appeared is at the melting temperature, and so is what the triangles about

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -45,7 +46,14 @@ namespace meltfront::reference_fem::cut::conservative
     void start_from(const cases::FrontStart &found);
     void settle_temperatures();
     double fastest_diffusivity() const;
-    bool wall_jumps(const cases::FrontStart &found) const;
+    bool layer_appears_at_once(const cases::FrontStart &found) const;
+    void
+    damp_jump_at_start(const std::function<double(const cases::Position &)> &temperature);
+    void damp_jump_after_step(double began);
+    void damp_jump(
+        const std::function<double(const WallPiece &, const cases::Boundary &)> &before,
+        double after);
+    double damping_step() const;
     void run_enthalpy();
     void take_over(const cases::Snapshot &snapshot);
     void take_over_temperatures(const cases::Snapshot &snapshot);
@@ -57,16 +65,22 @@ namespace meltfront::reference_fem::cut::conservative
     void report_uniform_start();
 
     // In conservative_bounds.cc:
-    void check() const;
+    void check();
     std::pair<double, double> extremes() const;
     void refuse_if_unresolved(const cases::NumericalError &error) const;
     std::string why_last_body_is_lost() const;
     std::string why_layer_is_lost() const;
+    std::string why_jump_overshoots() const;
 
     void step();
     void make_step();
     double next_step() const;
     struct Step;
+    StageData from_state(const StepFrame &frame, StageTime stage, double duration) const;
+    StageResult solve(const StepFrame &frame, const StageData &data);
+    void make_stages(const StepFrame &frame, double duration, double end, Step &step);
+    void make_damped_stage(const StepFrame &frame, double duration, double end,
+                           Step &step);
     bool attempt(double duration, double end, Step &step);
     void accept(Step &step, double duration, double end);
     void turn_small_bodies();
@@ -115,8 +129,11 @@ namespace meltfront::reference_fem::cut::conservative
     double last_step = 0, front_speed = 0;
     double boundary_heat = 0, source_heat = 0, initial_heat = 0;
     long step_number = 0, halved_steps = 0, turned_bodies = 0, appeared_bodies = 0,
-         restored_slopes = 0;
-    int hard_steps = 0; ///< in a row, each halved often
+         restored_slopes = 0, euler_steps = 0;
+    int hard_steps = 0;   ///< in a row, each halved often
+    int damped_steps = 0; ///< still to be made, after a jump of the data
+    double layer_resolved
+        = std::numeric_limits<double>::lowest(); ///< when its layer is as thick as a cell
     long solves = 0, most_solves = 0, unsettled_stages = 0, unknowns = 0,
          most_unknowns = 0, entries = 0;
     double largest_debt = 0; ///< of the solid's area (m^2)

@@ -45,7 +45,7 @@ namespace meltfront::reference_fem::cut::conservative
         if(options.start == StartFrom::scene)
           throw;
       }
-      if(found && (options.start == StartFrom::scene || !wall_jumps(*found)))
+      if(found && (options.start == StartFrom::scene || !layer_appears_at_once(*found)))
       {
         start_from(*found);
         return;
@@ -63,28 +63,6 @@ namespace meltfront::reference_fem::cut::conservative
         "to {:.2g} cells deep",
         before->cells, before->time, before->least_depth, before->most_depth);
     unknowns = static_cast<long>(mesh.nodes.size());
-  }
-
-  /** Whether a wall is held, at the start, beyond the melting temperature of the phase
-   * that lies at it, by more than temperatures may overshoot: a layer is there at once.
-   */
-  bool ConservativeRun::wall_jumps(const cases::FrontStart &found) const
-  {
-    double largest = 0, farthest = 0;
-    for(const WallPiece &wall : mesh.walls)
-    {
-      const cases::Boundary &boundary = scene.boundary(wall.side);
-      if(boundary.kind != cases::BoundaryKind::fixed_temperature || boundary.exact)
-        continue;
-      const cases::Position place
-          = position(wall.segment.begin + (wall.segment.end - wall.segment.begin) / 2);
-      const double excess
-          = boundary.value(place, scene.start_time) - scene.material.melting_temperature;
-      largest = std::max(largest, std::abs(excess));
-      farthest = std::max(farthest, found.level_set(place) < 0 ? excess : -excess);
-    }
-    return farthest > cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain)
-                          * largest;
   }
 
   /** The enthalpy method's steps up to the time at which it hands over. */
@@ -253,6 +231,7 @@ namespace meltfront::reference_fem::cut::conservative
     unknowns = most_unknowns = frame.unknowns;
     initial_heat = stored_heat() + latent_heat();
     check();
+    damp_jump_at_start(found.temperature);
   }
 
   /** Temperatures that the heat says. */

@@ -188,7 +188,8 @@ namespace meltfront::reference_fem::cut::conservative
       guess.level_set = frame.moved(move.increment, mesh.spacing);
       guess.front = segments_of(*move.front);
       guess.powers = data.time.powers;
-      last = pass == most || (moves && (result.settled || to_and_fro));
+      last = pass == most
+             || (moves && pass >= data.fewest_passes && (result.settled || to_and_fro));
       if(!last)
         continue;
       for(const Phase phase : phases)

@@ -16,6 +16,7 @@ namespace meltfront::reference_fem::cut::conservative
     Values change;              ///< of the solid's area, carried to it, by hat (m^2)
     Values increment;           ///< of the level set since the step's begin, predicted
     Guess guess;
+    int fewest_passes = 1; ///< that are made where a front moves
   };
 
   struct StageResult

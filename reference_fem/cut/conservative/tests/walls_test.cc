@@ -91,6 +91,39 @@ namespace meltfront::reference_fem::tests
         expect_agreement(scene, n, 2e-3);
     }
 
+    // The layer of a jump is thinner than a cell at first: made in short steps of second
+    // order temperatures passed the wall's by a fifth of it, and such runs failed.
+    TEST(Walls, AHeldRimThatJumpsBesideLiquidIsFollowed)
+    {
+      Material material = normalised_material();
+      material.melting_temperature = 0;
+      material.latent_heat = 1.5;
+      material.liquid.conductivity = 0.6;
+      material.liquid.specific_heat_capacity = 1.3;
+      Scene scene = ball(material, 2, 1, 0, 0.2);
+      scene.initial.temperature
+          = {"about a disk of solid",
+             [](const Position &p, double)
+             { return 0.4 * std::max(std::hypot(p[0], p[1]) - 0.5, 0.); },
+             false};
+      scene.initial.front = {
+          "disk", [](const Position &p, double) { return std::hypot(p[0], p[1]) - 0.5; },
+          false};
+      Boundary rim
+          = varying_wall([](double t) { return t < 0.07   ? 0.6
+                                               : t < 0.13 ? 1.2
+                                                          : 0.5; });
+      rim.value.breakpoints = {0.07, 0.13};
+      set_boundary(scene, Side::outer, rim);
+      constexpr double by_fitted_elements = 0.51645028; // n = 16 and 32 agree in it
+      for(const int n : {16, 24, 32})
+      {
+        const Course course = run_cut(scene, n, {{"scheme", "conservative"}});
+        EXPECT_NEAR(course.solid.back(), by_fitted_elements, 0.5 / (n * n)) << n;
+        EXPECT_LE(course.worst_budget_defect(), 1e-11) << n;
+      }
+    }
+
     // The outer wall freezes, then melts a layer a sixth of a cell thick: it used to go
     // on in steps of a ten-thousandth of the run.
     TEST(Walls, ALayerThatGetsNowhereIsRefused)

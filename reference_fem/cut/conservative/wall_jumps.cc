@@ -1,0 +1,111 @@
+#include <reference_fem/cut/conservative/conservative_run.h>
+
+#include <cases/exact/front_start.h>
+#include <cases/overshoot.h>
+#include <cases/time_integral.h>
+#include <cases/wall_law.h>
+#include <reference_fem/cut/run.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meltfront::reference_fem::cut::conservative
+{
+  namespace
+  {
+    /** Steps of backward Euler after a jump of the data at a wall. */
+    constexpr int damping_steps = 4;
+
+    /** Of the largest datum: what counts as a jump. */
+    constexpr double least_jump = 1e-3;
+
+    /** Of the run: how long after a breakpoint data are read for what they jump to. */
+    constexpr double just_after = 1e-9;
+
+    cases::Position middle(const WallPiece &wall)
+    {
+      return position(wall.segment.begin + (wall.segment.end - wall.segment.begin) / 2);
+    }
+  } // namespace
+
+  /** Whether a wall is held, at the start, beyond the melting temperature of the phase
+   * that lies at it, by more than temperatures may overshoot: a layer is there at once.
+   */
+  bool ConservativeRun::layer_appears_at_once(const cases::FrontStart &found) const
+  {
+    double largest = 0, farthest = 0;
+    for(const WallPiece &wall : mesh.walls)
+    {
+      const cases::Boundary &boundary = scene.boundary(wall.side);
+      if(boundary.kind != cases::BoundaryKind::fixed_temperature || boundary.exact)
+        continue;
+      const cases::Position place = middle(wall);
+      const double excess
+          = boundary.value(place, scene.start_time) - scene.material.melting_temperature;
+      largest = std::max(largest, std::abs(excess));
+      farthest = std::max(farthest, found.level_set(place) < 0 ? excess : -excess);
+    }
+    return farthest > cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain)
+                          * largest;
+  }
+
+  /** Damp the coming steps where walls that hold temperatures hold other ones than those
+   * that the scene begins with. */
+  void ConservativeRun::damp_jump_at_start(
+      const std::function<double(const cases::Position &)> &temperature)
+  {
+    damp_jump(
+        [&](const WallPiece &wall, const cases::Boundary &boundary)
+        {
+          return boundary.kind == cases::BoundaryKind::fixed_temperature
+                     ? temperature(middle(wall))
+                     : boundary.value(middle(wall), time);
+        },
+        time);
+  }
+
+  /** The same where data jump at the end of a step. */
+  void ConservativeRun::damp_jump_after_step(double began)
+  {
+    damp_jump([&](const WallPiece &wall, const cases::Boundary &boundary)
+              { return cases::value_at_end(boundary.value, middle(wall), began, time); },
+              time + just_after * (scene.end_time - scene.start_time));
+  }
+
+  /** @param before what a wall's datum is a jump from */
+  void ConservativeRun::damp_jump(
+      const std::function<double(const WallPiece &, const cases::Boundary &)> &before,
+      double after)
+  {
+    double largest = 0;
+    for(const WallPiece &wall : mesh.walls)
+    {
+      const cases::Boundary &boundary = scene.boundary(wall.side);
+      if(boundary.kind == cases::BoundaryKind::insulated
+         || boundary.kind == cases::BoundaryKind::periodic)
+        continue;
+      const double melting = scene.material.melting_temperature,
+                   rest = boundary.kind == cases::BoundaryKind::flux ? 0 : melting,
+                   was = before(wall, boundary),
+                   given = boundary.value(middle(wall), after);
+      const double size = std::max(std::abs(given - rest), std::abs(was - rest));
+      if(size > 0)
+        largest = std::max(largest, std::abs(given - was) / size);
+    }
+    if(!(largest > least_jump))
+      return;
+    damped_steps = damping_steps;
+    layer_resolved = time + damping_steps * damping_step();
+  }
+
+  /** The shortest step of backward Euler in which linear elements smooth a jump and do
+   * not overshoot: h^2/(3 alpha), from which on no two nodes are coupled by mass more
+   * than by conduction. */
+  double ConservativeRun::damping_step() const
+  {
+    return mesh.spacing * mesh.spacing
+           / (3
+              * std::min(scene.material.solid.diffusivity(),
+                         scene.material.liquid.diffusivity()));
+  }
+} // namespace meltfront::reference_fem::cut::conservative
