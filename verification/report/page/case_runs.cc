@@ -1,5 +1,6 @@
 #include <verification/judge/answers.h>
 #include <verification/judge/criteria.h>
+#include <verification/judge/refinement.h>
 #include <verification/judge/reference.h>
 #include <verification/report/page/case_runs.h>
 
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 namespace meltfront::verification
@@ -228,6 +230,16 @@ namespace meltfront::verification
     return record.exact ? record.exact->front(record.scene.end_time) : std::nan("");
   }
 
+  double front_size_at_end(const StoredCase &record)
+  {
+    const double front = std::abs(exact_front_at_end(record));
+    if(std::isfinite(front) || !record.exact)
+      return front;
+    const double volume = record.exact->solid_volume(record.scene.end_time);
+    return measure_dimension(record) == 3 ? std::cbrt(3 * volume / (4 * std::numbers::pi))
+                                          : std::sqrt(volume / std::numbers::pi);
+  }
+
   std::string main_error(const StoredCase &record)
   {
     if(!record.scene.conducts_heat())
@@ -267,7 +279,7 @@ namespace meltfront::verification
     if(!runs.record->scene.changes_phase())
       return 1; // errors of temperatures and shapes are relative
     if(runs.record->exact)
-      return std::abs(exact_front_at_end(*runs.record));
+      return front_size_at_end(*runs.record);
     for(const LabelRuns &label : runs.labels)
       for(const Level &level : label.levels)
         if(level.finished && is_reference(*runs.record, *level.finished))

@@ -81,6 +81,10 @@ namespace meltfront::verification
   /** The exact front at the end time (m); NaN where there is none. */
   double exact_front_at_end(const StoredCase &record);
 
+  /** The distance of that front from where it set out or its radius; of one that has no
+   * single position the radius of a disk or ball of the exact solid's volume (m). */
+  double front_size_at_end(const StoredCase &record);
+
   /** The dimensions that the labels of a case run in, ascending. */
   std::vector<int> dimensions_of(const CaseRuns &runs);
 
@@ -97,7 +101,7 @@ namespace meltfront::verification
    * the largest stands, which bounds it. */
   double shown_error(const Level &level, const CaseRuns &runs);
 
-  /** What it is relative to: the exact front at the end (m), or the reference's solid
+  /** What it is relative to: front_size_at_end(), or the reference's solid
    * volume there; 1 for what is relative already; NaN where there is nothing. */
   double main_error_scale(const CaseRuns &runs);
 

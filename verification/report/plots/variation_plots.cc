@@ -94,7 +94,7 @@ namespace meltfront::verification
 
   double relative_front_error(const StoredCase &record, const Level &level)
   {
-    return level.value("front_rms") / std::abs(exact_front_at_end(record));
+    return level.value("front_rms") / front_size_at_end(record);
   }
 
   std::string variation_map_script(const VariationGroup &group, const std::string &label)
