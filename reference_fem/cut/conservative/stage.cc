@@ -13,7 +13,7 @@ namespace meltfront::reference_fem::cut::conservative
   namespace
   {
     /** Spacings: passes end when what is left to move is less. */
-    constexpr double settled = 1e-3;
+    constexpr double settled = 1e-2;
 
     /** Spacings: passes that move the front by less and do not make it less go to and fro
      * about a node at which what is released jumps for the quadrature. */

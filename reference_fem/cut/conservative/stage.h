@@ -45,7 +45,7 @@ namespace meltfront::reference_fem::cut::conservative
    * increment of the level set, in which the condition at the front follows the increment
    * (Newton's method but for terms of the size of the step's thermal length; see
    * FrontMove for how far the increment is made). Passes end when the front has less than
-   * 1e-3 spacings left to move, by how much less each moves it than the one before.
+   * 1e-2 spacings left to move, by how much less each moves it than the one before.
    *
    * However many passes are made no heat is lost: the heat of a hat is that of the last
    * solve's geometry, and what the law of the front is off by is carried on as debt.
