@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <numeric>
 #include <thread>
+#include <utility>
 
 namespace meltfront::verification
 {
@@ -40,12 +41,12 @@ namespace meltfront::verification
       return steps_option(cases::Options(method.option_declarations()));
     }
 
-    int next_resolution(const RunRecord &finest)
+    int next_resolution(const RunRecord &finished, int n)
     {
-      const double ratio
-          = finest.description.dimension == 1 ? refinement_of_line : refinement_of_plane;
+      const double ratio = finished.description.dimension == 1 ? refinement_of_line
+                                                               : refinement_of_plane;
       // Even numbers, so that symmetric scenes have cells on either side.
-      return 2 * static_cast<int>(std::lround(finest.n * ratio / 2));
+      return 2 * static_cast<int>(std::lround(n * ratio / 2));
     }
   } // namespace
 
@@ -200,13 +201,19 @@ namespace meltfront::verification
     ladder.resolutions.pop_back();
   }
 
-  /** A level that did not finish ends its ladder. */
+  /** A level that did not finish ends its ladder; one that is refused is passed over, for
+   * what has to be resolved may come to lie better in finer cells, but not two in a row.
+   */
   void LadderGrowth::drop_ended(GrowingLadder &ladder)
   {
     const RunRecord *run = last_run(ladder);
     drop_out_of_time(ladder);
     // The first level may be too coarse for it.
-    if(run && ladder.stopped.empty() && run->status != RunStatus::finished
+    const bool passed_over = run && run->status == RunStatus::refused
+                             && !std::exchange(ladder.passed_over, true);
+    if(!run || run->status == RunStatus::finished)
+      ladder.passed_over = false;
+    if(run && ladder.stopped.empty() && run->status != RunStatus::finished && !passed_over
        && (ladder.resolutions.size() > 1 || run->n > fitting(*ladder.method, coarsest)))
       ladder.stopped
           = fmt::format("{} at n = {}: {}", to_string(run->status), run->n, run->message);
@@ -234,9 +241,10 @@ namespace meltfront::verification
                                          ? coarsest
                                          : 2 * ladder.resolutions.back()),
              0});
-      else if(known->n == ladder.resolutions.back())
+      else if(known->n == ladder.resolutions.back() || ladder.passed_over)
       {
-        const int n = fitting(*ladder.method, next_resolution(*known));
+        const int n
+            = fitting(*ladder.method, next_resolution(*known, ladder.resolutions.back()));
         candidates.push_back({&ladder, n, safety * predicted_seconds(*ladder.method, n)});
       }
     }

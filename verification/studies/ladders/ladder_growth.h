@@ -19,8 +19,9 @@ namespace meltfront::verification
     const cases::Method *method;
     std::string label; ///< of its runs, as run_label() gives it
     std::vector<int> resolutions;
-    std::string stopped{}; ///< why no finer one follows; empty while one may
-    int checked = 0;       ///< level that is made at half its step, too; 0: none
+    std::string stopped{};    ///< why no finer one follows; empty while one may
+    bool passed_over = false; ///< the finest was refused
+    int checked = 0;          ///< level that is made at half its step, too; 0: none
     long checked_steps = 0;
   };
 

@@ -167,6 +167,25 @@ namespace meltfront::verification
       EXPECT_EQ(levels.finest(*methods.at("failing"))->n, 40);
     }
 
+    TEST_F(LadderTest, ALevelThatIsRefusedIsPassedOver)
+    {
+      add("choosy", 1,
+          [](const cases::Scene &, const cases::Resolution &resolution)
+          {
+            if(resolution.n == 80 || resolution.n > 400)
+              throw cases::Refusal("choosy: a layer lies badly");
+          });
+      LadderGrowth levels = growth(600);
+      while(levels.grow())
+        ;
+      ASSERT_EQ(levels.stops().size(), 1u);
+      EXPECT_NE(levels.stops().front().find("refused at n = 1280"), std::string::npos);
+      EXPECT_EQ(levels.finest(*methods.at("choosy"))->n, 320);
+      const auto answers = answers_of(levels.result(), levels.result().cases.front());
+      const MethodAnswer &front = answer(answers, "front").methods.front();
+      EXPECT_LE(front.error, front.bar.bar);
+    }
+
     TEST_F(LadderTest, AWrongLimitContradictsTheOthers)
     {
       add("one", 1);
