@@ -253,7 +253,8 @@ namespace meltfront::verification
                  "p",
                  "The cheapest method that reaches an error, and the CPU time "
                  "that it takes. The error is the front's root mean square over the run, "
-                 "divided by the exact front at the end, of a curved one by the radius of "
+                 "divided by the exact front at the end, of a curved one by the radius "
+                 "of "
                  "a disk or ball of its volume (of a run with too few times for a mean "
                  "the largest, which bounds it); where there is no exact "
                  "solution, the error of the solid's volume at the end, divided by the "

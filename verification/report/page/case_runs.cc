@@ -1,7 +1,7 @@
 #include <verification/judge/answers.h>
 #include <verification/judge/criteria.h>
-#include <verification/judge/refinement.h>
 #include <verification/judge/reference.h>
+#include <verification/judge/refinement.h>
 #include <verification/report/page/case_runs.h>
 
 #include <fmt/format.h>
