@@ -77,22 +77,27 @@ namespace meltfront::reference_fem::cut::conservative
       const std::function<double(const WallPiece &, const cases::Boundary &)> &before,
       double after)
   {
-    double largest = 0;
+    // Of fluxes, and of temperatures over the melting point.
+    struct
+    {
+      double jump = 0, size = 0;
+    } largest[2];
     for(const WallPiece &wall : mesh.walls)
     {
       const cases::Boundary &boundary = scene.boundary(wall.side);
       if(boundary.kind == cases::BoundaryKind::insulated
          || boundary.kind == cases::BoundaryKind::periodic)
         continue;
-      const double melting = scene.material.melting_temperature,
-                   rest = boundary.kind == cases::BoundaryKind::flux ? 0 : melting,
+      const bool flux = boundary.kind == cases::BoundaryKind::flux;
+      const double rest = flux ? 0 : scene.material.melting_temperature,
                    was = before(wall, boundary),
                    given = boundary.value(middle(wall), after);
-      const double size = std::max(std::abs(given - rest), std::abs(was - rest));
-      if(size > 0)
-        largest = std::max(largest, std::abs(given - was) / size);
+      auto &[jump, size] = largest[flux ? 0 : 1];
+      jump = std::max(jump, std::abs(given - was));
+      size = std::max({size, std::abs(given - rest), std::abs(was - rest)});
     }
-    if(!(largest > least_jump))
+    if(std::ranges::none_of(largest, [](const auto &of)
+                            { return of.jump > least_jump * of.size; }))
       return;
     damped_steps = damping_steps;
     layer_resolved = time + damping_steps * damping_step();
