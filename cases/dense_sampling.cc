@@ -76,15 +76,15 @@ namespace meltfront::cases
         visit({radius, 0, 0});
     }
 
-    /** Lowest or highest value (sign -1 or 1) between two times. */
-    double extreme(const Field &field, const Position &p, double from, double to,
-                   double sign)
+    /** Lowest or highest value (sign -1 or 1) of a function between two places. */
+    template <typename Function>
+    double extreme(const Function &function, double from, double to, double sign)
     {
       constexpr double golden = 0.6180339887498949;
       double best = -std::numeric_limits<double>::infinity();
-      const auto value = [&](double time)
+      const auto value = [&](double place)
       {
-        const double found = sign * field(p, time);
+        const double found = sign * function(place);
         best = std::fmax(best, found);
         return found;
       };
@@ -106,6 +106,110 @@ namespace meltfront::cases
           at_right = value(right = from + golden * (to - from));
         }
       return sign * best;
+    }
+
+    /** Where and when the lowest and the highest of samples are. */
+    struct Extremes
+    {
+      struct Sample
+      {
+        double value;
+        std::size_t number = 0; ///< of the position
+        double time = 0;
+      };
+      Sample lowest{std::numeric_limits<double>::infinity()},
+          highest{-std::numeric_limits<double>::infinity()};
+    };
+
+    /**
+     * Visit the values of a field at positions over a scene's run, and the extremes in
+     * time at each. @return the extremes of the samples
+     */
+    Extremes visit_over_run(const Scene &scene, const Field &field,
+                            const std::vector<Position> &positions,
+                            const ValueVisitor &visit)
+    {
+      const double start = scene.start_time, end = scene.end_time;
+      const bool steady = field.constant || !may_depend_on(field.expression, "t");
+      const bool alike = field.constant || !may_depend_on(field.expression, "xyz");
+      const std::size_t count
+          = alike ? std::min<std::size_t>(1, positions.size()) : positions.size();
+      const int times = steady ? 1
+                        : is_exact(field)
+                            ? times_of_exact
+                            : static_cast<int>(std::clamp<std::size_t>(
+                                evaluations_of_wall / std::max<std::size_t>(count, 1),
+                                fewest_times, most_times));
+      const double step = (end - start) / std::max(times - 1, 1);
+      Extremes all;
+      for(std::size_t number = 0; number < count; ++number)
+      {
+        const Position &p = positions[number];
+        int lowest_at = 0, highest_at = 0;
+        double lowest = field(p, start), highest = lowest;
+        const auto see = [&](double time)
+        {
+          const double value = field(p, time);
+          visit(value);
+          if(value < all.lowest.value)
+            all.lowest = {value, number, time};
+          if(value > all.highest.value)
+            all.highest = {value, number, time};
+          return value;
+        };
+        for(int i = 0; i < times; ++i)
+        {
+          const double value = see(i + 1 == times && !steady ? end : start + step * i);
+          if(value < lowest)
+          {
+            lowest = value;
+            lowest_at = i;
+          }
+          if(value > highest)
+          {
+            highest = value;
+            highest_at = i;
+          }
+        }
+        if(steady)
+          continue;
+        const double beside = 1e-9 * step;
+        for(const double time : field.breakpoints)
+          for(const double side : {-beside, 0., beside})
+            see(std::clamp(time + side, start, end));
+        for(std::size_t i = 1; i < field.breakpoints.size(); ++i)
+          see(0.5 * (field.breakpoints[i - 1] + field.breakpoints[i]));
+        for(const auto &[at, sign] :
+            {std::pair(lowest_at, -1.), std::pair(highest_at, 1.)})
+          if(at > 0 && at + 1 < times)
+            visit(extreme([&](double time) { return field(p, time); },
+                          start + step * (at - 1), start + step * (at + 1), sign));
+      }
+      return all;
+    }
+
+    /** Visit what a field has lowest and highest between positions in a row beside the
+     * extremes of their samples. */
+    void visit_extremes_between(const Field &field,
+                                const std::vector<Position> &positions,
+                                const Extremes &extremes, const ValueVisitor &visit)
+    {
+      for(const auto &[sample, sign] :
+          {std::pair(extremes.lowest, -1.), std::pair(extremes.highest, 1.)})
+      {
+        if(positions.empty())
+          return;
+        const Position &from = positions[sample.number == 0 ? 0 : sample.number - 1],
+                       &to = positions[std::min(sample.number + 1, positions.size() - 1)];
+        const auto value = [&](double share)
+        {
+          Position p;
+          for(std::size_t d = 0; d < p.size(); ++d)
+            p[d] = (1 - share) * from[d] + share * to[d];
+          return field(p, sample.time);
+        };
+        visit(extreme(value, 0, 1, sign));
+      }
     }
   } // namespace
 
@@ -195,89 +299,88 @@ namespace meltfront::cases
                             const std::vector<Position> &positions,
                             const ValueVisitor &visit)
   {
-    const double start = scene.start_time, end = scene.end_time;
-    const bool steady = field.constant || !may_depend_on(field.expression, "t");
-    const bool alike = field.constant || !may_depend_on(field.expression, "xyz");
-    const std::size_t count
-        = alike ? std::min<std::size_t>(1, positions.size()) : positions.size();
-    const int times = steady ? 1
-                      : is_exact(field)
-                          ? times_of_exact
-                          : static_cast<int>(std::clamp<std::size_t>(
-                              evaluations_of_wall / std::max<std::size_t>(count, 1),
-                              fewest_times, most_times));
-    const double step = (end - start) / std::max(times - 1, 1);
-    for(std::size_t number = 0; number < count; ++number)
-    {
-      const Position &p = positions[number];
-      int lowest_at = 0, highest_at = 0;
-      double lowest = field(p, start), highest = lowest;
-      for(int i = 0; i < times; ++i)
-      {
-        const double value = field(p, i + 1 == times && !steady ? end : start + step * i);
-        visit(value);
-        if(value < lowest)
-        {
-          lowest = value;
-          lowest_at = i;
-        }
-        if(value > highest)
-        {
-          highest = value;
-          highest_at = i;
-        }
-      }
-      if(steady)
-        continue;
-      const double beside = 1e-9 * step;
-      for(const double time : field.breakpoints)
-        for(const double side : {-beside, 0., beside})
-          visit(field(p, std::clamp(time + side, start, end)));
-      for(std::size_t i = 1; i < field.breakpoints.size(); ++i)
-        visit(field(p, 0.5 * (field.breakpoints[i - 1] + field.breakpoints[i])));
-      for(const auto &[at, sign] : {std::pair(lowest_at, -1.), std::pair(highest_at, 1.)})
-        if(at > 0 && at + 1 < times)
-          visit(
-              extreme(field, p, start + step * (at - 1), start + step * (at + 1), sign));
-    }
+    visit_over_run(scene, field, positions, visit);
   }
+
+  namespace
+  {
+    bool is_row(const Scene &scene, const Field &field)
+    {
+      const Domain &domain = scene.domain;
+      return domain.dimension == 2 && !is_exact(field)
+             && (domain.rectangular()
+                 || (domain.round() && scene.symmetry == Symmetry::none));
+    }
+
+    /** Points of a wall in the plane in a row: so many, and where it is straight the
+     * numbers that the field names with the middles between them; one where it does not
+     * vary. */
+    std::vector<Position> row_of(const Scene &scene, Side side, const Field &field,
+                                 int samples)
+    {
+      const Domain &domain = scene.domain;
+      std::vector<Position> row;
+      if(domain.round())
+      {
+        const double radius = side == Side::inner ? domain.inner_radius : domain.radius;
+        for(int i = 0; i < samples; ++i)
+        {
+          const double angle = 2 * std::numbers::pi * i / samples;
+          row.push_back({radius * std::cos(angle), radius * std::sin(angle), 0});
+        }
+        return row;
+      }
+      const Domain wall = wall_of(domain, side);
+      const std::size_t along = static_cast<std::size_t>(side) < 2 ? 1 : 0;
+      Position p = wall.lower;
+      p[along] = 0.5 * (wall.lower[along] + wall.upper[along]);
+      if(!may_vary_with(field, along == 0 ? "x" : "y"))
+        return {p};
+      for(const double place : coordinates(wall.lower[along], wall.upper[along], samples,
+                                           numbers_of({&field}, most_numbers[1])))
+      {
+        p[along] = place;
+        row.push_back(p);
+      }
+      return row;
+    }
+  } // namespace
 
   void visit_wall_densely(const Scene &scene, Side side, const Field &field,
                           const PointVisitor &visit)
   {
     const Domain &domain = scene.domain;
-    if(domain.round() && domain.dimension == 2 && scene.symmetry == Symmetry::none
-       && !is_exact(field))
+    if(is_row(scene, field))
+      for(const Position &p : row_of(scene, side, field, samples_of_directions[1]))
+        visit(p);
+    else if(domain.rectangular())
     {
-      const double radius = side == Side::inner ? domain.inner_radius : domain.radius;
-      constexpr int places = samples_of_directions[1];
-      for(int i = 0; i < places; ++i)
-      {
-        const double angle = 2 * std::numbers::pi * i / places;
-        visit({radius * std::cos(angle), radius * std::sin(angle), 0});
-      }
-      return;
+      Scene wall;
+      wall.domain = wall_of(domain, side);
+      visit_densely(wall, {&field}, visit);
     }
-    if(!domain.rectangular())
-    {
+    else
       visit_wall(domain, side, visit);
-      return;
-    }
-    Scene wall;
-    wall.domain = wall_of(domain, side);
-    visit_densely(wall, {&field}, visit);
   }
 
   void visit_wall_values(const Scene &scene, Side side, const Field &field,
                          const ValueVisitor &visit)
   {
+    const bool steady = !may_depend_on(field.expression, "t");
+    if(is_row(scene, field))
+    {
+      const std::vector<Position> row
+          = row_of(scene, side, field, samples_of_directions[steady ? 1 : 2]);
+      visit_extremes_between(field, row, visit_over_run(scene, field, row, visit), visit);
+      return;
+    }
     std::vector<Position> positions;
     const auto collect = [&](const Position &p) { positions.push_back(p); };
-    if(may_depend_on(field.expression, "t"))
-      visit_wall(scene.domain, side, collect);
-    else
+    if(steady)
       visit_wall_densely(scene, side, field, collect);
-    visit_values_in_time(scene, field, positions, visit);
+    else
+      visit_wall(scene.domain, side, collect);
+    visit_over_run(scene, field, positions, visit);
   }
 
   void visit_release(const Scene &scene, const ValueVisitor &visit)

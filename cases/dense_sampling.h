@@ -45,7 +45,9 @@ namespace meltfront::cases
    * Visit the values of a field on a wall over the run: at points of visit_wall() (one
    * where it does not vary in space) and at times up to 4097, fewer where the points are
    * many; on both sides of breakpoints; and at the extremes in time, which are searched
-   * for between the samples.
+   * for between the samples. A wall in the plane has points in a row, as many as
+   * visit_wall_densely() where the field is steady and 257 and those that it names where
+   * not, and its extremes are searched for between them too.
    */
   void visit_wall_values(const Scene &scene, Side side, const Field &field,
                          const ValueVisitor &visit);

@@ -154,6 +154,39 @@ TEST(TemperatureBounds, FollowAWallInTimeAndAlongItself)
   EXPECT_GE(bounds.upper, 11);
 }
 
+// Samples as far apart as those of a wall in space passed over what is narrow, or took
+// the lowest value for higher than it is, and methods failed by it.
+TEST(TemperatureBounds, FindWhatIsNarrowAlongAWallInThePlaneAndGrowsInTime)
+{
+  constexpr double narrow = 0.01;
+  for(const double place : {0.371, 0.6044})
+  {
+    Scene scene = box_scene(2);
+    scene.boundaries[2]
+        = fixed([=](const Position &p, double t)
+                { return 5 - 8 * t * std::exp(-std::pow((p[0] - place) / narrow, 2)); });
+    const TemperatureBounds of_box = temperature_bounds(scene);
+    EXPECT_LE(of_box.lower, -3);
+    EXPECT_NEAR(of_box.lower, -3, 0.01);
+
+    Scene ring;
+    ring.domain = Domain{DomainShape::shell, 2, {}, {}, 1, 0.2};
+    ring.initial.temperature = Field::uniform(5);
+    ring.end_time = 1;
+    ring.boundaries[static_cast<std::size_t>(Side::inner)]
+        = {BoundaryKind::fixed_temperature, Field::uniform(5)};
+    ring.boundaries[static_cast<std::size_t>(Side::outer)] = fixed(
+        [=](const Position &p, double t)
+        {
+          const double way = (std::atan2(p[1], p[0]) - place) / (3 * narrow);
+          return 5 - 8 * t * std::exp(-way * way);
+        });
+    const TemperatureBounds of_ring = temperature_bounds(ring);
+    EXPECT_LE(of_ring.lower, -3);
+    EXPECT_NEAR(of_ring.lower, -3, 0.01);
+  }
+}
+
 TEST(TemperatureBounds, AreTakenOnRoundWallsThemselves)
 {
   Scene scene;

@@ -2,6 +2,8 @@
 
 #include <cases/error.h>
 #include <cases/exact/front_start.h>
+#include <cases/overshoot.h>
+#include <cases/temperature_slack.h>
 #include <reference_fem/cut/conservative/initial_front.h>
 #include <reference_fem/cut/run.h>
 
@@ -116,24 +118,32 @@ namespace meltfront::reference_fem::cut::conservative
   }
 
   /** Temperatures of the heat that was handed over. Hats of which little lies in a phase
-   * may hold more than temperatures within the bounds can: then heat is spread as far as
-   * it takes for them to keep to the bounds, or to leave them least. */
+   * may hold more than temperatures within the bounds can, and what is shown beside
+   * the front's foot at a wall may leave them by more than is allowed: then heat is
+   * spread as far as it takes for them to keep to the bounds, or to leave them least. */
   void ConservativeRun::settle_temperatures()
   {
     const StepFrame frame(mesh, state.level_set, 1);
     even_out(frame);
     const double spacings = mesh.spacing * mesh.spacing / fastest_diffusivity();
+    const double allowed = cases::temperature_slack(
+        bounds, cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain));
     const auto excess = [&]
     {
-      const double melting = scene.material.melting_temperature;
       double largest = 0;
+      const auto include = [&](double value, double beyond)
+      {
+        largest = std::max(
+            {largest, bounds.lower - beyond - value, value - bounds.upper - beyond});
+      };
       for(const CutTriangle &cut : frame.front.cut)
         for(const unsigned int node : cut.place->nodes)
-        {
-          const double value
-              = temperatures[state.level_set[node] < 0 ? 0 : 1][node] + melting;
-          largest = std::max({largest, bounds.lower - value, value - bounds.upper});
-        }
+          include(temperatures[state.level_set[node] < 0 ? 0 : 1][node]
+                      + scene.material.melting_temperature,
+                  0);
+      collect_sites();
+      for(const double value : sites.temperatures)
+        include(value, allowed);
       return largest;
     };
     const std::array<Values, 2> handed_over = state.heat;

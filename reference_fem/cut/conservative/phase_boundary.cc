@@ -3,6 +3,7 @@
 #include <cases/time_integral.h>
 #include <cases/wall_law.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace meltfront::reference_fem::cut::conservative
@@ -144,7 +145,9 @@ namespace meltfront::reference_fem::cut::conservative
   {
     const cases::Boundary &boundary = scene.boundary(wall.side);
     const Triangle &triangle = mesh.triangles[wall.triangle];
-    const bool held = boundary.kind == cases::BoundaryKind::fixed_temperature;
+    const bool held = boundary.kind == cases::BoundaryKind::fixed_temperature,
+               at_front = context.front.location[wall.triangle] == Location::cut;
+    const double melting = scene.material.melting_temperature;
     Operator &result = context.result.wall;
     if(context.singular)
     {
@@ -165,13 +168,16 @@ namespace meltfront::reference_fem::cut::conservative
       return;
     const auto at_point = [&](const Point &point, double weight)
     {
-      const double given = cases::value_at_end(boundary.value, position(point),
-                                               context.stage.begin, context.stage.time);
+      double given = cases::value_at_end(boundary.value, position(point),
+                                         context.stage.begin, context.stage.time);
+      if(held && at_front)
+        given = context.phase == Phase::solid ? std::min(given, melting)
+                                              : std::max(given, melting);
       const double offset
           = context.singular ? sources.value(point, context.stage.powers) : 0;
       if(held)
-        hold(context, wall.triangle, point, weight, wall.normal,
-             offset + scene.material.melting_temperature - given, 0, result);
+        hold(context, wall.triangle, point, weight, wall.normal, offset + melting - given,
+             0, result);
       else
         add_exchange(context, boundary, wall.triangle, point, weight, given, offset);
     };

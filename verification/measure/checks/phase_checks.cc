@@ -39,6 +39,17 @@ namespace meltfront::verification
                     found.beyond, found.solid ? "above" : "below", found.share));
   }
 
+  /** Whether what is released at a place warms a solid, or cools a liquid. That of an
+   * exact solution melts and freezes at its fronts only. */
+  bool SnapshotChecks::releases_towards(bool solid, const cases::Position &place,
+                                        double time) const
+  {
+    if(!scene.volumetric_source || scene.volumetric_source->expression == "exact")
+      return false;
+    const double released = (*scene.volumetric_source)(place, time);
+    return solid ? released > 0 : released < 0;
+  }
+
   void SnapshotChecks::refuse_unnamed_front(const cases::Snapshot &snapshot,
                                             const MetastableSites &found) const
   {
@@ -62,6 +73,8 @@ namespace meltfront::verification
       what = "fronts that set out from a wall";
     else if(capabilities.most_fronts == 1 && present.solid && present.liquid)
       what = "a second front";
+    else if(tracks_front && releases_towards(found.solid, place, snapshot.time))
+      what = "fronts that set out where heat is released throughout";
     else
       return;
     throw cases::Refusal(fmt::format(

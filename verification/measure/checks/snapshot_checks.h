@@ -127,6 +127,7 @@ namespace meltfront::verification
 
     // In phase_checks.cc:
     void judge_phase(const cases::Snapshot &snapshot);
+    bool releases_towards(bool solid, const cases::Position &place, double time) const;
     void refuse_unnamed_front(const cases::Snapshot &snapshot,
                               const MetastableSites &found) const;
     void judge_front(const cases::Snapshot &snapshot);

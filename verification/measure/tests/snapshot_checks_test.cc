@@ -166,6 +166,27 @@ namespace meltfront::verification
       EXPECT_TRUE(says(judged(scene, state.view(1, 0.5)), "phase is liquid at"));
     }
 
+    TEST(SnapshotChecks, RefuseAFrontThatSetsOutWhereHeatIsReleasedThroughout)
+    {
+      cases::Scene scene = freezing_slab();
+      tests::State state = state_with(0.5);
+      const double front = 0.5;
+      state.snapshot.front[0] = {&front, 1};
+      for(int i = 35; i < n - 5; ++i)
+        state.temperature[i] = -0.1;
+      for(const double released : {-4., 4.})
+      {
+        scene.volumetric_source = cases::Field::uniform(released);
+        SnapshotChecks checks(scene, capable_of({FrontOrigin::wall}), "fake", spacing);
+        const std::string sentence = judged(checks, state.view(1, 0.5));
+        EXPECT_TRUE(says(sentence,
+                         released < 0 ? "refused: fake does not simulate fronts that set "
+                                        "out where heat is released throughout"
+                                      : "phase is liquid at"))
+            << sentence;
+      }
+    }
+
     TEST(SnapshotChecks, LeaveOutSitesBesideAFrontAndCapillarity)
     {
       cases::Scene scene = freezing_slab();

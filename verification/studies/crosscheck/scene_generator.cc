@@ -53,6 +53,10 @@ namespace meltfront::verification
       surround_alloy();
     if(problem == Problem::pure)
       displace_liquid();
+    if(problem == Problem::pure)
+      bend_front();
+    if(problem != Problem::steady)
+      vary_along_walls();
     return draft;
   }
 

@@ -85,6 +85,18 @@ namespace meltfront::verification
     /** Solid on one side of a plane, a circle or a sphere, with linear profiles. */
     void choose_start_with_front(int kind, double sign, double from, double to);
 
+    // In random_bends.cc:
+
+    /** Give what starts with a front one that is bent: an ellipse, two disks, a wave. */
+    void bend_front();
+
+    /** Less than zero on the near side, about a distance. */
+    std::string bent_level();
+
+    /** Let what walls of bodies in the plane and in space prescribe vary along them, as
+     * well as over time. */
+    void vary_along_walls();
+
     // In random_walls.cc:
     void choose_walls();
     void choose_wall(const std::string &here, const std::string &side);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -120,6 +121,60 @@ namespace meltfront::reference_fem::tests
       {
         const Course course = run_cut(scene, n, {{"scheme", "conservative"}});
         EXPECT_NEAR(course.solid.back(), by_fitted_elements, 0.5 / (n * n)) << n;
+        EXPECT_LE(course.worst_budget_defect(), 1e-11) << n;
+      }
+    }
+
+    // A front sets out from a corner in which a cold and a warm wall meet. What lies at a
+    // wall beside the front's foot was held at the wall's temperature, also where that is
+    // the other phase's; what was handed over had a foot warmer than all walls.
+    TEST(Walls, AFrontSetsOutFromACornerOfAColdAndAWarmWall)
+    {
+      Scene scene = box(material_between_walls(), 2, {0, 0, 0}, {1, 1.2, 0}, 0.2, 0.1);
+      hold_wall(scene, Side::x_min, -1);
+      hold_wall(scene, Side::y_min, 0.7);
+      for(const int n : {16, 24, 32})
+        expect_agreement(scene, n, 4e-3);
+    }
+
+    // Two disks of liquid, and a wall that melts a layer up to a cold wall. What the
+    // layer's foot beside the corner was handed over was shown 0.2 of the span above all
+    // walls.
+    TEST(Walls, AWallThatMeltsUpToAColdCornerKeepsToItsBounds)
+    {
+      Material material = normalised_material();
+      material.melting_temperature = 0;
+      material.latent_heat = 0.3035;
+      material.liquid.specific_heat_capacity = 1.288;
+      Scene scene = box(material, 2, {0, 0, 0}, {1, 1, 0}, 0, 0.01586);
+      const auto level = [](const Position &p)
+      {
+        return std::min(std::hypot(p[0] - 0.2255, p[1] - 0.4285) - 0.1222,
+                        std::hypot(p[0] - 0.7619, p[1] - 0.4045) - 0.1383);
+      };
+      scene.initial.temperature
+          = {"two disks", [=](const Position &p, double) { return -1.91 * level(p); },
+             false};
+      scene.initial.front
+          = {"disks", [=](const Position &p, double) { return -level(p); }, false};
+      constexpr double warm = 0.924, cold = -0.94;
+      hold_wall(scene, Side::x_min, -0.483);
+      hold_wall(scene, Side::x_max, warm);
+      hold_wall(scene, Side::y_max, -0.244);
+      set_boundary(scene, Side::y_min,
+                   {.kind = BoundaryKind::fixed_temperature,
+                    .value = {"wave",
+                              [](const Position &p, double)
+                              { return -0.64 + 0.3 * std::cos(3.1416 * p[0]); },
+                              false}});
+      constexpr double by_enthalpy = 0.8303; // n = 80, 160: 0.8312, 0.8306
+      for(const int n : {16, 20})
+      {
+        const Course course = run_cut(scene, n, {{"scheme", "conservative"}});
+        const double allowed = 0.04 * std::pow(20. / n, 1.5) * (warm - cold);
+        EXPECT_LE(*std::ranges::max_element(course.highest), warm + allowed) << n;
+        EXPECT_GE(*std::ranges::min_element(course.lowest), -1.2 - allowed) << n;
+        EXPECT_NEAR(course.solid.back(), by_enthalpy, 5e-3) << n;
         EXPECT_LE(course.worst_budget_defect(), 1e-11) << n;
       }
     }
