@@ -111,6 +111,11 @@ namespace meltfront::cases
     return holds(front_origins, origin);
   }
 
+  bool Capabilities::takes(DomainShape shape) const
+  {
+    return std::ranges::find(shapes, shape, &ShapeCapability::shape) != shapes.end();
+  }
+
   std::string reason_unsupported(const Capabilities &capabilities, const Scene &scene,
                                  const EffectSet &effects, int threads)
   {

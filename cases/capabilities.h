@@ -79,6 +79,7 @@ namespace meltfront::cases
 
     bool takes(Effect effect) const;
     bool takes(FrontOrigin origin) const;
+    bool takes(DomainShape shape) const;
   };
 
   /** Any number of threads that a user may ask for. */

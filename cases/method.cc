@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace meltfront::cases
 {
   Cost Method::solve(const Scene &scene, const EffectSet &effects,
@@ -31,8 +33,15 @@ namespace meltfront::cases
   {
     std::string reasons, first;
     bool alike = true;
-    for(const Capabilities &form : method.capabilities_with(options))
+    const std::vector<Capabilities> forms = method.capabilities_with(options);
+    // Forms for other shapes tell nothing about a scene whose shape another form takes.
+    const bool shape_taken
+        = std::ranges::any_of(forms, [&scene](const Capabilities &form)
+                              { return form.takes(scene.domain.shape); });
+    for(const Capabilities &form : forms)
     {
+      if(shape_taken && !form.takes(scene.domain.shape))
+        continue;
       const std::string reason = reason_unsupported(form, scene, effects, threads);
       if(reason.empty())
         return form;

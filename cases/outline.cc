@@ -310,6 +310,73 @@ namespace meltfront::cases
     return position(nearest_place(point));
   }
 
+  Outline::Point Outline::chord_normal(std::size_t chord) const
+  {
+    const Point &a = vertex[chord], &b = chord_end(chord);
+    const double size = length(a, b);
+    return {(b[1] - a[1]) / size, (a[0] - b[0]) / size};
+  }
+
+  Outline::Edge Outline::nearest_edge(const Position &point) const
+  {
+    const Place place = nearest_place(point);
+    return {position(place), chord_normal(place.chord)};
+  }
+
+  /** Call visit(chord, share of the line) where a line crosses a chord, or ends one in a
+   * corner: a line that touches a corner meets none or two. */
+  template <typename Visit>
+  void Outline::visit_crossings(const Position &from, const Position &to,
+                                const Visit &visit) const
+  {
+    const Point p{from[0], from[1]}, q{to[0], to[1]};
+    const auto [left, right] = std::minmax(p[0], q[0]);
+    const auto [low, high] = std::minmax(p[1], q[1]);
+    for(std::size_t i = 0; i < vertex.size(); ++i)
+    {
+      const Point &a = vertex[i], &b = chord_end(i);
+      if((a[0] < left && b[0] < left) || (a[0] > right && b[0] > right)
+         || (a[1] < low && b[1] < low) || (a[1] > high && b[1] > high))
+        continue;
+      const double begins = cross(a, b, p), ends = cross(a, b, q);
+      if((begins > 0) != (ends > 0) && (cross(p, q, a) > 0) != (cross(p, q, b) > 0))
+        visit(i, begins / (begins - ends));
+    }
+  }
+
+  std::optional<Outline::Edge> Outline::first_crossing(const Position &from,
+                                                       const Position &to) const
+  {
+    std::optional<std::size_t> chord;
+    double first = 0;
+    visit_crossings(from, to,
+                    [&](std::size_t crossed, double share)
+                    {
+                      if(chord && share >= first)
+                        return;
+                      chord = crossed;
+                      first = share;
+                    });
+    if(!chord)
+      return {};
+    return Edge{
+        {from[0] + first * (to[0] - from[0]), from[1] + first * (to[1] - from[1]), 0},
+        chord_normal(*chord)};
+  }
+
+  bool Outline::hides(const Position &from, const Position &to) const
+  {
+    constexpr double touch = 1e-9;
+    double first = 1, last = 0;
+    visit_crossings(from, to,
+                    [&](std::size_t, double share)
+                    {
+                      first = std::min(first, share);
+                      last = std::max(last, share);
+                    });
+    return last - first > touch;
+  }
+
   double Outline::distance(const Position &point) const
   {
     const Position on = nearest(point);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace meltfront::cases
@@ -72,6 +73,24 @@ namespace meltfront::cases
     /** The point of the outline that is nearest to a point. */
     Position nearest(const Position &point) const;
 
+    /** A point of the outline (m) and the unit normal there, outwards. */
+    struct Edge
+    {
+      Position place;
+      Point normal;
+    };
+
+    /** The nearest point and, to the chords' accuracy, the normal. */
+    Edge nearest_edge(const Position &point) const;
+
+    /** Where the line from a point to another first crosses the outline or touches a
+     * corner, to the chords' accuracy; nothing where it does not. */
+    std::optional<Edge> first_crossing(const Position &from, const Position &to) const;
+
+    /** Whether the line between two points inside leaves the outline and comes back: one
+     * that only touches a corner does not. The same for both directions. */
+    bool hides(const Position &from, const Position &to) const;
+
     /** Distance from the outline (m), on either side of it. */
     double distance(const Position &point) const;
 
@@ -108,6 +127,10 @@ namespace meltfront::cases
     Point at_angle(double phi) const;
     Position position(const Place &place) const;
     const Point &chord_end(std::size_t chord) const;
+    Point chord_normal(std::size_t chord) const;
+    template <typename Visit>
+    void visit_crossings(const Position &from, const Position &to,
+                         const Visit &visit) const;
     void refine(double from, double to, double tolerance, int depth);
     void integrate_chords();
     void find_box();

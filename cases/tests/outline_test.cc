@@ -78,6 +78,46 @@ TEST(Outline, PolygonsAreExact)
   }
 }
 
+TEST(Outline, LinesCrossPolygonsOrAreHiddenByThem)
+{
+  const Outline outline(angle_iron);
+  const Position below{0.75, 0.25, 0}, left{0.25, 0.75, 0}, deep{0.25, 0.25, 0};
+  EXPECT_FALSE(outline.hides(below, left)) << "the line touches the inner corner";
+  EXPECT_FALSE(outline.hides(left, below));
+  EXPECT_FALSE(outline.hides(below, deep));
+  EXPECT_TRUE(outline.hides({0.75, 0.26, 0}, left));
+  EXPECT_TRUE(outline.hides(left, {0.75, 0.26, 0}));
+
+  const auto out = outline.first_crossing(below, {0.75, 3, 0});
+  ASSERT_TRUE(out);
+  EXPECT_DOUBLE_EQ(out->place[1], 0.5);
+  EXPECT_EQ(out->normal, (Point{0, 1}));
+  const auto first = outline.first_crossing({0.25, 0.8, 0}, {0.75, 0.3, 0});
+  ASSERT_TRUE(first);
+  EXPECT_NEAR(first->place[0], 0.5, 1e-15);
+  EXPECT_NEAR(first->place[1], 0.55, 1e-15);
+  EXPECT_EQ(first->normal, (Point{1, 0})) << "where it leaves, not where it comes back";
+  EXPECT_FALSE(outline.first_crossing(below, deep));
+  EXPECT_TRUE(outline.first_crossing(below, {1.75, 1.25, 0}));
+  const Outline::Edge nearest = outline.nearest_edge({0.3, -2, 0});
+  EXPECT_EQ(nearest.place, (Position{0.3, 0, 0}));
+  EXPECT_EQ(nearest.normal, (Point{0, -1}));
+}
+
+TEST(Outline, LinesCrossCurvesAtTheirRadius)
+{
+  const Outline disk([](double) { return 2.; }, Point{1, -1});
+  for(const double angle : {0.1, 1.3, 2.9, -2.2})
+  {
+    const Point direction{std::cos(angle), std::sin(angle)};
+    const auto edge = disk.first_crossing(
+        {1, -1, 0}, {1 + 5 * direction[0], -1 + 5 * direction[1], 0});
+    ASSERT_TRUE(edge);
+    EXPECT_NEAR(std::hypot(edge->place[0] - 1, edge->place[1] + 1), 2, 1e-6);
+    EXPECT_NEAR(edge->normal[0] * direction[0] + edge->normal[1] * direction[1], 1, 1e-5);
+  }
+}
+
 TEST(Outline, AreaOfATurnedAndShiftedPolygonStays)
 {
   std::vector<Point> corners;

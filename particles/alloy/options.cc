@@ -11,13 +11,9 @@ namespace meltfront::particles
     int resolve_dimension(const std::string &method, const cases::Scene &scene,
                           int wanted, int of_slab)
     {
-      if(scene.domain.shape == cases::DomainShape::shell
-         || (scene.domain.outline
-             && scene.boundary(cases::Side::outer).kind
-                    != cases::BoundaryKind::insulated))
+      if(scene.domain.shape == cases::DomainShape::shell)
         throw cases::Refusal(fmt::format(
-            "{} simulates slabs, boxes, balls and what an insulated outline bounds",
-            method));
+            "{} simulates slabs, boxes, balls and what an outline bounds", method));
       if(scene.domain.shape == cases::DomainShape::slab)
         return wanted > 0 ? wanted : of_slab;
       if(wanted > 0 && wanted != scene.domain.dimension)
@@ -64,6 +60,7 @@ namespace meltfront::particles
   cases::Capabilities
   alloy_capabilities(std::vector<cases::Effect> effects,
                      std::vector<cases::BoundaryKind> round_walls,
+                     std::vector<cases::BoundaryKind> outlines,
                      std::vector<cases::FrontOrigin> of_pure_substances, int most_threads)
   {
     using cases::BoundaryKind, cases::DomainShape;
@@ -75,7 +72,7 @@ namespace meltfront::particles
             .shapes = {{DomainShape::slab, {1}, walls},
                        {DomainShape::box, {2, 3}, walls},
                        {DomainShape::ball, {2, 3}, std::move(round_walls)},
-                       {DomainShape::outline, {2}, {BoundaryKind::insulated}}},
+                       {DomainShape::outline, {2}, std::move(outlines)}},
             .front_origins = std::move(of_pure_substances),
             .most_threads = most_threads};
   }

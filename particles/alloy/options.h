@@ -18,10 +18,11 @@ namespace meltfront::particles
                              const cases::Scene &scene,
                              const cases::Resolution &resolution, int of_slab);
 
-  /** What all methods for alloys take: slabs, boxes and balls, and what an insulated
-   * outline bounds. */
+  /** What all methods for alloys take: slabs, boxes and balls, and what an outline
+   * bounds, with walls of these kinds. */
   cases::Capabilities alloy_capabilities(
       std::vector<cases::Effect> effects, std::vector<cases::BoundaryKind> round_walls,
+      std::vector<cases::BoundaryKind> outlines,
       std::vector<cases::FrontOrigin> of_pure_substances, int most_threads);
 } // namespace meltfront::particles
 

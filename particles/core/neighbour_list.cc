@@ -251,4 +251,18 @@ namespace meltfront::particles
       std::sort(entries.begin() + static_cast<std::ptrdiff_t>(begin[a]),
                 entries.begin() + static_cast<std::ptrdiff_t>(begin[a + 1]));
   }
+
+  NeighbourList NeighbourList::kept(const std::vector<bool> &marked) const
+  {
+    NeighbourList result;
+    result.begin.push_back(0);
+    for(std::size_t row = 0; row < rows(); ++row)
+    {
+      for(std::size_t e = begin[row]; e < begin[row + 1]; ++e)
+        if(marked[e])
+          result.entries.push_back(entries[e]);
+      result.begin.push_back(result.entries.size());
+    }
+    return result;
+  }
 } // namespace meltfront::particles

@@ -45,6 +45,10 @@ namespace meltfront::particles
     NeighbourList(const ParticleStorage &particles, const ParticleStorage &others,
                   double radius, const Periodicity &periodicity = {});
 
+    /** The same rows with those entries alone, by their places in the flat array, that
+     * are marked. */
+    NeighbourList kept(const std::vector<bool> &marked) const;
+
     std::size_t rows() const
     {
       return begin.size() - 1;
@@ -68,6 +72,8 @@ namespace meltfront::particles
     }
 
   private:
+    NeighbourList() = default;
+
     std::vector<std::size_t> begin;
     std::vector<std::uint32_t> entries;
   };

@@ -1,6 +1,8 @@
 #include <cases/stopwatch.h>
 #include <cases/wall_law.h>
+#include <particles/sph/bent_walls.h>
 #include <particles/sph/conduction_rows.h>
+#include <particles/sph/outline_shares.h>
 #include <particles/sph/square_lattice.h>
 
 #include <algorithm>
@@ -17,10 +19,6 @@ namespace meltfront::particles
      * them. */
     using WallSet = unsigned;
 
-    /** Least depth in spacings that a particle counts with at a round wall: those that
-     * are displaced may come nearer or beyond. */
-    constexpr double shallowest = 0.2;
-
     /** Assembles the rows of one discretisation. */
     class Assembly
     {
@@ -30,7 +28,9 @@ namespace meltfront::particles
         : dis(discretisation)
         , square(discretisation)
         , result(result)
-        , neighbours(square.particles(), reach_of_kernel(), square.periodicity())
+        , in_sight(dis, NeighbourList(square.particles(), reach_of_kernel(),
+                                      square.periodicity()))
+        , neighbours(in_sight.seen)
         , ghost_neighbours(dis.particles, dis.ghosts, reach_of_kernel())
       {
         find_walls_in_reach();
@@ -60,6 +60,8 @@ namespace meltfront::particles
             link_to_edges(a);
           link_to_ghosts(a);
         }
+        if(!crossings.empty())
+          link_to_outline();
         normalise_areas(result.flux_points, result.flux_links);
         normalise_areas(result.exchange_points, result.exchange_links);
         for(const WallLink &link : result.temperature_links)
@@ -296,7 +298,7 @@ namespace meltfront::particles
         if(strength > 0)
           result.exchange_depths.push_back(std::max(
               std::abs(dis.particles.position[wall.direction][a] - wall.coordinate),
-              shallowest * dis.spacing));
+              shallowest_depth * dis.spacing));
       }
 
       void add_link(std::vector<WallPoint> &points, std::vector<WallLink> &links,
@@ -310,54 +312,73 @@ namespace meltfront::particles
       }
 
       /**
-       * Round walls. Where the temperature is known beyond the wall, ghosts hold it.
+       * Walls that bend. Where the temperature is known beyond the wall, ghosts hold it.
        * Otherwise the line from the particle through the wall's value is continued to the
-       * ghost (Morris, Fox and Zhu 1997), over the depth in which steady conduction is
-       * linear: 1 + d_ghost/d_particle times the difference.
+       * ghost (Morris, Fox and Zhu 1997). Particles that an outline hides are ghosts to
+       * each other.
        */
       void link_to_ghosts(std::size_t a)
       {
-        if(dis.ghosts.size() == 0)
+        if(dis.ghosts.size() > 0)
+          for(const std::uint32_t ghost : ghost_neighbours[a])
+            link_to_ghost(a, dis.ghosts.point(ghost));
+        if(in_sight.hidden && !insulated_outline())
+          for(const std::uint32_t b : (*in_sight.hidden)[a])
+            link_to_ghost(a, dis.particles.point(b));
+      }
+
+      bool insulated_outline() const
+      {
+        return dis.scene.boundary(cases::Side::outer).kind == BoundaryKind::insulated;
+      }
+
+      void link_to_ghost(std::size_t a, const cases::Position &ghost)
+      {
+        const cases::Position own = dis.particles.point(a);
+        double squared = 0;
+        for(int d = 0; d < dis.dimension; ++d)
+          squared += (own[d] - ghost[d]) * (own[d] - ghost[d]);
+        const double g = between(a, a) * strength(a, a, squared);
+        if(g == 0)
           return;
-        const auto own = dis.particles.point(a);
-        const double own_distance = std::hypot(own[0], own[1], own[2]);
-        for(const std::uint32_t ghost : ghost_neighbours[a])
+        const LineToGhost line = line_to_ghost(dis, own, ghost);
+        const BoundaryKind kind = line.boundary->kind;
+        const bool exchange = cases::exchanges_heat(kind),
+                   flux = cases::prescribes_heat(kind);
+        if(flux && dis.scene.domain.outline)
         {
-          auto place = dis.ghosts.point(ghost);
-          double squared = 0;
-          for(int d = 0; d < dis.dimension; ++d)
-            squared += (own[d] - place[d]) * (own[d] - place[d]);
-          double g = between(a, a) * strength(a, a, squared);
-          if(g == 0)
-            continue;
-          const double distance = std::hypot(place[0], place[1], place[2]);
-          const RoundWall &wall = dis.nearest_round_wall(distance);
-          const cases::Boundary &boundary = *wall.boundary;
-          const bool flux = cases::prescribes_heat(boundary.kind),
-                     exchange = cases::exchanges_heat(boundary.kind);
-          if(!wall.known_beyond())
-          {
-            const double depth
-                = std::max(wall.conductive_depth(own_distance, dis.dimension),
-                           flux ? 0 : shallowest * dis.spacing);
-            const double beyond = -wall.conductive_depth(distance, dis.dimension);
-            g *= flux ? depth + beyond : 1 + beyond / depth;
-            for(double &x : place)
-              x *= wall.radius / distance;
-          }
-          auto &points = exchange ? result.exchange_points
-                         : flux   ? result.flux_points
-                                  : result.temperature_points;
-          auto &links = exchange ? result.exchange_links
-                        : flux   ? result.flux_links
-                                 : result.temperature_links;
+          crossings.push_back(
+              {static_cast<std::uint32_t>(a), line.place, g * line.across});
+          return;
+        }
+        auto &points = exchange ? result.exchange_points
+                       : flux   ? result.flux_points
+                                : result.temperature_points;
+        auto &links = exchange ? result.exchange_links
+                      : flux   ? result.flux_links
+                               : result.temperature_links;
+        if(exchange)
+          result.exchange_depths.push_back(line.depth);
+        links.push_back({static_cast<std::uint32_t>(a),
+                         static_cast<std::uint32_t>(points.size()),
+                         g * (flux ? line.across : line.extension)});
+        points.push_back({line.boundary, line.place});
+      }
+
+      void link_to_outline()
+      {
+        const cases::Boundary &boundary = dis.scene.boundary(cases::Side::outer);
+        const bool exchange = cases::exchanges_heat(boundary.kind);
+        auto &points = exchange ? result.exchange_points : result.flux_points;
+        auto &links = exchange ? result.exchange_links : result.flux_links;
+        for(const OutlineShare &share : share_outline(dis, crossings))
+        {
+          if(points.empty() || points.back().position != share.place)
+            points.push_back({&boundary, share.place});
+          links.push_back({share.particle, static_cast<std::uint32_t>(points.size() - 1),
+                           share.length});
           if(exchange)
-            result.exchange_depths.push_back(
-                std::max(wall.conductive_depth(own_distance, dis.dimension),
-                         shallowest * dis.spacing));
-          links.push_back({static_cast<std::uint32_t>(a),
-                           static_cast<std::uint32_t>(points.size()), g});
-          points.push_back({&boundary, place});
+            result.exchange_depths.push_back(share.depth);
         }
       }
 
@@ -385,6 +406,8 @@ namespace meltfront::particles
           if(wall.boundary == &dis.scene.boundary(side))
             return wall.area(dis.dimension);
         const cases::Domain &domain = dis.scene.domain;
+        if(domain.outline)
+          return domain.outline->perimeter();
         if(domain.shape == cases::DomainShape::axisymmetric)
           return area_about_axis(domain, side);
         double area = dis.cross_section;
@@ -468,8 +491,10 @@ namespace meltfront::particles
       const Discretisation &dis;
       const SquareLattice square;
       ConductionRows &result;
-      NeighbourList neighbours;
+      const NeighboursInSight in_sight;
+      const NeighbourList &neighbours;
       NeighbourList ghost_neighbours;
+      std::vector<OutlineCrossing> crossings; ///< where an outline gives or takes heat
       std::vector<WallSet> reach; ///< the walls within a support of each particle
       std::vector<double> inverse_moment;
       std::vector<double> conductivity; ///< over that outside of an inclusion; or empty

@@ -387,24 +387,36 @@ namespace meltfront::particles
                                      { return std::abs(wall.depth(distance)); });
   }
 
-  /** Points of the lattice of cells about the outline's centre that lie inside. */
+  /** Points of the lattice of cells about the outline's centre: those inside are
+   * particles, those as far beyond the wall as particles reach hold its values. */
   void Discretisation::fill_outline()
   {
     const cases::Outline &outline = *scene.domain.outline;
+    const BoundaryKind kind = scene.boundary(Side::outer).kind;
+    const double reach
+        = kind == BoundaryKind::insulated ? 0 : kernel.support() * (1 - 1e-9);
+    const double gap
+        = kind == BoundaryKind::fixed_temperature ? nearest_to_wall * spacing : 0;
     std::array<std::vector<double>, 2> line;
     for(int d = 0; d < 2; ++d)
     {
       const double middle = outline.centre()[d];
       const auto index = [&](double coordinate)
       { return static_cast<int>(std::floor((coordinate - middle) / spacing)); };
-      const int last = index(outline.upper()[d]);
-      for(int i = index(outline.lower()[d]); i <= last; ++i)
+      const int last = index(outline.upper()[d] + reach);
+      for(int i = index(outline.lower()[d] - reach); i <= last; ++i)
         line[d].push_back(middle + (i + 0.5) * spacing);
     }
     for(const double y : line[1])
       for(const double x : line[0])
-        if(outline.inside({x, y, 0}))
-          particles.add({x, y, 0});
+      {
+        const cases::Position place{x, y, 0};
+        const double distance = reach > 0 ? outline.distance(place) : 0;
+        if(outline.inside(place) && distance >= gap)
+          particles.add(place);
+        else if(distance < reach)
+          ghosts.add(place);
+      }
     if(particles.size() == 0)
       throw cases::Refusal(fmt::format(
           "no particle of a lattice of spacing {:.6g} m lies within the outline",

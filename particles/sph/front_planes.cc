@@ -1,4 +1,5 @@
 #include <particles/core/particle_operator.h>
+#include <particles/sph/bent_walls.h>
 #include <particles/sph/cell_sections.h>
 #include <particles/sph/front_planes.h>
 #include <particles/sph/square_lattice.h>
@@ -57,8 +58,10 @@ namespace meltfront::particles
                                      [](const Step &step)
                                      { return step.step[0] > 0 ? step.weight : 0.; });
     const SquareLattice square(dis);
-    const NeighbourList neighbours(square.particles(), reach * dis.spacing,
-                                   square.periodicity());
+    const NeighboursInSight in_sight(
+        dis,
+        NeighbourList(square.particles(), reach * dis.spacing, square.periodicity()));
+    const NeighbourList &neighbours = in_sight.seen;
     const std::size_t n = dis.particles.size();
     find_images(square, dis.spacing, neighbours);
     std::vector<std::vector<std::uint32_t>> beyond(images.empty() ? 0 : n);

@@ -191,11 +191,6 @@ namespace meltfront::particles
 
     int resolve_dimension(const SphPolicy &policy, const cases::Scene &scene, long wanted)
     {
-      if(scene.domain.outline
-         && scene.boundary(cases::Side::outer).kind != cases::BoundaryKind::insulated)
-        throw cases::Refusal(fmt::format(
-            "{} simulates what an outline bounds only where its wall is insulated",
-            policy.name));
       if(scene.domain.shape == cases::DomainShape::slab)
         return wanted > 0 ? static_cast<int>(wanted) : (policy.as_published ? 2 : 1);
       if(wanted > 0 && wanted != scene.domain.dimension)

@@ -86,7 +86,9 @@ namespace meltfront::particles
                           Effect::variable_conductivity, Effect::variable_heat_capacity,
                           Effect::melting_range, Effect::moving_source});
         }
-        std::vector<BoundaryKind> of_box = round;
+        std::vector<BoundaryKind> of_box = round, of_outline = round;
+        if(!policy.corrected_form.empty())
+          of_outline = {BoundaryKind::insulated};
         of_box.push_back(BoundaryKind::periodic);
         std::vector<cases::Capabilities> forms{
             {.form = {},
@@ -96,7 +98,7 @@ namespace meltfront::particles
                         {DomainShape::box, {2, 3}, of_box},
                         {DomainShape::ball, {2, 3}, round},
                         {DomainShape::shell, {2, 3}, round},
-                        {DomainShape::outline, {2}, {BoundaryKind::insulated}}},
+                        {DomainShape::outline, {2}, of_outline}},
              .front_origins
              = {FrontOrigin::none, FrontOrigin::initial_front, FrontOrigin::partly_melted,
                 FrontOrigin::wall, FrontOrigin::source},

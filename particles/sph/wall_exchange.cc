@@ -34,6 +34,9 @@ namespace meltfront::particles
       cells_across.push_back({wall.boundary, discretisation.cell[wall.direction]});
     for(const RoundWall &wall : discretisation.round_walls)
       cells_across.push_back({wall.boundary, discretisation.spacing});
+    if(discretisation.scene.domain.outline)
+      cells_across.push_back(
+          {&discretisation.scene.boundary(cases::Side::outer), discretisation.spacing});
   }
 
   double WallExchange::cell_across(const cases::Boundary &wall) const

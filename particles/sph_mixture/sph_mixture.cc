@@ -23,13 +23,15 @@ namespace meltfront::particles
 
       std::vector<cases::Capabilities> capabilities() const override
       {
+        const std::vector<BoundaryKind> walls{
+            BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
+            BoundaryKind::heat_transfer, BoundaryKind::radiation};
         return {alloy_capabilities(
             {Effect::phase_change, Effect::phase_conductivity,
              Effect::phase_heat_capacity, Effect::heat_sources, Effect::wall_temperature,
              Effect::wall_flux, Effect::robin_wall, Effect::radiating_wall,
              Effect::solute, Effect::solute_diffusion, Effect::eutectic},
-            {BoundaryKind::insulated, BoundaryKind::fixed_temperature, BoundaryKind::flux,
-             BoundaryKind::heat_transfer, BoundaryKind::radiation},
+            walls, walls,
             {FrontOrigin::none, FrontOrigin::initial_front, FrontOrigin::partly_melted,
              FrontOrigin::wall, FrontOrigin::source},
             cases::any_number_of_threads)};

@@ -1,3 +1,4 @@
+#include <particles/sph/bent_walls.h>
 #include <particles/sph_two_population/kernel_sums.h>
 
 #include <cmath>
@@ -7,8 +8,10 @@ namespace meltfront::particles
   KernelSums::KernelSums(const Discretisation &dis)
     : own(dis.kernel.value(0))
   {
-    const NeighbourList neighbours(dis.particles, dis.kernel.support() * (1 - 1e-9),
-                                   dis.periodicity);
+    const NeighboursInSight in_sight(
+        dis,
+        NeighbourList(dis.particles, dis.kernel.support() * (1 - 1e-9), dis.periodicity));
+    const NeighbourList &neighbours = in_sight.seen;
     std::vector<double> weights;
     weights.reserve(neighbours.size());
     for(std::size_t a = 0; a < neighbours.rows(); ++a)

@@ -32,9 +32,10 @@ namespace meltfront::particles
                                     Effect::solute_diffusion};
         if(!policy.as_published)
           effects.push_back(Effect::eutectic);
-        return {alloy_capabilities(
-            std::move(effects),
-            {BoundaryKind::insulated, BoundaryKind::fixed_temperature}, {}, 1)};
+        return {
+            alloy_capabilities(std::move(effects),
+                               {BoundaryKind::insulated, BoundaryKind::fixed_temperature},
+                               {BoundaryKind::insulated}, {}, 1)};
       }
 
       std::vector<cases::OptionDeclaration> option_declarations() const override

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -61,9 +62,11 @@ namespace meltfront::reference_fem
     class OutlineMesher
     {
     public:
-      OutlineMesher(const Outline &outline, double spacing)
+      /** @param origin a vertex of the lattice (m) */
+      OutlineMesher(const Outline &outline, double spacing, const Point &origin)
         : outline(outline)
         , spacing(spacing)
+        , origin(origin)
       {
       }
 
@@ -93,14 +96,13 @@ namespace meltfront::reference_fem
 
       Point place(const Index &vertex) const
       {
-        return {outline.centre()[0] + vertex[0] * spacing,
-                outline.centre()[1] + vertex[1] * spacing};
+        return {origin[0] + vertex[0] * spacing, origin[1] + vertex[1] * spacing};
       }
 
       Index nearest_vertex(const cases::Position &p) const
       {
-        return {static_cast<int>(std::lround((p[0] - outline.centre()[0]) / spacing)),
-                static_cast<int>(std::lround((p[1] - outline.centre()[1]) / spacing))};
+        return {static_cast<int>(std::lround((p[0] - origin[0]) / spacing)),
+                static_cast<int>(std::lround((p[1] - origin[1]) / spacing))};
       }
 
       /** Vertices that the outline comes near to: the others are far from it. */
@@ -272,11 +274,13 @@ namespace meltfront::reference_fem
         return i > 0 ? along[i - 1] : along[n - 1] - outline.perimeter();
       }
 
+      /** Between partners of which one at least may give way. */
       double narrowest_gap() const
       {
         double least = std::numeric_limits<double>::infinity();
         for(std::size_t i = 0; i < along.size(); ++i)
-          least = std::min(least, neighbour(i, 1) - along[i]);
+          if(!held[i] || !held[(i + 1) % along.size()])
+            least = std::min(least, neighbour(i, 1) - along[i]);
         return least;
       }
 
@@ -385,6 +389,7 @@ namespace meltfront::reference_fem
 
       const Outline &outline;
       double spacing;
+      Point origin;
       std::set<Index> core;
       std::vector<Index> rim; ///< the core's boundary
       std::map<Index, unsigned int> numbers;
@@ -406,6 +411,24 @@ namespace meltfront::reference_fem
 
   QuadrilateralMesh mesh_outline(const cases::Outline &outline, double spacing)
   {
-    return OutlineMesher(outline, spacing).mesh();
+    // Whether corners find room is an accident of where the lattice lies. Shifts that
+    // fill a cell evenly, however many there are: Roberts' sequence.
+    constexpr int shifts = 24;
+    constexpr Point step{0.7548776662466927, 0.5698402909980532};
+    std::exception_ptr refused;
+    for(int i = 0; i < shifts; ++i)
+      try
+      {
+        Point origin = outline.centre();
+        for(int d = 0; d < 2; ++d)
+          origin[d] += std::fmod(i * step[d], 1.) * spacing;
+        return OutlineMesher(outline, spacing, origin).mesh();
+      }
+      catch(const cases::Refusal &)
+      {
+        if(!refused)
+          refused = std::current_exception();
+      }
+    std::rethrow_exception(refused);
   }
 } // namespace meltfront::reference_fem

@@ -22,11 +22,11 @@ namespace meltfront::reference_fem
 
   /**
    * Mesh what an outline bounds (after Schneiders 1996, grid-based): squares of the
-   * lattice about the outline's centre as far as they keep away from the outline, and one
-   * layer of quadrilaterals from there to it, whose outer vertices lie on the outline, at
-   * its corners where it has some; vertices near the outline are then moved to the
-   * middle of their neighbours where that makes no cell worse. The area is short by
-   * O(spacing^2).
+   * lattice about the outline's centre, shifted if need be, as far as they keep away from
+   * the outline, and one layer of quadrilaterals from there to it, whose outer vertices
+   * lie on the outline, at its corners where it has some; vertices near the outline are
+   * then moved to the middle of their neighbours where that makes no cell worse. The area
+   * is short by O(spacing^2).
    *
    * @throws cases::Refusal where the outline has features finer than a few cells
    */

@@ -140,13 +140,38 @@ namespace meltfront::reference_fem::cut::conservative
     }
   }
 
+  /** Whether a place is within two cells of a corner of walls that both hold
+   * temperatures. */
+  bool PhaseAssembly::beside_held_corner(const Point &point) const
+  {
+    if(scene.domain.round())
+      return false;
+    constexpr double reach = 2;
+    constexpr std::array<std::array<cases::Side, 2>, 2> sides{
+        {{cases::Side::x_min, cases::Side::x_max},
+         {cases::Side::y_min, cases::Side::y_max}}};
+    for(int axis = 0; axis < 2; ++axis)
+    {
+      const double below = point[axis] - scene.domain.lower[axis],
+                   above = scene.domain.upper[axis] - point[axis];
+      if(std::min(below, above) > reach * mesh.spacing
+         || scene.boundary(sides[axis][below < above ? 0 : 1]).kind
+                != cases::BoundaryKind::fixed_temperature)
+        return false;
+    }
+    return true;
+  }
+
   void PhaseAssembly::add_wall(const Context &context, const WallPiece &wall,
                                const Segment &segment) const
   {
     const cases::Boundary &boundary = scene.boundary(wall.side);
     const Triangle &triangle = mesh.triangles[wall.triangle];
+    // Beside a corner of a cold and a warm wall the front's foot is at the wall's own
+    // datum of the other phase: either sets out from its jump, not from what is held.
     const bool held = boundary.kind == cases::BoundaryKind::fixed_temperature,
-               at_front = context.front.location[wall.triangle] == Location::cut;
+               at_foot = held && context.front.location[wall.triangle] == Location::cut
+                         && beside_held_corner(segment.begin);
     const double melting = scene.material.melting_temperature;
     Operator &result = context.result.wall;
     if(context.singular)
@@ -170,7 +195,7 @@ namespace meltfront::reference_fem::cut::conservative
     {
       double given = cases::value_at_end(boundary.value, position(point),
                                          context.stage.begin, context.stage.time);
-      if(held && at_front)
+      if(at_foot)
         given = context.phase == Phase::solid ? std::min(given, melting)
                                               : std::max(given, melting);
       const double offset

@@ -124,6 +124,7 @@ namespace meltfront::reference_fem::cut::conservative
     void add_ghost_penalty(const Context &context);
     void add_front(const Context &context) const;
     void add_source_flux(const Context &context, const CutTriangle &cut) const;
+    bool beside_held_corner(const Point &point) const;
     void add_walls(const Context &context) const;
     void add_wall(const Context &context, const WallPiece &wall,
                   const Segment &segment) const;

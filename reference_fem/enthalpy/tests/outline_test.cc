@@ -110,6 +110,51 @@ namespace meltfront::reference_fem::tests
       }
     }
 
+    // Corners on lines of the lattice, where a layer's cells were flat; a foot of a slit
+    // that is narrower than a cell, for which there was no room.
+    TEST(OutlineMesh, CornersFindRoomOnAShiftedLattice)
+    {
+      const auto unequal_legs
+          = polygon({{0, 0}, {1, 0}, {1, 0.28}, {0.4, 0.28}, {0.4, 1}, {0, 1}});
+      for(const int n : {40, 80, 160})
+      {
+        const QuadrilateralMesh mesh = mesh_outline(*unequal_legs, 1. / n);
+        EXPECT_GE(mesh.worst_corner(), 0.1) << n;
+      }
+      int meshed = 0, tried = 0;
+      for(const double turn : {0.1, 0.7, 1.3, 2.2, 3.1, 4.4})
+      {
+        Corners corners;
+        const auto add = [&](double radius, double share)
+        {
+          const double angle = turn + 2 * std::numbers::pi * share;
+          corners.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+        };
+        for(int i = 1; i < 8; ++i)
+          add(0.5, i / 8.);
+        add(0.5, 0.985);
+        add(0.05, 0.99);
+        add(0.05, 1.01);
+        add(0.5, 1.015);
+        const auto slit = polygon(corners);
+        for(const int n : {30, 60, 120})
+        {
+          ++tried;
+          try
+          {
+            const Discretisation mesh
+                = make_mesh(scene_of(slit, 10, 1), 2, n)->discretise();
+            EXPECT_NEAR(area(mesh), slit->area(), 1e-13);
+            ++meshed;
+          }
+          catch(const Refusal &)
+          {
+          }
+        }
+      }
+      EXPECT_GE(3 * meshed, 2 * tried) << meshed << " of " << tried;
+    }
+
     TEST(OutlineMesh, TooFewCellsAreRefused)
     {
       EXPECT_THROW(mesh_outline(*cavity(), 0.5), Refusal);

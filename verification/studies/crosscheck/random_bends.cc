@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 namespace meltfront::verification
@@ -74,9 +75,70 @@ namespace meltfront::verification
     draft.set(initial, "front", sign < 0 ? level : fmt::format("-({})", level));
   }
 
+  /** Corners about the origin, within a circle of a radius: any, a star, an L, or a disk
+   * with a slit to its middle. */
+  std::vector<std::array<double, 2>> SceneMaker::polygon(double size)
+  {
+    std::vector<std::array<double, 2>> corners; // radius over size, angle
+    const int kind = random.below(4);
+    switch(kind)
+    {
+    case 0:
+      for(int i = 0, count = 3 + random.below(6); i < count; ++i)
+        corners.push_back(
+            {random.uniform(0.6, 1), (i + random.uniform(-0.25, 0.25)) / count});
+      break;
+    case 1:
+    {
+      const double inner = random.uniform(0.45, 0.65);
+      for(int i = 0, count = 2 * (4 + random.below(3)); i < count; ++i)
+        corners.push_back({i % 2 == 0 ? 1 : inner, double(i) / count});
+      break;
+    }
+    case 2:
+      corners = {{0.2, 0.125}, {0.9, 0.28},  {0.95, 0.42},
+                 {1, 0.625},   {0.95, 0.83}, {0.9, 0.97}};
+      break;
+    default:
+    {
+      const double half = random.uniform(0.004, 0.02);
+      for(int i = 1; i < 8; ++i)
+        corners.push_back({0.95, i / 8.});
+      corners.insert(corners.end(), {{0.95, 1 - half}, {0.1, 0.99}, {0.1, 1.01}});
+      corners.push_back({0.95, 1 + half});
+    }
+    }
+    const double turn = random.uniform(0, 2 * std::numbers::pi);
+    for(auto &corner : corners)
+    {
+      const double radius = size * corner[0],
+                   angle = turn + 2 * std::numbers::pi * corner[1];
+      corner = {radius * std::cos(angle), radius * std::sin(angle)};
+    }
+    return corners;
+  }
+
+  void SceneMaker::bound_by_polygon()
+  {
+    if(dimension != 2 || (shape != "outline" && shape != "ball")
+       || draft.has("Scene/Source 1") || draft.has("Scene/Inclusion")
+       || substance.liquid_density != substance.solid_density
+       || !random.chance(shape == "ball" ? 0.4 : 0.7))
+      return;
+    std::string corners;
+    for(const auto &[x, y] : polygon(substance.length * (shape == "ball" ? 1 : 0.5)))
+      corners += fmt::format("{}{}, {}", corners.empty() ? "" : "; ", words(x), words(y));
+    shape = "outline";
+    const std::string here = "Scene/Domain";
+    draft.set(here, "shape", shape);
+    draft.remove(here, "radius");
+    draft.remove(here, "polar radius");
+    draft.set(here, "corners", corners);
+  }
+
   void SceneMaker::vary_along_walls()
   {
-    if(dimension < 2 || shape == "outline" || problem == Problem::alloy
+    if(dimension < 2 || problem == Problem::alloy
        || draft.value("Scene/Domain", "shape") == "axisymmetric")
       return;
     for(const std::string &side : sides())
@@ -91,7 +153,8 @@ namespace meltfront::verification
       if(!key || !random.chance(0.3))
         continue;
       const std::string course = draft.value(here, key);
-      const std::string along = side.starts_with("y") || round() ? "x" : "y";
+      const std::string along
+          = side.starts_with("y") || side == "outer" || side == "inner" ? "x" : "y";
       const std::string wave = fmt::format(
           "cos({}*{} + {})",
           words(std::numbers::pi / substance.length * random.uniform(0.5, 2.5)), along,

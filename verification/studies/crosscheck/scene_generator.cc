@@ -55,6 +55,7 @@ namespace meltfront::verification
       displace_liquid();
     if(problem == Problem::pure)
       bend_front();
+    bound_by_polygon();
     if(problem != Problem::steady)
       vary_along_walls();
     return draft;

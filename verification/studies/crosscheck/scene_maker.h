@@ -90,6 +90,10 @@ namespace meltfront::verification
     /** Give what starts with a front one that is bent: an ellipse, two disks, a wave. */
     void bend_front();
 
+    /** Bound disks, and what a smooth outline bounds, by a polygon in place of it. */
+    void bound_by_polygon();
+    std::vector<std::array<double, 2>> polygon(double size);
+
     /** Less than zero on the near side, about a distance. */
     std::string bent_level();
 

@@ -179,6 +179,30 @@ namespace meltfront::reference_fem::tests
       }
     }
 
+    // The foot of the front runs along a wall by half of it in a 25th of the steps. Held
+    // at the melting temperature wherever a front ended at a wall, the liquid behind it
+    // was colder than that, and the run ended by its bounds.
+    TEST(Walls, AFootThatRunsAlongAHeldWallIsFollowed)
+    {
+      Material material = material_between_walls();
+      material.latent_heat = 1.3;
+      Scene scene = box(material, 2, {0, 0, 0}, {1, 1, 0}, 0, 0.01);
+      scene.initial.temperature = {
+          "across", [](const Position &p, double) { return 0.5 * (p[0] - 0.3); }, false};
+      Boundary wall{.kind = BoundaryKind::fixed_temperature,
+                    .value = {"runs",
+                              [](const Position &p, double t) {
+                                return 0.5 * (p[0] - 0.3 - 0.5 * std::min(t / 0.004, 1.));
+                              },
+                              false}};
+      wall.value.breakpoints = {0.004};
+      set_boundary(scene, Side::y_min, wall);
+      const Course sharp = run_cut(scene, 40, {{"scheme", "conservative"}});
+      const Course enthalpy = course_of(*make_fem_enthalpy(), scene, 120);
+      EXPECT_NEAR(sharp.solid.back(), enthalpy.solid.back(), 2e-3);
+      EXPECT_LE(sharp.worst_budget_defect(), 1e-11);
+    }
+
     // The outer wall freezes, then melts a layer a sixth of a cell thick: it used to go
     // on in steps of a ten-thousandth of the run.
     TEST(Walls, ALayerThatGetsNowhereIsRefused)
