@@ -35,9 +35,11 @@ namespace meltfront::cases
     bool alike = true;
     const std::vector<Capabilities> forms = method.capabilities_with(options);
     // Forms for other shapes tell nothing about a scene whose shape another form takes.
+    // Particles of a solid are where they are: such scenes have none.
     const bool shape_taken
-        = std::ranges::any_of(forms, [&scene](const Capabilities &form)
-                              { return form.takes(scene.domain.shape); });
+        = scene.problem != ProblemKind::particle_solid
+          && std::ranges::any_of(forms, [&scene](const Capabilities &form)
+                                 { return form.takes(scene.domain.shape); });
     for(const Capabilities &form : forms)
     {
       if(shape_taken && !form.takes(scene.domain.shape))
