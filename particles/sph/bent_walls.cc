@@ -40,12 +40,13 @@ namespace meltfront::particles
       { return edge.normal[0] * (to[0] - from[0]) + edge.normal[1] * (to[1] - from[1]); };
       const auto length = [](const cases::Position &from, const cases::Position &to)
       { return std::hypot(to[0] - from[0], to[1] - from[1]); };
-      const double least
-          = std::max(along_normal(particle, edge.place), shallowest_depth * dis.spacing);
-      return {&dis.scene.boundary(cases::Side::outer), edge.place, least,
+      const double shallowest = shallowest_depth * dis.spacing,
+                   depth = std::max(along_normal(particle, edge.place), shallowest);
+      return {&dis.scene.boundary(cases::Side::outer), edge.place, depth,
               std::max(along_normal(particle, ghost), 0.),
-              crossing ? length(particle, ghost) / length(particle, edge.place)
-                       : 1 + along_normal(edge.place, ghost) / least};
+              crossing ? length(particle, ghost)
+                             / std::max(length(particle, edge.place), shallowest)
+                       : 1 + along_normal(edge.place, ghost) / depth};
     }
 
     std::vector<bool> seen_pairs(const Discretisation &dis, const NeighbourList &list)
