@@ -58,6 +58,18 @@ namespace meltfront::cases
           ++i;
       }
     }
+
+    /** The end of a function's first argument, which begins at a position. */
+    std::size_t end_of_argument(const std::string &text, std::size_t at)
+    {
+      for(int depth = 0; at < text.size(); ++at)
+      {
+        if(depth == 0 && (text[at] == ',' || text[at] == ')'))
+          break;
+        depth += text[at] == '(' ? 1 : text[at] == ')' ? -1 : 0;
+      }
+      return at;
+    }
   } // namespace
 
   const std::vector<std::string> &expression_functions()
@@ -109,5 +121,30 @@ namespace meltfront::cases
                    || std::string("xyzt").find(name) == std::string::npos;
           return name != "pi" && std::ranges::find(functions, name) == functions.end();
         });
+  }
+
+  bool may_jump_with(const std::string &expression, const std::string &variables)
+  {
+    if(is_table(expression) || !may_depend_on(expression, variables))
+      return false;
+    // Of a function that jumps only its argument counts, of an operator all.
+    std::string rest = expression;
+    for(const std::string word : {"if", "floor", "ceil", "sign"})
+      for(std::size_t at = rest.find(word); at != std::string::npos;
+          at = rest.find(word, at + 1))
+      {
+        const std::size_t open = rest.find_first_not_of(' ', at + word.size());
+        const bool is_call
+            = open != std::string::npos && rest[open] == '('
+              && (at == 0 || !(starts_name(rest[at - 1]) || is_digit(rest[at - 1])));
+        if(!is_call)
+          continue;
+        const std::size_t end = end_of_argument(rest, open + 1);
+        if(may_depend_on(rest.substr(open + 1, end - open - 1), variables))
+          return true;
+        std::fill(rest.begin() + static_cast<std::ptrdiff_t>(open) + 1,
+                  rest.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+      }
+    return rest.find_first_of("<>=!?&|") != std::string::npos;
   }
 } // namespace meltfront::cases

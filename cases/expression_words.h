@@ -25,6 +25,10 @@ namespace meltfront::cases
    * any.
    */
   bool may_depend_on(const std::string &expression, const std::string &variables);
+
+  /** Whether what an expression says may jump where one of some variables changes: as one
+   * that compares them does, or rounds them or takes their sign. */
+  bool may_jump_with(const std::string &expression, const std::string &variables);
 } // namespace meltfront::cases
 
 #endif

@@ -1,4 +1,5 @@
 #include <cases/error.h>
+#include <cases/means_of_jumps.h>
 #include <cases/method.h>
 #include <cases/run.h>
 #include <cases/scene.h>
@@ -18,8 +19,9 @@ namespace meltfront::cases
       complete.options = Options(option_declarations());
     require_affordable(*this, demand(scene, effects, complete), complete.memory_limit);
     const Stopwatch watch;
-    const std::unique_ptr<Run> run = set_up(scene, effects, complete);
-    return run->carry_out(scene, watch, observer);
+    const Scene seen = with_means_of_jumps(scene, scene.domain.side() / complete.n);
+    const std::unique_ptr<Run> run = set_up(seen, effects, complete);
+    return run->carry_out(seen, watch, observer);
   }
 
   Demand Method::demand(const Scene &, const EffectSet &, const Resolution &) const

@@ -12,7 +12,7 @@ namespace meltfront::cases
     /** Relative to the largest value: by which the rules of Gauss and of Kronrod may
      * differ. What Kronrod's then misses of a smooth function is about the square. */
     constexpr double tolerance = 1e-6;
-    constexpr int deepest = 24;
+    constexpr int deepest_of_means = 24;
 
     /** Of a step: how far beside a breakpoint a value is taken on its side. */
     constexpr double beside = 1e-9;
@@ -69,7 +69,8 @@ namespace meltfront::cases
                + 0.4013974147759622 * (inside[0] + inside[1]) + 0.4509165386584741 * at);
       for(const double value : {below, at, above, ends[0], ends[1], inside[0], inside[1]})
         largest = std::max(largest, std::abs(value));
-      if(!(std::abs(by_kronrod - by_gauss) > tolerance * largest) || depth == deepest)
+      if(!(std::abs(by_kronrod - by_gauss) > tolerance * largest)
+         || depth == deepest_of_means)
         return by_kronrod;
       return 0.5
              * (mean_of_piece(f, begin, middle, largest, depth + 1)
@@ -122,6 +123,15 @@ namespace meltfront::cases
     for(std::size_t i = 0; i < points.size(); ++i)
       step.integral[i] = (end - begin) * mean(points[i], begin, end);
     return step.integral;
+  }
+
+  std::span<const double> StepIntegrals::steady_values()
+  {
+    std::vector<double> &values = steps[0].integral;
+    if(values.size() != points.size())
+      for(const Position &point : points)
+        values.push_back(mean.field()(point, 0));
+    return values;
   }
 
   std::size_t StepIntegrals::bytes() const

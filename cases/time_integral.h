@@ -58,10 +58,8 @@ namespace meltfront::cases
       return mean.steady();
     }
 
-    const Field &field() const
-    {
-      return mean.field();
-    }
+    /** Of a field that is steady: its value at each point. */
+    std::span<const double> steady_values();
 
     std::size_t bytes() const;
 

@@ -1,4 +1,6 @@
+#include <cases/expression_words.h>
 #include <cases/initial_level.h>
+#include <cases/mean_with_jumps.h>
 #include <particles/sph/initial_state.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -118,6 +120,49 @@ namespace meltfront::particles
       return (heat(lower, split) + heat(split, upper)) / dis.spacing;
     }
 
+    /** Mean enthalpy of a cell in which the temperature may jump: one that it jumps in is
+     * not at the melting temperature, and none has the temperature of its middle. */
+    template <std::size_t dim>
+    double mean_over_cell(const Discretisation &dis, const cases::Position &centre,
+                          const cases::Field &level)
+    {
+      constexpr int parts = 2, halvings = 6;
+      const cases::Scene &scene = dis.scene;
+      std::array<double, dim> from, to;
+      for(std::size_t d = 0; d < dim; ++d)
+      {
+        from[d] = centre[d] - 0.5 * dis.cell[d];
+        to[d] = centre[d] + 0.5 * dis.cell[d];
+      }
+      return cases::mean_over_box<dim>(
+          [&](const std::array<double, dim> &at)
+          {
+            cases::Position p = centre;
+            std::ranges::copy(at, p.begin());
+            const double temperature = scene.initial.temperature(p, scene.start_time);
+            return scene.material.enthalpy(
+                temperature,
+                temperature == scene.material.melting_temperature && !scene.initial.front
+                    ? scene.initial.solid_fraction_at_melting
+                    : double(level(p, scene.start_time) < 0));
+          },
+          from, to, parts, halvings);
+    }
+
+    double mean_over_cell(const Discretisation &dis, const cases::Position &centre,
+                          const cases::Field &level)
+    {
+      switch(dis.dimension)
+      {
+      case 1:
+        return mean_over_cell<1>(dis, centre, level);
+      case 2:
+        return mean_over_cell<2>(dis, centre, level);
+      default:
+        return mean_over_cell<3>(dis, centre, level);
+      }
+    }
+
     /** A level set decides on the phase; a cell of the plane or of space that it cuts is
      * at the melting temperature. */
     double from_front(const Discretisation &dis, const cases::Position &position,
@@ -146,10 +191,12 @@ namespace meltfront::particles
     const cases::Scene &scene = dis.scene;
     const cases::Field level = cases::initial_level(scene);
     std::vector<double> enthalpy(dis.particles.size());
+    const bool jumps = cases::may_jump_with(scene.initial.temperature.expression, "xyz");
     for(std::size_t i = 0; i < enthalpy.size(); ++i)
     {
       const cases::Position position = dis.particles.point(i);
       enthalpy[i] = scene.initial.exact ? from_exact(dis, position)
+                    : jumps             ? mean_over_cell(dis, position, level)
                                         : from_front(dis, position, level);
     }
     return enthalpy;

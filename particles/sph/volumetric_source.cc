@@ -1,3 +1,4 @@
+#include <cases/means_of_jumps.h>
 #include <particles/sph/volumetric_source.h>
 
 #include <algorithm>
@@ -6,10 +7,19 @@ namespace meltfront::particles
 {
   VolumetricSource::VolumetricSource(const Discretisation &dis)
     : dis(dis)
-    , density(*dis.scene.volumetric_source)
+    , density(cases::mean_release(dis.scene, dis.spacing))
     , power(dis.particles.size())
     , released{{dis.scene.start_time, 0.}}
   {
+  }
+
+  void VolumetricSource::find_power(double begin, double end)
+  {
+    for(std::size_t a = 0; a < power.size(); ++a)
+      power[a] = density(dis.particles.point(a), begin, end) * dis.particle_volume;
+    for(const WallCell &cell : dis.wall_cells)
+      power[cell.particle] *= cell.share;
+    power_known = true;
   }
 
   void VolumetricSource::prepare_step(double begin, double end)
@@ -17,10 +27,8 @@ namespace meltfront::particles
     meter.measure_setup(
         [&]
         {
-          for(std::size_t a = 0; a < power.size(); ++a)
-            power[a] = density(dis.particles.point(a), begin, end) * dis.particle_volume;
-          for(const WallCell &cell : dis.wall_cells)
-            power[cell.particle] *= cell.share;
+          if(!density.steady() || !power_known)
+            find_power(begin, end);
           ExactSum own;
           for(const double heat : dis.own.part(std::span<const double>(power)))
             own.add(heat);

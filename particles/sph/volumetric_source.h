@@ -12,7 +12,8 @@ namespace meltfront::particles
 {
   /**
    * Heat released throughout the domain: each particle takes the power density at its
-   * place times its volume, averaged over the step (cases::TimeMean).
+   * place (cases::mean_release) times its volume, averaged over the step
+   * (cases::TimeMean).
    *
    * What was released by the end of a step is the sum of what the steps gave to the
    * particles, so that the budget closes to round-off.
@@ -44,9 +45,12 @@ namespace meltfront::particles
       double heat;
     };
 
+    void find_power(double begin, double end);
+
     const Discretisation &dis;
     cases::TimeMean density;
     std::vector<double> power; ///< W m^(d-3)
+    bool power_known = false;
     std::vector<Released> released;
     cases::EffectMeter meter;
   };

@@ -19,21 +19,19 @@ namespace meltfront::reference_fem
   public:
     StepMeans(const StepFormula &step, cases::StepIntegrals &field)
       : step(step)
-      , field(field)
+      , steady(field.steady())
     {
-      if(field.steady())
-        return;
-      integral = field.over(step.now, step.next);
-      if(step.weight_before != 0)
+      values = steady ? field.steady_values() : field.over(step.now, step.next);
+      if(!steady && step.weight_before != 0)
         integral_before = field.over(step.before, step.now);
     }
 
-    /** At a point of the integrals, whose position is given. */
-    double at(std::size_t point, const cases::Position &position) const
+    /** At a point of the integrals. */
+    double at(std::size_t point) const
     {
-      if(integral.empty())
-        return field.field()(position, step.next);
-      double heat = integral[point];
+      if(steady)
+        return values[point];
+      double heat = values[point];
       if(!integral_before.empty())
         heat += step.weight_before * integral_before[point];
       return heat / step.c;
@@ -41,8 +39,9 @@ namespace meltfront::reference_fem
 
   private:
     const StepFormula &step;
-    const cases::StepIntegrals &field;
-    std::span<const double> integral, integral_before;
+    bool steady;
+    std::span<const double> values; ///< or integrals over the step
+    std::span<const double> integral_before;
   };
 } // namespace meltfront::reference_fem
 

@@ -1,3 +1,4 @@
+#include <cases/means_of_jumps.h>
 #include <cases/stopwatch.h>
 #include <reference_fem/enthalpy/step_means.h>
 #include <reference_fem/enthalpy/sum_over.h>
@@ -7,7 +8,8 @@ namespace meltfront::reference_fem
 {
   VolumetricSource::VolumetricSource(const cases::Scene &scene,
                                      const Discretisation &discretisation)
-    : density(*scene.volumetric_source, discretisation.positions)
+    : density(cases::mean_release(scene, discretisation.spacing),
+              discretisation.positions)
     , mesh(discretisation)
   {
     effect_cost.bytes += static_cast<long>(density.bytes());
@@ -21,7 +23,7 @@ namespace meltfront::reference_fem
     return sum_over(mesh.volume,
                     [&](std::size_t i)
                     {
-                      const double released = step.c * means.at(i, mesh.positions[i]);
+                      const double released = step.c * means.at(i);
                       load[i] += mesh.volume[i] * released;
                       return released;
                     });

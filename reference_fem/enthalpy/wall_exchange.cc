@@ -22,7 +22,7 @@ namespace meltfront::reference_fem
       for(const WallNode &node : discretisation.walls[static_cast<std::size_t>(side)])
         if(free[node.node])
         {
-          places.push_back({node.node, node.area, node.position, &boundary});
+          places.push_back({node.node, node.area, &boundary});
           positions.push_back(node.position);
           nodes.push_back(node.node);
         }
@@ -40,7 +40,7 @@ namespace meltfront::reference_fem
     {
       const StepMeans means(step, wall.ambient);
       for(std::size_t i = wall.first; i < wall.last; ++i)
-        places[i].ambient = means.at(i - wall.first, places[i].position);
+        places[i].ambient = means.at(i - wall.first);
     }
   }
 

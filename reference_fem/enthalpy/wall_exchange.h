@@ -80,7 +80,6 @@ namespace meltfront::reference_fem
     {
       unsigned int node;
       double area;
-      cases::Position position;
       const cases::Boundary *boundary;
       double ambient = 0;
     };

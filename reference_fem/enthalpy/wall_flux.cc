@@ -34,7 +34,7 @@ namespace meltfront::reference_fem
       for(std::size_t i = 0; i < wall.nodes.size(); ++i)
       {
         const WallNode &node = wall.nodes[i];
-        const double heat = step.c * node.area * means.at(i, node.position);
+        const double heat = step.c * node.area * means.at(i);
         load[node.node] += heat;
         sum += heat;
       }

@@ -79,6 +79,12 @@ namespace meltfront::test_support
             [value = std::move(value)](const Position &p, double) { return value(p); }};
   }
 
+  Field step_along_x(double at, double below, double above)
+  {
+    return {"if(x < at, below, above)",
+            [=](const Position &p, double) { return p[0] < at ? below : above; }};
+  }
+
   Scene slab(const Material &material, double length, double temperature, double start,
              double end)
   {

@@ -30,6 +30,9 @@ namespace meltfront::test_support
   /** A field that does not change with time. */
   cases::Field field_of(std::function<double(const cases::Position &)> value);
 
+  /** A field that jumps along x, as its expression says. */
+  cases::Field step_along_x(double at, double below, double above);
+
   /** An insulated slab 0 <= x <= length at a uniform temperature. */
   cases::Scene slab(const cases::Material &material, double length, double temperature,
                     double start, double end);

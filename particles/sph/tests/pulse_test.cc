@@ -136,5 +136,27 @@ namespace meltfront::particles::testing
           EXPECT_NEAR(outcome.highest, temperature, 1e-12 * temperature);
         }
     }
+
+    // Wherever they are beside the particles: by the particles' own values half a spacing
+    // of heat would be too much or too little.
+    TEST(Jumps, AlongAWallInABodyAndAtTheStartBringTheirHeat)
+    {
+      cases::Material material = unit_material();
+      for(const double at : {0.25, 0.5, 0.513, 0.537})
+        for(const int n : {10, 16})
+        {
+          Problem problem;
+          problem.scene = box(material, 2, {0, 0, 0}, {1, 1, 0}, 0, 0.02);
+          set_boundary(problem.scene, cases::Side::y_max,
+                       {cases::BoundaryKind::flux, step_along_x(at, -6, 2)});
+          problem.scene.volumetric_source = step_along_x(at, 1, -3);
+          problem.scene.initial.temperature = step_along_x(at, -2, 1);
+          const Outcome outcome = run(*method, problem, n);
+          EXPECT_NEAR(outcome.heat.boundary, 0.02 * (2 - 8 * at), 1e-4);
+          EXPECT_NEAR(outcome.heat.sources, 0.02 * (-3 + 4 * at), 1e-4);
+          // Of unit heat capacities and latent heat.
+          EXPECT_NEAR(outcome.heat.initial, -2 * at + 2 * (1 - at), 5e-3);
+        }
+    }
   } // namespace
 } // namespace meltfront::particles::testing

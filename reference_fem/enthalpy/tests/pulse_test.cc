@@ -1,4 +1,5 @@
 #include <cases/time_integral.h>
+#include <reference_fem/enthalpy/enthalpy.h>
 #include <reference_fem/enthalpy/tests/support.h>
 
 #include <gtest/gtest.h>
@@ -69,6 +70,22 @@ namespace meltfront::reference_fem::tests
           EXPECT_NEAR(record.heat.sources, 1, 1e-9);
           for(const double temperature : record.temperature)
             EXPECT_NEAR(temperature, 1, 1e-8);
+        }
+    }
+
+    // Wherever they are beside the nodes: by the nodes' own values half a cell of heat
+    // would be too much or too little.
+    TEST(Pulse, JumpsAlongAWallAndInABodyBringTheirHeat)
+    {
+      for(const double at : {0.25, 0.5, 0.513, 0.537})
+        for(const int n : {10, 16})
+        {
+          Scene scene = box(without_latent_heat(), 2, {0, 0, 0}, {1, 1, 0}, 0, 0.2);
+          set_boundary(scene, Side::y_max, {BoundaryKind::flux, step_along_x(at, -6, 2)});
+          scene.volumetric_source = step_along_x(at, 1, -3);
+          const Course record = test_support::course_of(*make_fem_enthalpy(), scene, n);
+          EXPECT_NEAR(record.heat.boundary, 0.2 * (2 - 8 * at), 1e-3);
+          EXPECT_NEAR(record.heat.sources, 0.2 * (-3 + 4 * at), 1e-3);
         }
     }
 

@@ -1,3 +1,4 @@
+#include <cases/means_of_jumps.h>
 #include <verification/measure/checks/given_heat.h>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@ namespace meltfront::verification
   namespace
   {
     constexpr int intervals = 64;
+    constexpr int points_seen_across = 32;        ///< of a wall, see points_on()
     constexpr double offset = 0.7745966692414834; // sqrt(3/5)
 
     /** Heat of a power between two times, and what it would be if all were positive. */
@@ -84,12 +86,15 @@ namespace meltfront::verification
   void GivenHeat::add_walls()
   {
     using cases::BoundaryKind;
+    // Points see where a wall's data jump to within their distance only, their means all.
+    const cases::Scene seen
+        = cases::with_means_of_jumps(scene, point_distance_on_walls(scene.domain));
     // What is displaced carries heat through a wall.
     if(scene.material.solid.density != scene.material.liquid.density)
       unknown_walls = "liquid that is displaced carries heat through walls";
     for(const cases::Side side : scene.sides())
     {
-      const cases::Boundary &boundary = scene.boundary(side);
+      const cases::Boundary &boundary = seen.boundary(side);
       if(boundary.kind == BoundaryKind::insulated
          || boundary.kind == BoundaryKind::periodic)
         continue;
@@ -110,8 +115,8 @@ namespace meltfront::verification
                           name_of(scene.domain, side));
         return;
       }
-      walls.emplace_back([&boundary, points](double time)
-                         { return integral(points, boundary.value, time); },
+      walls.emplace_back([flux = boundary.value, points](double time)
+                         { return integral(points, flux, time); },
                          scene.start_time, scene.end_time, boundary.value.breakpoints);
     }
   }
@@ -120,7 +125,8 @@ namespace meltfront::verification
   {
     if(!scene.volumetric_source)
       return;
-    const cases::Field &release = *scene.volumetric_source;
+    const cases::Field release
+        = cases::mean_release(scene, point_distance_over(scene.domain));
     sources_vary = !release.constant;
     const std::vector<QuadraturePoint> points
         = points_for(release, volume_of(scene.domain),
@@ -131,7 +137,7 @@ namespace meltfront::verification
           = "no quadrature for a release that varies as it does in this domain";
       return;
     }
-    released.emplace([&release, points](double time)
+    released.emplace([release, points](double time)
                      { return integral(points, release, time); },
                      scene.start_time, scene.end_time, release.breakpoints);
   }

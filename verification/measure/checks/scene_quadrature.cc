@@ -50,6 +50,11 @@ namespace meltfront::verification
       return cells_along[domain.dimension - 1];
     }
 
+    int cells_of_walls(const cases::Domain &domain)
+    {
+      return cells_along[std::max(domain.dimension - 2, 0)];
+    }
+
     /** What the points of a rectangle's section stand for: each its circle. */
     void turn_about_axis(const cases::Domain &domain,
                          std::vector<QuadraturePoint> &points)
@@ -184,9 +189,20 @@ namespace meltfront::verification
       if(d != normal)
         points = extruded(points, d,
                           points_between(domain.lower[d], domain.upper[d],
-                                         divisions * cells_of(domain)));
+                                         divisions * cells_of_walls(domain)));
     turn_about_axis(domain, points);
     return points;
+  }
+
+  double point_distance_over(const cases::Domain &domain)
+  {
+    return domain.side() / (2 * cells_of(domain));
+  }
+
+  double point_distance_on_walls(const cases::Domain &domain)
+  {
+    return domain.round() ? domain.side() * std::numbers::pi / points_around
+                          : domain.side() / (2 * cells_of_walls(domain));
   }
 
   double integral(const std::vector<QuadraturePoint> &points, const cases::Field &field,

@@ -28,10 +28,17 @@ namespace meltfront::verification
   std::vector<QuadraturePoint> points_over(const cases::Domain &domain,
                                            int divisions = 1);
 
-  /** Points over a wall: 32 on a box's in the plane, 64 around a round one, one on each
-   * edge or triangle of a mesh's; none for walls of other shapes. */
+  /** Points over a wall: two in each of 256 cells on a box's in the plane, of 16 along
+   * each direction of one in space, 64 around a round one, one on each edge or triangle
+   * of a mesh's; none for walls of other shapes. */
   std::vector<QuadraturePoint> points_on(const cases::Domain &domain, cases::Side side,
                                          int divisions = 1);
+
+  /** The mean distance of such points along the domain's side (m). */
+  double point_distance_over(const cases::Domain &domain);
+
+  /** The same of points on walls, or around a round wall of the domain's radius. */
+  double point_distance_on_walls(const cases::Domain &domain);
 
   /** Integral of a field at a time (s). */
   double integral(const std::vector<QuadraturePoint> &points, const cases::Field &field,

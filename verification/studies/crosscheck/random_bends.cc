@@ -136,6 +136,17 @@ namespace meltfront::verification
     draft.set(here, "corners", corners);
   }
 
+  /** 1 on a stretch of a wall, -0.5 on the rest. */
+  std::string SceneMaker::patch(const std::string &along)
+  {
+    const double end = along == "y" && shape == "box" ? upper[1] : substance.length;
+    const double begin = shape == "box" ? 0 : -end;
+    const double middle = begin + (end - begin) * random.uniform(0.1, 0.9);
+    const double half = (end - begin) * random.uniform(0.05, 0.3);
+    return fmt::format("if(({0} > {1}) && ({0} < {2}), 1, -0.5)", along,
+                       words(middle - half), words(middle + half));
+  }
+
   void SceneMaker::vary_along_walls()
   {
     if(dimension < 2 || problem == Problem::alloy
@@ -155,10 +166,12 @@ namespace meltfront::verification
       const std::string course = draft.value(here, key);
       const std::string along
           = side.starts_with("y") || side == "outer" || side == "inner" ? "x" : "y";
-      const std::string wave = fmt::format(
-          "cos({}*{} + {})",
-          words(std::numbers::pi / substance.length * random.uniform(0.5, 2.5)), along,
-          words(random.uniform(0, 3)));
+      const std::string wave = random.chance(0.35)
+                                   ? patch(along)
+                                   : fmt::format("cos({}*{} + {})",
+                                                 words(std::numbers::pi / substance.length
+                                                       * random.uniform(0.5, 2.5)),
+                                                 along, words(random.uniform(0, 3)));
       draft.set(here, key,
                 kind == "flux" ? fmt::format("({})*(1 + {}*{})", course,
                                              words(random.uniform(0.2, 1)), wave)

@@ -100,6 +100,7 @@ namespace meltfront::verification
     /** Let what walls of bodies in the plane and in space prescribe vary along them, as
      * well as over time. */
     void vary_along_walls();
+    std::string patch(const std::string &along);
 
     // In random_walls.cc:
     void choose_walls();

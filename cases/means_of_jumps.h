@@ -1,0 +1,30 @@
+#ifndef meltfront_cases_means_of_jumps_h
+#define meltfront_cases_means_of_jumps_h
+
+#include <cases/scene.h>
+
+namespace meltfront::cases
+{
+  /**
+   * A scene as a method sees it whose nodes or particles lie a distance `width` (m) apart
+   * along walls: what a wall gives and what jumps along it, as far as its expression
+   * tells (may_jump_with()), is at a place the mean
+   *
+   *   1/width integral over the wall within width/2 of the place
+   *
+   * of what was given: along a straight side what is within the side, around a circle and
+   * along an outline past its corners, in space over a square. Values at places that lie
+   * the width apart then sum up to the integral over the wall, where values of the
+   * expression itself leave out or add half a width beside each jump. Of a wall that
+   * radiates it is the mean of the ambient temperature's fourth powers. Walls of a mesh
+   * give what they were given.
+   */
+  Scene with_means_of_jumps(const Scene &scene, double width);
+
+  /** The same of what a scene with a volumetric source releases throughout, for a method
+   * that takes it at one place of each cell: where it jumps in space the mean over the
+   * cube of this width about a place, of a rectangular domain over what is within. */
+  Field mean_release(const Scene &scene, double width);
+} // namespace meltfront::cases
+
+#endif
