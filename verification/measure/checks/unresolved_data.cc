@@ -26,7 +26,8 @@ namespace meltfront::verification
 
     constexpr int times_of_run = 9;
 
-    /** A temperature that is given at places of a domain, which is flat for a wall. */
+    /** A temperature that is given at places of a domain, which is flat for a wall, or of
+     * the wall that bends about it. */
     struct GivenTemperature
     {
       std::string name;
@@ -34,6 +35,7 @@ namespace meltfront::verification
       const cases::Domain &domain;
       std::vector<Position> places;
       std::vector<double> times;
+      bool on_bent_wall = false;
     };
 
     bool varies_in_space(const cases::Field &field)
@@ -105,17 +107,15 @@ namespace meltfront::verification
        * between them. Beyond the end of a domain lies what is before it. */
       double departure_of(const Suspect &suspect, int d, double distance) const
       {
-        const cases::Domain &domain = given.domain;
-        if(!cases::may_depend_on(given.field.expression, std::string(1, "xyz"[d]))
-           || (domain.rectangular() && domain.lower[d] == domain.upper[d]))
+        if(!varies_in(d))
           return 0;
         std::array<double, 2> departures{};
         std::array<bool, 2> inside{};
         for(const int side : {0, 1})
         {
-          Position beside = suspect.place;
-          beside[d] += side == 0 ? -distance : distance;
-          inside[side] = lies_in_domain(beside);
+          const Position beside
+              = moved(suspect.place, d, side == 0 ? -distance : distance);
+          inside[side] = given.on_bent_wall || lies_in_domain(beside);
           departures[side] = suspect.value - given.field(beside, suspect.time);
         }
         for(const int side : {0, 1})
@@ -124,6 +124,33 @@ namespace meltfront::verification
         return departures[0] * departures[1] > 0
                    ? std::min(std::abs(departures[0]), std::abs(departures[1]))
                    : 0;
+      }
+
+      /** An outline has one direction, along itself. */
+      bool varies_in(int d) const
+      {
+        const cases::Domain &domain = given.domain;
+        if(given.on_bent_wall && domain.outline)
+          return d == 0;
+        return cases::may_depend_on(given.field.expression, std::string(1, "xyz"[d]))
+               && !(domain.rectangular() && domain.lower[d] == domain.upper[d]);
+      }
+
+      /** By a distance in a direction, and back to the wall if it bends. */
+      Position moved(Position place, int d, double distance) const
+      {
+        const cases::Domain &domain = given.domain;
+        if(given.on_bent_wall && domain.outline)
+          return domain.outline->at(domain.outline->arc_length_at(place) + distance);
+        const double radius = std::hypot(place[0], place[1], place[2]);
+        place[d] += distance;
+        if(given.on_bent_wall)
+        {
+          const double scale = radius / std::hypot(place[0], place[1], place[2]);
+          for(double &component : place)
+            component *= scale;
+        }
+        return place;
       }
 
       bool lies_in_domain(const Position &p) const
@@ -223,7 +250,11 @@ namespace meltfront::verification
                                 [&](const Position &p) { places.push_back(p); });
       const GivenTemperature given{
           fmt::format("the temperature that is given at {}", name_of(scene.domain, side)),
-          boundary.value, wall, std::move(places), times_of(scene, boundary.value)};
+          boundary.value,
+          wall,
+          std::move(places),
+          times_of(scene, boundary.value),
+          scene.domain.round() || scene.domain.outline};
       if(const std::string found = describe(given, range, spacing); !found.empty())
         return found;
     }

@@ -1,9 +1,12 @@
+#include <cases/outline.h>
 #include <verification/measure/checks/unresolved_data.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <vector>
 
 namespace
 {
@@ -109,6 +112,44 @@ TEST(UnresolvedData, SpotsOnRoundWalls)
   EXPECT_NE(unresolved_data(scene, 0.05), "");
   scene.boundaries[static_cast<int>(Side::outer)] = spot(0.2);
   EXPECT_EQ(unresolved_data(scene, 0.05), "");
+}
+
+// Beside a place of a wall that bends there is wall on both sides.
+TEST(UnresolvedData, AStepOnAWallThatBendsIsNoFeature)
+{
+  const auto step = [](bool spot)
+  {
+    return Boundary{BoundaryKind::heat_transfer,
+                    field_of("if(x < 0.2, ...)",
+                             [spot](const Position &p) {
+                               return (spot ? std::abs(p[0] - 0.2) < 0.01 : p[0] < 0.2)
+                                          ? 1.
+                                          : 0.;
+                             })};
+  };
+  Scene disk;
+  disk.domain.shape = DomainShape::ball;
+  disk.domain.dimension = 2;
+  disk.domain.radius = 0.7;
+  disk.initial.temperature = Field::uniform(-1);
+  Scene bracket = disk;
+  bracket.domain.shape = DomainShape::outline;
+  bracket.domain.outline = std::make_shared<const Outline>(std::vector<Outline::Point>{
+      {0, 0}, {1, 0}, {1, 0.3}, {0.4, 0.42}, {0.33, 1}, {0, 1}});
+  bracket.domain.upper = {1, 1, 0};
+  bracket.domain.reference_length = 1;
+  Scene ball = disk;
+  ball.domain.dimension = 3;
+  for(Scene *scene : {&disk, &bracket, &ball})
+  {
+    scene->boundaries[static_cast<int>(Side::outer)] = step(false);
+    EXPECT_EQ(unresolved_data(*scene, 0.05), "");
+  }
+  for(Scene *scene : {&disk, &bracket})
+  {
+    scene->boundaries[static_cast<int>(Side::outer)] = step(true);
+    EXPECT_NE(unresolved_data(*scene, 0.05), "");
+  }
 }
 
 TEST(UnresolvedWalls, AnInnerWallFarNarrowerThanTheSpacing)
