@@ -1,8 +1,9 @@
 #ifndef meltfront_cases_mean_with_jumps_h
 #define meltfront_cases_mean_with_jumps_h
 
+#include <cases/position.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -10,15 +11,15 @@ namespace meltfront::cases
 {
   /**
    * The mean of a function that may jump, between two points: by the trapezoidal rule,
-   * where values beside each other differ on ever finer parts about the larger
-   * difference. Of a jump it misses no more than (to - from) / parts / 2^halvings;
-   * a feature that is narrower than a part may go unseen.
+   * in each part on ever finer halves where nearly all of the difference lies, as it does
+   * about a jump and nowhere else. Of a jump it misses no more than (to - from) / parts /
+   * 2^halvings; a feature that is narrower than a part may go unseen.
    */
   template <typename Function>
   double mean_with_jumps(const Function &value, double from, double to, int parts,
                          int halvings)
   {
-    constexpr double no_jump = 1e-3; // of the larger value
+    constexpr double rest_beside_jump = 0.5; // of the difference where the jump is
     double left = from, at_left = value(from), sum = 0;
     const double first = at_left;
     for(int part = 1; part <= parts; ++part)
@@ -27,13 +28,14 @@ namespace meltfront::cases
       const double at_right = value(right);
       double below = 0, above = 1, at_below = at_left - first,
              at_above = at_right - first;
-      const double jump = no_jump * std::max(std::abs(at_left), std::abs(at_right));
-      for(int halving = 0; halving < halvings && std::abs(at_above - at_below) > jump;
-          ++halving)
+      bool jumps = at_below != at_above;
+      for(int halving = 0; halving < halvings && jumps; ++halving)
       {
         const double middle = 0.5 * (below + above);
         const double at = value(left + middle * (right - left)) - first;
-        const bool later = std::abs(at_above - at) > std::abs(at - at_below);
+        const double lower = std::abs(at - at_below), upper = std::abs(at_above - at);
+        const bool later = upper > lower;
+        jumps = std::min(lower, upper) < rest_beside_jump * std::max(lower, upper);
         sum += 0.5 * (above - middle) * (later ? at_below + at : at + at_above);
         (later ? below : above) = middle;
         (later ? at_below : at_above) = at;
@@ -45,34 +47,22 @@ namespace meltfront::cases
     return first + sum / parts;
   }
 
-  /** The same over a rectangle or a cuboid, line by line.
-   * @param value of N coordinates, a std::array<double, N> */
-  template <std::size_t N, typename Function>
-  double mean_over_box(const Function &value, const std::array<double, N> &from,
-                       const std::array<double, N> &to, int parts, int halvings)
+  /** The same over the first `dimension` coordinates of a cuboid, line by line; the other
+   * coordinates are those of `place`. @param value of a Position */
+  template <typename Function>
+  double mean_over_box(const Function &value, Position place, const Position &from,
+                       const Position &to, int dimension, int parts, int halvings)
   {
+    if(dimension == 0)
+      return value(place);
+    const std::size_t last = static_cast<std::size_t>(dimension) - 1;
     return mean_with_jumps(
-        [&](double last)
+        [&](double coordinate)
         {
-          if constexpr(N == 1)
-            return value(std::array<double, 1>{last});
-          else
-          {
-            std::array<double, N - 1> lower, upper;
-            std::copy_n(from.begin(), N - 1, lower.begin());
-            std::copy_n(to.begin(), N - 1, upper.begin());
-            return mean_over_box<N - 1>(
-                [&](const std::array<double, N - 1> &others)
-                {
-                  std::array<double, N> at;
-                  std::copy_n(others.begin(), N - 1, at.begin());
-                  at[N - 1] = last;
-                  return value(at);
-                },
-                lower, upper, parts, halvings);
-          }
+          place[last] = coordinate;
+          return mean_over_box(value, place, from, to, dimension - 1, parts, halvings);
         },
-        from[N - 1], to[N - 1], parts, halvings);
+        from[last], to[last], parts, halvings);
   }
 } // namespace meltfront::cases
 

@@ -4,7 +4,6 @@
 #include <cases/outline.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -37,13 +36,12 @@ namespace meltfront::cases
       template <typename Value>
       double mean(const Value &value) const
       {
-        if(!second)
-          return mean_with_jumps([&](double s) { return value(place(s, 0)); }, first.from,
-                                 first.to, parts_of_line, halvings_of_line);
-        return mean_over_box<2>([&](const std::array<double, 2> &at)
-                                { return value(place(at[0], at[1])); },
-                                {first.from, second->from}, {first.to, second->to},
-                                parts_in_square, halvings_in_square);
+        const auto at = [&](const Position &p) { return value(place(p[0], p[1])); };
+        return second ? mean_over_box(at, {}, {first.from, second->from, 0},
+                                      {first.to, second->to, 0}, 2, parts_in_square,
+                                      halvings_in_square)
+                      : mean_over_box(at, {}, {first.from, 0, 0}, {first.to, 0, 0}, 1,
+                                      parts_of_line, halvings_of_line);
       }
     };
 
@@ -210,36 +208,6 @@ namespace meltfront::cases
     {
       return field.value && !field.constant && may_jump_with(field.expression, "xyz");
     }
-
-    template <std::size_t dim>
-    Field mean_over_cubes(const Field &release, const Domain &domain, double width)
-    {
-      Field result = release;
-      result.value
-          = [release, domain, half = 0.5 * width](const Position &middle, double time)
-      {
-        std::array<double, dim> from, to;
-        for(std::size_t d = 0; d < dim; ++d)
-        {
-          from[d] = middle[d] - half;
-          to[d] = middle[d] + half;
-          if(domain.rectangular() && domain.upper[d] - domain.lower[d] > 2 * half)
-          {
-            from[d] = std::clamp(from[d], domain.lower[d], domain.upper[d] - half);
-            to[d] = std::clamp(to[d], domain.lower[d] + half, domain.upper[d]);
-          }
-        }
-        return mean_over_box<dim>(
-            [&](const std::array<double, dim> &at)
-            {
-              Position place = middle;
-              std::ranges::copy(at, place.begin());
-              return release(place, time);
-            },
-            from, to, parts_in_cube, halvings_in_square);
-      };
-      return result;
-    }
   } // namespace
 
   Scene with_means_of_jumps(const Scene &scene, double width)
@@ -268,14 +236,25 @@ namespace meltfront::cases
     const Field &release = *scene.volumetric_source;
     if(!jumps(release))
       return release;
-    switch(scene.domain.dimension)
+    Field result = release;
+    result.value = [release, domain = scene.domain,
+                    half = 0.5 * width](const Position &middle, double time)
     {
-    case 1:
-      return mean_over_cubes<1>(release, scene.domain, width);
-    case 2:
-      return mean_over_cubes<2>(release, scene.domain, width);
-    default:
-      return mean_over_cubes<3>(release, scene.domain, width);
-    }
+      Position from = middle, to = middle;
+      for(std::size_t d = 0; d < static_cast<std::size_t>(domain.dimension); ++d)
+      {
+        from[d] -= half;
+        to[d] += half;
+        if(domain.rectangular() && domain.upper[d] - domain.lower[d] > 2 * half)
+        {
+          from[d] = std::clamp(from[d], domain.lower[d], domain.upper[d] - half);
+          to[d] = std::clamp(to[d], domain.lower[d] + half, domain.upper[d]);
+        }
+      }
+      return mean_over_box([&](const Position &place) { return release(place, time); },
+                           middle, from, to, domain.dimension, parts_in_cube,
+                           halvings_in_square);
+    };
+    return result;
   }
 } // namespace meltfront::cases

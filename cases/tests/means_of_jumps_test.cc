@@ -48,10 +48,20 @@ namespace
 
   TEST(MeanWithJumps, OfADiskOverASquareIsItsArea)
   {
-    const auto disk = [](const std::array<double, 2> &p)
-    { return p[0] * p[0] + p[1] * p[1] < 1 ? 1. : 0.; };
-    EXPECT_NEAR(mean_over_box<2>(disk, {0, 0}, {1, 1}, 32, 8), std::numbers::pi / 4,
-                2e-4);
+    const auto disk
+        = [](const Position &p) { return p[0] * p[0] + p[1] * p[1] < 1 ? 1. : 0.; };
+    EXPECT_NEAR(mean_over_box(disk, {}, {0, 0, 0}, {1, 1, 0}, 2, 32, 8),
+                std::numbers::pi / 4, 2e-4);
+  }
+
+  // A jump of half a kelvin is one, whatever the zero of the scale is.
+  TEST(MeanWithJumps, KnowNoScale)
+  {
+    for(const double zero : {0., 660.3, -1e4})
+      EXPECT_NEAR(mean_with_jumps([zero](double x)
+                                  { return x < 0.3001 ? zero : zero + 0.5; },
+                                  0, 1, 4, 12),
+                  zero + 0.5 * 0.6999, 1e-4);
   }
 
   TEST(MeansOfJumps, AreTakenWhereAnExpressionComparesPlacesAlone)

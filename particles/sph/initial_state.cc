@@ -122,23 +122,20 @@ namespace meltfront::particles
 
     /** Mean enthalpy of a cell in which the temperature may jump: one that it jumps in is
      * not at the melting temperature, and none has the temperature of its middle. */
-    template <std::size_t dim>
     double mean_over_cell(const Discretisation &dis, const cases::Position &centre,
                           const cases::Field &level)
     {
       constexpr int parts = 2, halvings = 6;
       const cases::Scene &scene = dis.scene;
-      std::array<double, dim> from, to;
-      for(std::size_t d = 0; d < dim; ++d)
+      cases::Position from = centre, to = centre;
+      for(int d = 0; d < dis.dimension; ++d)
       {
-        from[d] = centre[d] - 0.5 * dis.cell[d];
-        to[d] = centre[d] + 0.5 * dis.cell[d];
+        from[d] -= 0.5 * dis.cell[d];
+        to[d] += 0.5 * dis.cell[d];
       }
-      return cases::mean_over_box<dim>(
-          [&](const std::array<double, dim> &at)
+      return cases::mean_over_box(
+          [&](const cases::Position &p)
           {
-            cases::Position p = centre;
-            std::ranges::copy(at, p.begin());
             const double temperature = scene.initial.temperature(p, scene.start_time);
             return scene.material.enthalpy(
                 temperature,
@@ -146,21 +143,7 @@ namespace meltfront::particles
                     ? scene.initial.solid_fraction_at_melting
                     : double(level(p, scene.start_time) < 0));
           },
-          from, to, parts, halvings);
-    }
-
-    double mean_over_cell(const Discretisation &dis, const cases::Position &centre,
-                          const cases::Field &level)
-    {
-      switch(dis.dimension)
-      {
-      case 1:
-        return mean_over_cell<1>(dis, centre, level);
-      case 2:
-        return mean_over_cell<2>(dis, centre, level);
-      default:
-        return mean_over_cell<3>(dis, centre, level);
-      }
+          centre, from, to, dis.dimension, parts, halvings);
     }
 
     /** A level set decides on the phase; a cell of the plane or of space that it cuts is

@@ -11,7 +11,6 @@ namespace meltfront::verification
   namespace
   {
     constexpr int intervals = 64;
-    constexpr int points_seen_across = 32;        ///< of a wall, see points_on()
     constexpr double offset = 0.7745966692414834; // sqrt(3/5)
 
     /** Heat of a power between two times, and what it would be if all were positive. */
