@@ -210,7 +210,8 @@ namespace meltfront::cases
     }
   } // namespace
 
-  Scene with_means_of_jumps(const Scene &scene, double width)
+  Scene with_means_of_jumps(const Scene &scene,
+                            const std::function<double(Side)> &width_on)
   {
     Scene result = scene;
     for(const Side side : scene.sides())
@@ -218,7 +219,7 @@ namespace meltfront::cases
       Boundary &wall = *result.boundaries[static_cast<std::size_t>(side)];
       if(wall.exact || !jumps(wall.value))
         continue;
-      const PatchAbout patch_about = patches_of(scene, side, width);
+      const PatchAbout patch_about = patches_of(scene, side, width_on(side));
       if(!patch_about)
         continue;
       wall.value.value = [wall, patch_about](const Position &place, double time)

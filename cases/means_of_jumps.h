@@ -3,12 +3,14 @@
 
 #include <cases/scene.h>
 
+#include <functional>
+
 namespace meltfront::cases
 {
   /**
-   * A scene as a method sees it whose nodes or particles lie a distance `width` (m) apart
-   * along walls: what a wall gives and what jumps along it, as far as its expression
-   * tells (may_jump_with()), is at a place the mean
+   * A scene as a method sees it whose nodes or particles lie a distance `width_on` (m)
+   * apart along each wall: what a wall gives and what jumps along it, as far as its
+   * expression tells (may_jump_with()), is at a place the mean
    *
    *   1/width integral over the wall within width/2 of the place
    *
@@ -19,7 +21,8 @@ namespace meltfront::cases
    * radiates it is the mean of the ambient temperature's fourth powers. Walls of a mesh
    * give what they were given.
    */
-  Scene with_means_of_jumps(const Scene &scene, double width);
+  Scene with_means_of_jumps(const Scene &scene,
+                            const std::function<double(Side)> &width_on);
 
   /** The same of what a scene with a volumetric source releases throughout, for a method
    * that takes it at one place of each cell: where it jumps in space the mean over the

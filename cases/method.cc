@@ -19,7 +19,8 @@ namespace meltfront::cases
       complete.options = Options(option_declarations());
     require_affordable(*this, demand(scene, effects, complete), complete.memory_limit);
     const Stopwatch watch;
-    const Scene seen = with_means_of_jumps(scene, scene.domain.side() / complete.n);
+    const Scene seen = with_means_of_jumps(
+        scene, [&](Side side) { return spacing_along_wall(scene, side, complete); });
     const std::unique_ptr<Run> run = set_up(seen, effects, complete);
     return run->carry_out(seen, watch, observer);
   }
@@ -27,6 +28,12 @@ namespace meltfront::cases
   Demand Method::demand(const Scene &, const EffectSet &, const Resolution &) const
   {
     return {};
+  }
+
+  double Method::spacing_along_wall(const Scene &scene, Side,
+                                    const Resolution &resolution) const
+  {
+    return scene.domain.side() / resolution.n;
   }
 
   Capabilities require_capable(const Method &method, const Scene &scene,

@@ -19,6 +19,7 @@ namespace meltfront::cases
 {
   class Run;
   struct Scene;
+  enum class Side;
 
   /** How finely, and with which values of its options, a method is to solve a scene. */
   struct Resolution
@@ -237,6 +238,14 @@ namespace meltfront::cases
      * default nothing is known. Allocates nothing. */
     virtual Demand demand(const Scene &scene, const EffectSet &effects,
                           const Resolution &resolution) const;
+
+    /**
+     * Distance along a wall (m) of the nodes or particles that take what it gives: what
+     * jumps there comes to them as its mean over that distance (with_means_of_jumps()).
+     * By default the domain's side over n.
+     */
+    virtual double spacing_along_wall(const Scene &scene, Side side,
+                                      const Resolution &resolution) const;
 
   protected:
     Method(std::string name, std::string summary, std::string corrected_form = {})

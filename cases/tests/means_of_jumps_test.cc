@@ -25,7 +25,9 @@ namespace
 
   double seen(const Scene &scene, double width, Side side, const Position &place)
   {
-    return with_means_of_jumps(scene, width).boundary(side).value(place, 0);
+    return with_means_of_jumps(scene, [width](Side) { return width; })
+        .boundary(side)
+        .value(place, 0);
   }
 
   Scene unit_box(int dimension)

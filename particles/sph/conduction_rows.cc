@@ -4,6 +4,7 @@
 #include <particles/sph/conduction_rows.h>
 #include <particles/sph/outline_shares.h>
 #include <particles/sph/square_lattice.h>
+#include <particles/sph/wall_areas.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,8 +63,9 @@ namespace meltfront::particles
         }
         if(!crossings.empty())
           link_to_outline();
-        normalise_areas(result.flux_points, result.flux_links);
-        normalise_areas(result.exchange_points, result.exchange_links);
+        share_walls(dis, {result.flux_points, result.flux_links});
+        share_walls(dis, {result.exchange_points, result.exchange_links,
+                          &result.exchange_depths});
         for(const WallLink &link : result.temperature_links)
           row_sum[link.row] += link.strength;
         // At most what a wall of given temperature would exchange.
@@ -380,52 +382,6 @@ namespace meltfront::particles
           if(exchange)
             result.exchange_depths.push_back(share.depth);
         }
-      }
-
-      /** Make the areas of the particles that share a wall's heat add up to the wall. */
-      void normalise_areas(const std::vector<WallPoint> &points,
-                           std::vector<WallLink> &links) const
-      {
-        for(const cases::Side side : dis.scene.sides())
-        {
-          const cases::Boundary &boundary = dis.scene.boundary(side);
-          ExactSum own;
-          for(const WallLink &link : links)
-            if(points[link.point].boundary == &boundary)
-              own.add(link.strength);
-          const double sum = dis.own.total(own);
-          for(WallLink &link : links)
-            if(points[link.point].boundary == &boundary)
-              link.strength *= wall_area(side) / sum;
-        }
-      }
-
-      double wall_area(cases::Side side) const
-      {
-        for(const RoundWall &wall : dis.round_walls)
-          if(wall.boundary == &dis.scene.boundary(side))
-            return wall.area(dis.dimension);
-        const cases::Domain &domain = dis.scene.domain;
-        if(domain.outline)
-          return domain.outline->perimeter();
-        if(domain.shape == cases::DomainShape::axisymmetric)
-          return area_about_axis(domain, side);
-        double area = dis.cross_section;
-        if(domain.shape == cases::DomainShape::box)
-          for(int d = 0; d < dis.dimension; ++d)
-            if(d != static_cast<int>(side) / 2)
-              area *= domain.upper[d] - domain.lower[d];
-        return area;
-      }
-
-      static double area_about_axis(const cases::Domain &domain, cases::Side side)
-      {
-        using std::numbers::pi;
-        const double inner = domain.lower[0], outer = domain.upper[0];
-        if(side == cases::Side::y_min || side == cases::Side::y_max)
-          return pi * (outer - inner) * (outer + inner);
-        return 2 * pi * (side == cases::Side::x_min ? inner : outer)
-               * (domain.upper[1] - domain.lower[1]);
       }
 
       /**

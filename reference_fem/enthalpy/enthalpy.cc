@@ -110,6 +110,12 @@ namespace meltfront::reference_fem
         return std::make_unique<EnthalpyRun>(scene, effects, resolution);
       }
 
+      double spacing_along_wall(const cases::Scene &scene, cases::Side side,
+                                const cases::Resolution &resolution) const override
+      {
+        return reference_fem::spacing_along_wall(scene, side, resolution.n);
+      }
+
       cases::Capabilities capabilities_on_ranks() const override
       {
         return rank_capabilities();

@@ -1,5 +1,7 @@
 #include <cases/exact/heat_quadrature.h>
+#include <cases/expression_words.h>
 #include <cases/initial_level.h>
+#include <cases/mean_with_jumps.h>
 #include <reference_fem/enthalpy/initial_state.h>
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -15,32 +17,67 @@ namespace meltfront::reference_fem
     using cases::Position;
     using cases::Symmetry;
 
-    /** What the averages are made of: the front decides on the phase, not the sign of a
-     * temperature that may be the melting point's. */
+    /** Parts and halvings of them in search of what jumps: along a line, and in each
+     * direction of a box. */
+    constexpr int parts_of_line = 4, halvings_of_line = 12, parts_in_box = 2,
+                  halvings_in_box = 6;
+
+    /** What the averages are made of: the front, where there is one, decides on the
+     * phase, not the sign of a temperature that may be the melting point's. */
     class Start
     {
     public:
-      Start(const cases::Scene &scene, const cases::Field &front)
+      Start(const cases::Scene &scene, const std::optional<cases::Field> &front)
         : scene(scene)
         , front(front)
+        , jumps(!scene.initial.exact
+                && cases::may_jump_with(scene.initial.temperature.expression, "xyz"))
       {
+      }
+
+      /** Whether nodes take averages, or values where they are. */
+      bool averaged() const
+      {
+        return front || jumps;
+      }
+
+      /** Whether the temperature may jump elsewhere than at the front. */
+      bool may_jump() const
+      {
+        return jumps;
       }
 
       /** Enthalpy per volume at a point. */
       double operator()(const Position &p) const
       {
-        return enthalpy(p, solid(p));
+        return front ? enthalpy(p, solid(p)) : at_node(p);
+      }
+
+      /** The same where the material's own law is taken at a point. */
+      double at_node(const Position &p) const
+      {
+        return scene.material.solid.density
+               * scene.material.enthalpy(scene.initial.temperature(p, scene.start_time),
+                                         front ? double(solid(p))
+                                               : scene.initial.solid_fraction_at_melting);
       }
 
       bool solid(const Position &p) const
       {
-        return front(p, scene.start_time) < 0;
+        return front && (*front)(p, scene.start_time) < 0;
       }
 
       /** Average between two coordinates on the axis of x with the measure of a symmetry,
        * each phase integrated up to the front. */
       double average(Symmetry measure, double lower, double upper) const
       {
+        if(jumps)
+          return cases::mean_with_jumps(
+                     [&](double x) {
+                       return cases::surface(measure, x) * (*this)({x, 0, 0});
+                     },
+                     lower, upper, parts_of_line, halvings_of_line)
+                 * (upper - lower) / cases::volume_between(measure, lower, upper);
         const double split = front_between(lower, upper);
         return (integral(measure, lower, split) + integral(measure, split, upper))
                / cases::volume_between(measure, lower, upper);
@@ -49,7 +86,7 @@ namespace meltfront::reference_fem
     private:
       double level(double x) const
       {
-        return front({x, 0, 0}, scene.start_time);
+        return (*front)({x, 0, 0}, scene.start_time);
       }
 
       double enthalpy(const Position &p, bool solid) const
@@ -98,7 +135,8 @@ namespace meltfront::reference_fem
       }
 
       const cases::Scene &scene;
-      const cases::Field &front;
+      const std::optional<cases::Field> &front;
+      bool jumps;
     };
 
     /** The level set of the front at the start, where the scene has one. */
@@ -140,6 +178,31 @@ namespace meltfront::reference_fem
       return level;
     }
 
+    /** Average over the part of a box nearest to a node, where the cells about it are as
+     * large as the smallest; else nothing. */
+    std::optional<double> average_over_part(const cases::Scene &scene, const Start &start,
+                                            const Discretisation &discretisation,
+                                            std::size_t node)
+    {
+      const cases::Domain &domain = scene.domain;
+      const Position &middle = discretisation.positions[node];
+      Position from = middle, to = middle;
+      double volume = 1;
+      for(std::size_t d = 0; d < static_cast<std::size_t>(domain.dimension); ++d)
+      {
+        const double side = domain.upper[d] - domain.lower[d];
+        const double half
+            = side / std::max(1., std::round(side / discretisation.spacing)) / 2;
+        from[d] = std::max(middle[d] - half, domain.lower[d]);
+        to[d] = std::min(middle[d] + half, domain.upper[d]);
+        volume *= to[d] - from[d];
+      }
+      if(std::abs(volume - discretisation.volume[node]) > 1e-6 * volume)
+        return {};
+      return cases::mean_over_box(start, middle, from, to, domain.dimension, parts_in_box,
+                                  halvings_in_box);
+    }
+
     std::vector<double> averages(const cases::Scene &scene, const Start &start,
                                  const Mesh &mesh, const Discretisation &discretisation)
     {
@@ -147,8 +210,15 @@ namespace meltfront::reference_fem
       const Symmetry measure = discretisation.measure;
       const double half = discretisation.spacing / 2;
       if(measure == Symmetry::none && scene.domain.shape != cases::DomainShape::slab)
-        return mesh.node_averages(start,
-                                  [&](const Position &p) { return start.solid(p); });
+      {
+        std::vector<double> result = mesh.node_averages(start, [&](const Position &p)
+                                                        { return start.solid(p); });
+        if(start.may_jump() && scene.domain.rectangular())
+          for(std::size_t i = 0; i < n; ++i)
+            result[i]
+                = average_over_part(scene, start, discretisation, i).value_or(result[i]);
+        return result;
+      }
       std::vector<double> result(n);
       double lower = scene.domain.inner_radius;
       double volume = cases::volume_between(measure, 0, lower);
@@ -179,19 +249,13 @@ namespace meltfront::reference_fem
     std::optional<cases::Field> front = initial_front(scene);
     if(!front && !scene.initial.exact)
       front = temperature_front(scene, mesh, discretisation);
-    std::vector<double> result
-        = front ? averages(scene, Start(scene, *front), mesh, discretisation)
-                : std::vector<double>(n);
+    const Start start(scene, front);
+    std::vector<double> result = start.averaged()
+                                     ? averages(scene, start, mesh, discretisation)
+                                     : std::vector<double>(n);
     for(std::size_t i = 0; i < n; ++i)
-      if(!front || !free[i])
-      {
-        const Position &p = discretisation.positions[i];
-        const double solid = front ? double((*front)(p, scene.start_time) < 0)
-                                   : scene.initial.solid_fraction_at_melting;
-        result[i] = scene.material.solid.density
-                    * scene.material.enthalpy(
-                        scene.initial.temperature(p, scene.start_time), solid);
-      }
+      if(!start.averaged() || !free[i])
+        result[i] = start.at_node(discretisation.positions[i]);
     return result;
   }
 } // namespace meltfront::reference_fem

@@ -106,6 +106,16 @@ namespace meltfront::reference_fem
    * volume of one (of two triangles, of six tetrahedra). */
   double cells_along(const cases::Scene &scene, int n);
 
+  /** Mean distance (m) of the nodes on a wall of a disk, a ball or a shell, and of other
+   * domains the cells' size: of meshes with the scene's own dimension. */
+  double spacing_along_wall(const cases::Scene &scene, cases::Side side, int n);
+
+  /** Cells of a shell along a circle in the plane, a multiple of eight: the mesh has the
+   * symmetries of a square. In space the times that the six faces of a cube are halved.
+   * Their size comes near to side/n in the middle between the walls. */
+  unsigned int cells_around_shell(const cases::Domain &domain, int n);
+  int halvings_of_shell(const cases::Domain &domain, int n);
+
   /**
    * Mesh a scene with n cells along the domain's side. The mesh refers to the scene,
    * which has to outlive it.

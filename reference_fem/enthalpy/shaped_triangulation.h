@@ -161,14 +161,12 @@ namespace meltfront::reference_fem
   void ShapedTriangulation<dim>::mesh_shell(const cases::Domain &domain, int n)
   {
     const double inner = domain.inner_radius, thickness = domain.radius - inner;
-    const double middle = inner + thickness / 2, wanted = domain.side() / n;
+    const double wanted = domain.side() / n;
     if constexpr(dim == 2)
     {
       const auto layers
           = static_cast<unsigned int>(std::max(1L, std::lround(thickness / wanted)));
-      // A multiple of eight: the mesh has the symmetries of a square.
-      const auto around = static_cast<unsigned int>(
-          8 * std::max(1L, std::lround(2 * std::numbers::pi * middle / wanted / 8)));
+      const unsigned int around = cells_around_shell(domain, n);
       std::vector<dealii::Point<2>> vertices;
       std::vector<dealii::CellData<2>> cells;
       for(unsigned int i = 0; i < around; ++i)
@@ -191,9 +189,7 @@ namespace meltfront::reference_fem
     }
     else if constexpr(dim == 3)
     {
-      const double quarter = std::numbers::pi / 2 * middle;
-      const int refinements
-          = std::max(0, static_cast<int>(std::lround(std::log2(quarter / wanted))));
+      const int refinements = halvings_of_shell(domain, n);
       const auto layers = static_cast<unsigned int>(
           std::max(1L, std::lround(thickness / wanted / (1 << refinements))));
       dealii::GridGenerator::concentric_hyper_shells(triangulation, dealii::Point<3>(),

@@ -3,6 +3,7 @@
 #include <cases/capabilities.h>
 #include <cases/error.h>
 #include <cases/exact_solution.h>
+#include <cases/expression_words.h>
 #include <particles/rkpm_tracked/plane/enthalpy_particles.h>
 #include <particles/sph/sph.h>
 
@@ -104,6 +105,13 @@ namespace meltfront::particles::rkpm_tracked
                                   { return origin == FrontOrigin::wall; });
   }
 
+  bool starts_with_jumps(const cases::Scene &scene)
+  {
+    return !scene.initial.exact && scene.sources.empty()
+           && !cases::metastable_initial_phase(scene) && !starts_from_one_phase(scene)
+           && cases::may_jump_with(scene.initial.temperature.expression, "xyz");
+  }
+
   ParticleStart::ParticleStart(const cases::Scene &scene, const cases::EffectSet &effects,
                                const cases::Resolution &resolution,
                                const PlaneNodes &nodes,
@@ -116,8 +124,20 @@ namespace meltfront::particles::rkpm_tracked
   {
     particles = along_side(parameters.start_refinement);
     const double whole = scene.end_time - scene.start_time,
-                 fastest = std::max(scene.material.solid.diffusivity(),
-                                    scene.material.liquid.diffusivity());
+                 solid = scene.material.solid.diffusivity(),
+                 liquid = scene.material.liquid.diffusivity(),
+                 fastest = std::max(solid, liquid);
+    if(starts_with_jumps(scene))
+    {
+      const double duration = depth * depth / (4 * std::min(solid, liquid));
+      if(!(duration < whole))
+        throw cases::Refusal(fmt::format(
+            "{} does not resolve what jumps at the start: it takes {:.3g} s to be smooth "
+            "over {:g} nodes, longer than the run: take more nodes, a later end, or sph",
+            method_name, duration, parameters.start_depth));
+      time = scene.start_time + duration;
+      return;
+    }
     bool found = false;
     for(double duration = std::min(whole, nodes.spacing * nodes.spacing / fastest);
         !found; duration = std::min(whole, later * duration))
@@ -186,7 +206,8 @@ namespace meltfront::particles::rkpm_tracked
     catch(const cases::Refusal &refusal)
     {
       throw cases::Refusal(fmt::format("{} starts from sph where one phase fills the "
-                                       "domain, and that refuses: {}",
+                                       "domain or its temperature jumps, and that "
+                                       "refuses: {}",
                                        method_name, refusal.what()));
     }
   }

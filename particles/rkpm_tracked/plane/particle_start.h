@@ -14,10 +14,16 @@ namespace meltfront::particles::rkpm_tracked
    * melt or freeze anything. */
   bool starts_from_one_phase(const cases::Scene &scene);
 
+  /** Whether solid and liquid are there at the start, and temperatures that jump, as
+   * those of bodies that touch do; no source and no undercooled or superheated phase,
+   * which `sph` does not take. */
+  bool starts_with_jumps(const cases::Scene &scene);
+
   /**
    * The part of a run before its front is resolved, made by `sph` in the same domain:
    * from the scene's start until the phase that is new is so many nodes deep wherever it
-   * is, or three times as deep somewhere.
+   * is, or three times as deep somewhere; or until what jumps at the start is smooth over
+   * so many nodes, 2 sqrt(alpha t) of the phase with the smaller diffusivity.
    */
   class ParticleStart
   {
@@ -25,11 +31,11 @@ namespace meltfront::particles::rkpm_tracked
     using Visit = std::function<void(const cases::Snapshot &)>;
 
     /**
-     * Finds out when that is, by runs of `sph` with as many particles as nodes, whose
-     * ends are four times as late each time.
+     * Finds out when a new phase is so deep, by runs of `sph` with as many particles as
+     * nodes, whose ends are four times as late each time.
      * @param scene, effects, resolution, nodes outlive this
-     * @throws cases::Refusal where `sph` does not take the scene, or where no front gets
-     * so deep before its end
+     * @throws cases::Refusal where `sph` does not take the scene, or where nothing gets
+     * so deep or so smooth before its end
      */
     ParticleStart(const cases::Scene &scene, const cases::EffectSet &effects,
                   const cases::Resolution &resolution, const PlaneNodes &nodes,
@@ -39,10 +45,11 @@ namespace meltfront::particles::rkpm_tracked
      * @return what it cost */
     cases::Cost run(const Visit &visit) const;
 
-    double time = 0;                        ///< of the handing over (s)
-    double least_depth = 0, most_depth = 0; ///< spacings, then, as the last search saw it
-    int particles = 0;                      ///< along the side
-    long search_work = 0;                   ///< interactions that the search touched
+    double time = 0; ///< of the handing over (s)
+    /** Of a new phase (spacings), then, as the last search saw it; else 0. */
+    double least_depth = 0, most_depth = 0;
+    int particles = 0;    ///< along the side
+    long search_work = 0; ///< interactions that the search touched
 
   private:
     bool search(double end);

@@ -49,7 +49,12 @@ namespace meltfront::particles::rkpm_tracked
           "{} does not simulate, in the plane, a front that sets out from a wall beside "
           "others: only where one phase fills the domain at the start",
           method_name));
-    start_from_front();
+    if(!starts_with_jumps(scene))
+      return start_from_front();
+    before.emplace(scene, effects, resolution, nodes, parameters);
+    start_in_words = fmt::format("sph with {} particles along the side until {:.6g} s, "
+                                 "what jumps at the start smooth over {:g} spacings",
+                                 before->particles, before->time, parameters.start_depth);
   }
 
   void PlaneRun::start_from_front()

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace meltfront::particles::testing
 {
@@ -157,6 +158,38 @@ namespace meltfront::particles::testing
           // Of unit heat capacities and latent heat.
           EXPECT_NEAR(outcome.heat.initial, -2 * at + 2 * (1 - at), 5e-3);
         }
+    }
+
+    // Particles lie at irregular distances along a rim.
+    TEST(Jumps, AroundARimBringTheirHeat)
+    {
+      for(const bool hollow : {false, true})
+        for(const double at : {0., 0.113, 0.31})
+          for(const int n : {16, 20})
+          {
+            Problem problem;
+            cases::Scene &scene = problem.scene;
+            scene = ball(unit_material(), 2, 0.5, 0, 0.02);
+            scene.symmetry = cases::Symmetry::none;
+            double expected = 0;
+            const auto heat = [&](cases::Side side, double radius)
+            {
+              set_boundary(scene, side,
+                           {cases::BoundaryKind::flux, step_along_x(at, -6, 2)});
+              const double above = at < radius ? 2 * radius * std::acos(at / radius) : 0;
+              expected
+                  += 0.02 * (2 * above - 6 * (2 * std::numbers::pi * radius - above));
+            };
+            heat(cases::Side::outer, 0.5);
+            if(hollow)
+            {
+              scene.domain.shape = cases::DomainShape::shell;
+              scene.domain.inner_radius = 0.2;
+              heat(cases::Side::inner, 0.2);
+            }
+            const Outcome outcome = run(*method, problem, n);
+            EXPECT_NEAR(outcome.heat.boundary, expected, 5e-4);
+          }
     }
   } // namespace
 } // namespace meltfront::particles::testing

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace meltfront::reference_fem::tests
 {
@@ -87,6 +88,55 @@ namespace meltfront::reference_fem::tests
           EXPECT_NEAR(record.heat.boundary, 0.2 * (2 - 8 * at), 1e-3);
           EXPECT_NEAR(record.heat.sources, 0.2 * (-3 + 4 * at), 1e-3);
         }
+    }
+
+    // What jumps at the start is all there, in lines, in boxes, and in pipes.
+    TEST(Pulse, JumpsAtTheStartBringTheirHeat)
+    {
+      for(const double at : {0.25, 0.5, 0.513, 0.537})
+        for(const int n : {10, 16})
+        {
+          const auto heat_of = [&](Scene scene)
+          {
+            scene.initial.temperature = step_along_x(at, -2, 1);
+            return test_support::course_of(*make_fem_enthalpy(), scene, n).heat.initial;
+          };
+          const Material material = without_latent_heat();
+          // The melting temperature, where there is none, is one.
+          EXPECT_NEAR(heat_of(slab(material, 1, 0, 0, 1e-3)), -3 * at, 1e-5);
+          EXPECT_NEAR(heat_of(box(material, 2, {0, 0, 0}, {1, 1, 0}, 0, 1e-3)), -3 * at,
+                      2.5e-3);
+          EXPECT_NEAR(heat_of(ball(material, 2, 1, 0, 1e-3)),
+                      -3 * std::numbers::pi * at * at, 1e-3);
+        }
+    }
+
+    // Nodes on a rim are farther apart than cells are wide, or nearer, within a pipe.
+    TEST(Pulse, JumpsAroundARimBringTheirHeat)
+    {
+      for(const bool hollow : {false, true})
+        for(const double at : {0., 0.113, 0.31})
+          for(const int n : {8, 16})
+          {
+            Scene scene = ball(without_latent_heat(), 2, 0.5, 0, 0.2);
+            scene.symmetry = Symmetry::none;
+            double expected = 0;
+            const auto heat = [&](Side side, double radius)
+            {
+              set_boundary(scene, side, {BoundaryKind::flux, step_along_x(at, -6, 2)});
+              const double above = at < radius ? 2 * radius * std::acos(at / radius) : 0;
+              expected += 0.2 * (2 * above - 6 * (2 * std::numbers::pi * radius - above));
+            };
+            heat(Side::outer, 0.5);
+            if(hollow)
+            {
+              scene.domain.shape = cases::DomainShape::shell;
+              scene.domain.inner_radius = 0.2;
+              heat(Side::inner, 0.2);
+            }
+            const Course record = test_support::course_of(*make_fem_enthalpy(), scene, n);
+            EXPECT_NEAR(record.heat.boundary, expected, 2e-3);
+          }
     }
 
     // What has no breakpoint that a step ends at, since it moves.

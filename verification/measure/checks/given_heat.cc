@@ -86,8 +86,8 @@ namespace meltfront::verification
   {
     using cases::BoundaryKind;
     // Points see where a wall's data jump to within their distance only, their means all.
-    const cases::Scene seen
-        = cases::with_means_of_jumps(scene, point_distance_on_walls(scene.domain));
+    const cases::Scene seen = cases::with_means_of_jumps(
+        scene, [&](cases::Side) { return point_distance_on_walls(scene.domain); });
     // What is displaced carries heat through a wall.
     if(scene.material.solid.density != scene.material.liquid.density)
       unknown_walls = "liquid that is displaced carries heat through walls";

@@ -26,6 +26,9 @@ namespace meltfront::verification
 
     constexpr int times_of_run = 9;
 
+    /** Spacings within which a tip is one wide: an angle of an eighth or more. */
+    constexpr int steps_to_widen = 8;
+
     /** A temperature that is given at places of a domain, which is flat for a wall, or of
      * the wall that bends about it. */
     struct GivenTemperature
@@ -75,7 +78,7 @@ namespace meltfront::verification
         for(const Suspect &suspect : suspects)
           for(int d = 0; d < given.domain.dimension; ++d)
             if(const double departure = departure_of(suspect, d, spacing / 2);
-               departure > largest)
+               departure > largest && !widens(suspect, d, spacing))
             {
               largest = departure;
               found = suspect.place;
@@ -124,6 +127,33 @@ namespace meltfront::verification
         return departures[0] * departures[1] > 0
                    ? std::min(std::abs(departures[0]), std::abs(departures[1]))
                    : 0;
+      }
+
+      /** Whether it is the tip of what is wider elsewhere: of a wedge, a disk, or of one
+       * side of a step that meets a wall at an angle. Wider within a few spacings, and
+       * half as wide half way, so that a thin layer that ends at a body is none. */
+      bool widens(const Suspect &suspect, int d, double spacing) const
+      {
+        if(given.on_bent_wall)
+          return false;
+        for(int other = 0; other < given.domain.dimension; ++other)
+          for(int step = 1; other != d && step <= steps_to_widen; ++step)
+            for(const double way : {-step * spacing, step * spacing})
+              if(is_as_wide(suspect, moved(suspect.place, other, way), d, spacing)
+                 && is_as_wide(suspect, moved(suspect.place, other, way / 2), d,
+                               spacing / 2))
+                return true;
+        return false;
+      }
+
+      bool is_as_wide(const Suspect &suspect, const Position &place, int d,
+                      double width) const
+      {
+        if(!lies_in_domain(place))
+          return false;
+        const Suspect beside{place, suspect.time, given.field(place, suspect.time)};
+        return std::abs(beside.value - suspect.value) <= least
+               && departure_of(beside, d, width / 2) <= least;
       }
 
       /** An outline has one direction, along itself. */

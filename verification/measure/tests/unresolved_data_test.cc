@@ -114,6 +114,37 @@ TEST(UnresolvedData, SpotsOnRoundWalls)
   EXPECT_EQ(unresolved_data(scene, 0.05), "");
 }
 
+// The tip of a wedge is narrow, and so is one side of a step where it meets a wall at an
+// angle; what stays narrow along itself is a feature, also where it ends at a body.
+TEST(UnresolvedData, TipsOfWhatIsWideAreNoFeatures)
+{
+  Scene scene;
+  scene.domain.shape = DomainShape::box;
+  scene.domain.dimension = 2;
+  scene.domain.upper = {1, 1, 0};
+  const auto start_in = [&](const std::string &words, auto inside)
+  {
+    scene.initial.temperature = field_of(words, [inside](const Position &p)
+                                         { return inside(p[0], p[1]) ? -1. : 1.; });
+    return unresolved_data(scene, 0.05);
+  };
+  for(const double slope : {0.2, 0.4, 1., 3.})
+    EXPECT_EQ(start_in("if(x + slope*y < 0.617, -1, 1)",
+                       [slope](double x, double y) { return x + slope * y < 0.617; }),
+              "")
+        << slope;
+  EXPECT_EQ(start_in("if(abs(x - 0.5) + abs(y - 0.5) < 0.3, -1, 1)",
+                     [](double x, double y)
+                     { return std::abs(x - 0.5) + std::abs(y - 0.5) < 0.3; }),
+            "");
+  EXPECT_NE(start_in("if(abs(x + 0.4*y - 0.617) < 0.01, -1, 1)", [](double x, double y)
+                     { return std::abs(x + 0.4 * y - 0.617) < 0.01; }),
+            "");
+  EXPECT_NE(start_in("if((y < 0.01) || (x < 0.3), -1, 1)",
+                     [](double x, double y) { return y < 0.01 || x < 0.3; }),
+            "");
+}
+
 // Beside a place of a wall that bends there is wall on both sides.
 TEST(UnresolvedData, AStepOnAWallThatBendsIsNoFeature)
 {

@@ -61,6 +61,29 @@ namespace meltfront::verification
     }
   }
 
+  void SceneMaker::let_bodies_touch()
+  {
+    const std::string front = draft.value(initial, "front");
+    if(start_sign == 0 && front.empty() && problem == Problem::pure)
+      return;
+    if(!random.chance(front.empty() ? 0.15 : 0.3))
+      return;
+    const std::string before = draft.value(initial, "temperature");
+    std::string level = front;
+    double lower = -random.uniform(0.05, 1), upper = random.uniform(0.05, 1);
+    if(front.empty())
+    {
+      level = fmt::format("{} - {}", coordinate,
+                          words(first + (last - first) * random.uniform(0.15, 0.85)));
+      lower = problem == Problem::pure ? start_sign * random.uniform(0.05, 1) : lower;
+      upper = problem == Problem::pure ? start_sign * random.uniform(0.05, 1) : upper;
+    }
+    draft.set(initial, "temperature",
+              fmt::format("if({} < 0, {}, {})", level, words(warmer(lower)),
+                          words(warmer(upper))),
+              {before});
+  }
+
   void SceneMaker::choose_start_with_front(int kind, double sign, double from, double to)
   {
     std::string level = coordinate;

@@ -58,6 +58,8 @@ namespace meltfront::verification
     bound_by_polygon();
     if(problem != Problem::steady)
       vary_along_walls();
+    if(problem == Problem::pure || problem == Problem::heat)
+      let_bodies_touch();
     return draft;
   }
 

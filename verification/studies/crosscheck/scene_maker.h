@@ -85,6 +85,10 @@ namespace meltfront::verification
     /** Solid on one side of a plane, a circle or a sphere, with linear profiles. */
     void choose_start_with_front(int kind, double sign, double from, double to);
 
+    /** Let two bodies touch at the start: solid and liquid at its front, or two parts of
+     * one phase. */
+    void let_bodies_touch();
+
     // In random_bends.cc:
 
     /** Give what starts with a front one that is bent: an ellipse, two disks, a wave. */
