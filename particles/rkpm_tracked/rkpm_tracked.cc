@@ -78,7 +78,7 @@ namespace meltfront::particles
                 ? per_line_node
                 : per_plane_node
                       + per_entry * entries * cases::fill_of_factors(dimension, nodes)
-                      + (starts_from_one_phase(scene) || starts_with_jumps(scene)
+                      + (starts_from_one_phase(scene) || may_start_with_jumps(scene)
                              ? per_particle * std::pow(parameters.start_refinement, 2)
                              : 0);
       return {cases::program_bytes + nodes * per_node, double(parameters.steps)};

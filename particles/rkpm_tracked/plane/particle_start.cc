@@ -33,6 +33,28 @@ namespace meltfront::particles::rkpm_tracked
      * the rim of a body and not its depth; and by how many spacings deeper. */
     constexpr double beside = 1.5, deeper = 0.5;
 
+    /** How near nodes are between which a jump is looked for (spacings), and of the range
+     * of temperatures the least that is one. */
+    constexpr double beside_node = 1.5, negligible_jump = 1e-3;
+
+    /** What is left of the difference between two places where most of it is, on halves
+     * of the way between them. */
+    template <typename Temperature>
+    double jump_between(const Temperature &temperature, PlanePoint from, PlanePoint to)
+    {
+      constexpr int halvings = 24;
+      double first = temperature(from), last = temperature(to);
+      for(int i = 0; i < halvings; ++i)
+      {
+        const PlanePoint middle = (from + to) / 2;
+        const double at = temperature(middle);
+        const bool later = std::abs(last - at) > std::abs(at - first);
+        (later ? from : to) = middle;
+        (later ? first : last) = at;
+      }
+      return std::abs(last - first);
+    }
+
     class Watch : public cases::Observer
     {
     public:
@@ -105,11 +127,37 @@ namespace meltfront::particles::rkpm_tracked
                                   { return origin == FrontOrigin::wall; });
   }
 
-  bool starts_with_jumps(const cases::Scene &scene)
+  bool may_start_with_jumps(const cases::Scene &scene)
   {
     return !scene.initial.exact && scene.sources.empty()
            && !cases::metastable_initial_phase(scene) && !starts_from_one_phase(scene)
            && cases::may_jump_with(scene.initial.temperature.expression, "xyz");
+  }
+
+  bool starts_with_jumps(const cases::Scene &scene, const PlaneNodes &nodes)
+  {
+    if(!may_start_with_jumps(scene))
+      return false;
+    const auto temperature = [&](const PlanePoint &place)
+    { return scene.initial.temperature(position_of(place), scene.start_time); };
+    std::vector<double> values;
+    for(const PlanePoint &place : nodes.position)
+      values.push_back(temperature(place));
+    const auto [lowest, highest] = std::ranges::minmax(values);
+    const double least = negligible_jump * (highest - lowest);
+    bool found = false;
+    for(std::size_t i = 0; i < nodes.size() && !found; ++i)
+      nodes.bins.visit(nodes.position[i], beside_node * nodes.spacing,
+                       [&](std::uint32_t other, double)
+                       {
+                         found = found
+                                 || (other > i
+                                     && std::abs(values[other] - values[i]) > least
+                                     && jump_between(temperature, nodes.position[i],
+                                                     nodes.position[other])
+                                            > least);
+                       });
+    return found;
   }
 
   ParticleStart::ParticleStart(const cases::Scene &scene, const cases::EffectSet &effects,
@@ -127,7 +175,7 @@ namespace meltfront::particles::rkpm_tracked
                  solid = scene.material.solid.diffusivity(),
                  liquid = scene.material.liquid.diffusivity(),
                  fastest = std::max(solid, liquid);
-    if(starts_with_jumps(scene))
+    if(!starts_from_one_phase(scene))
     {
       const double duration = depth * depth / (4 * std::min(solid, liquid));
       if(!(duration < whole))

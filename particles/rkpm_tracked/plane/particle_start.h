@@ -14,10 +14,13 @@ namespace meltfront::particles::rkpm_tracked
    * melt or freeze anything. */
   bool starts_from_one_phase(const cases::Scene &scene);
 
-  /** Whether solid and liquid are there at the start, and temperatures that jump, as
-   * those of bodies that touch do; no source and no undercooled or superheated phase,
-   * which `sph` does not take. */
-  bool starts_with_jumps(const cases::Scene &scene);
+  /** Whether solid and liquid are there at the start, and temperatures that may jump as
+   * those of bodies that touch do, as far as their expression tells; no source and no
+   * undercooled or superheated phase, which `sph` does not take. */
+  bool may_start_with_jumps(const cases::Scene &scene);
+
+  /** Whether they do, between nodes. */
+  bool starts_with_jumps(const cases::Scene &scene, const PlaneNodes &nodes);
 
   /**
    * The part of a run before its front is resolved, made by `sph` in the same domain:

@@ -49,7 +49,7 @@ namespace meltfront::particles::rkpm_tracked
           "{} does not simulate, in the plane, a front that sets out from a wall beside "
           "others: only where one phase fills the domain at the start",
           method_name));
-    if(!starts_with_jumps(scene))
+    if(!starts_with_jumps(scene, nodes))
       return start_from_front();
     before.emplace(scene, effects, resolution, nodes, parameters);
     start_in_words = fmt::format("sph with {} particles along the side until {:.6g} s, "
