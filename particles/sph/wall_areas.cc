@@ -1,3 +1,4 @@
+#include <cases/dense_sampling.h>
 #include <particles/sph/exact_sum.h>
 #include <particles/sph/wall_areas.h>
 
@@ -83,6 +84,8 @@ namespace meltfront::particles
     void share_circle(const RoundWall &wall, double longest, WallShares &shares)
     {
       const std::vector<Arc> arcs = arcs_in_order(wall, shares.points, shares.links);
+      if(arcs.empty())
+        return;
       double end = 0, turn = 0;
       for(const Arc &arc : arcs)
       {
@@ -140,7 +143,7 @@ namespace meltfront::particles
     }
     if(dis.dimension == 2)
       for(const RoundWall &wall : dis.round_walls)
-        if(!wall.boundary->value.constant)
+        if(cases::may_vary_with(wall.boundary->value, "xyz"))
           share_circle(wall, longest_part * dis.spacing, shares);
   }
 } // namespace meltfront::particles
