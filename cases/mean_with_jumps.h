@@ -64,6 +64,27 @@ namespace meltfront::cases
         },
         from[last], to[last], parts, halvings);
   }
+
+  /** What is left of the difference of a function between two places where most of it is,
+   * on halves of the way from one to the other: of a jump its height, of what is
+   * continuous next to nothing. @param value of a Position */
+  template <typename Function>
+  double jump_between(const Function &value, Position from, Position to)
+  {
+    constexpr int halvings = 24;
+    double first = value(from), last = value(to);
+    for(int halving = 0; halving < halvings; ++halving)
+    {
+      Position middle{};
+      for(std::size_t d = 0; d < middle.size(); ++d)
+        middle[d] = (from[d] + to[d]) / 2;
+      const double at = value(middle);
+      const bool later = std::abs(last - at) > std::abs(at - first);
+      (later ? from : to) = middle;
+      (later ? first : last) = at;
+    }
+    return std::abs(last - first);
+  }
 } // namespace meltfront::cases
 
 #endif

@@ -100,6 +100,11 @@ namespace meltfront::cases
 
     HeatBudget heat;
 
+    /** Of bodies that a method took out because they were too small for it, its heat
+     * shared out about them: what may still be there by the rate at which they shrank (in
+     * the measure of the scene). Error bars of the solid's volume are no smaller. */
+    double vanished_volume = 0;
+
     /** Of an alloy, for each solute: its mass over all the mass at a site; the liquid
      * there holds this over 1 - solid_fraction. Empty for a solute that is not simulated.
      */

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -54,6 +55,20 @@ namespace
         = [](const Position &p) { return p[0] * p[0] + p[1] * p[1] < 1 ? 1. : 0.; };
     EXPECT_NEAR(mean_over_box(disk, {}, {0, 0, 0}, {1, 1, 0}, 2, 32, 8),
                 std::numbers::pi / 4, 2e-4);
+  }
+
+  TEST(JumpBetween, IsTheHeightOfAStepAndNextToNothingOfARamp)
+  {
+    const auto value = [](double of_ramp)
+    {
+      return [of_ramp](const Position &p)
+      { return (p[0] + 0.4 * p[1] < 0.617 ? -0.9 : 0.6) + of_ramp * p[0]; };
+    };
+    EXPECT_NEAR(jump_between(value(0.3), {0.4, 0.1, 0}, {0.7, 0.3, 0}), 1.5, 1e-6);
+    EXPECT_NEAR(jump_between(value(0.3), {0.1, 0.1, 0}, {0.4, 0.3, 0}), 0, 1e-6);
+    const auto steep
+        = [](const Position &p) { return std::clamp(1e3 * (p[0] - 0.5), 0., 1.); };
+    EXPECT_NEAR(jump_between(steep, {0.4, 0, 0}, {0.7, 0, 0}), 0, 1e-3);
   }
 
   // A jump of half a kelvin is one, whatever the zero of the scale is.

@@ -54,8 +54,7 @@ namespace meltfront::particles::rkpm_tracked
         "Along a line: balances of cells, which lose no heat and are of second "
         "order in space, or collocation, whose order grows with the basis; "
         "automatic: balances for a basis of order 2, unless nodes are relaxed and all "
-        "walls held or insulated. "
-        "Where the densities differ it is collocation.",
+        "walls held or insulated.",
         {{"automatic", Form::automatic},
          {"balances", Form::balances},
          {"collocation", Form::collocation}});

@@ -65,13 +65,12 @@ namespace meltfront::particles::rkpm_tracked
     lennard_jones ///< as published: the Lennard-Jones energy alone
   };
 
-  /** What is solved for at the nodes of a line where the densities are alike. */
+  /** What is solved for at the nodes of a line. */
   enum class Form
   {
-    automatic,  ///< collocation for a basis of a higher order than 2, and for layers
-                ///< that no node resolves; balances else
+    automatic,  ///< collocation for a basis of a higher order than 2; balances else
     balances,   ///< of cells about the nodes, which lose no heat
-    collocation ///< the equations themselves, as where the densities differ
+    collocation ///< the equations themselves
   };
 
   /** What n refines. */

@@ -59,11 +59,11 @@ namespace meltfront::reference_fem::cut
     options.add("start", start,
                 "Where the front of the conservative scheme comes from: the scene, or a "
                 "run of fem-enthalpy that goes before (enthalpy); automatic is the scene "
-                "where it has one.",
+                "where it has one and no temperature jumps at the start.",
                 cases::in_order<StartFrom>({"automatic", "scene", "enthalpy"}));
     options.add("start_depth", start_depth,
-                "Cells that a new phase is deep wherever it is, when fem-enthalpy hands "
-                "over.",
+                "Cells that a new phase is deep wherever it is, or over which what jumps "
+                "at the start is smooth, when fem-enthalpy hands over.",
                 2, 100);
     options.add("start_refinement", start_refinement,
                 "Cells of that run in one of the mesh, along a side.", 1, 16);

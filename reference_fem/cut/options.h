@@ -27,7 +27,7 @@ namespace meltfront::reference_fem::cut
   /** Where the front comes from. */
   enum class StartFrom
   {
-    automatic, ///< the scene; where that has none, the enthalpy method
+    automatic, ///< the scene; where that has none, or jumps, the enthalpy method
     scene,
     enthalpy
   };

@@ -187,14 +187,16 @@ namespace meltfront::verification
         return probes.empty() || !probes.front().coordinate.empty();
       }
 
-      /** Levels that all miss a layer at a wall agree without being right. */
+      /** Levels that all miss a layer at a wall, what is left of a body, or heat, agree
+       * without being right. */
       static void add_unseen(double unseen, ErrorBar &bar)
       {
         if(!(bar.bar < unseen))
           return;
         bar.bar = unseen;
         bar.remark += bar.remark.empty() ? "" : "; ";
-        bar.remark += "a layer at a wall may be thinner than any site shows";
+        bar.remark += "a layer at a wall, a body, or heat that the budget lacks, of "
+                      "which no site tells";
       }
 
       /** What the budget of a run lacks or has too much at its end (J/m^2, J/m or J): an

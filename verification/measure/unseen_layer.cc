@@ -16,6 +16,9 @@ namespace meltfront::verification
     /** Of a spacing: sites no farther from a wall lie on it and see what begins there. */
     constexpr double on_wall = 1e-6;
 
+    /** Defects of budgets that are none. */
+    constexpr double round_off = 1e-9;
+
     /** Where a wall of a slab, a box or a round domain is nearest to a point, and how far
      * (m). */
     struct NearestOfWall
@@ -50,7 +53,8 @@ namespace meltfront::verification
     /** How much of the other phase may be at walls where no site shows it: half of what a
      * site stands for that is nearest to a wall on the other side of the melting
      * temperature; where the wall prescribes the heat no more than the site's own
-     * sensible heat can have melted or frozen. */
+     * sensible heat can have melted or frozen. And what is left of bodies that the method
+     * itself took out, and what the heat melts that its budget lacks. */
     class UnseenLayers : public Measure
     {
     public:
@@ -59,8 +63,7 @@ namespace meltfront::verification
       static bool asked_for(const MeasuredRun &run)
       {
         const cases::Scene &scene = run.scene;
-        return scene.changes_phase() && !scene.alloy && !scene.domain.irregular()
-               && !scene.material.melting_range;
+        return scene.changes_phase() && !scene.alloy && !scene.material.melting_range;
       }
 
       void observe(const Sighting &sighting) override
@@ -69,10 +72,10 @@ namespace meltfront::verification
           return;
         Layer all;
         // A method that tracks fronts knows of layers that its sites do not show.
-        const bool tracks = !sighting.snapshot.front[0].empty();
-        for(const cases::Side side : run.scene.sides())
-          if(!tracks)
+        if(sighting.snapshot.front[0].empty() && !run.scene.domain.irregular())
+          for(const cases::Side side : run.scene.sides())
             add_wall(sighting.snapshot, side, all);
+        all.volume += sighting.snapshot.vanished_volume + missing(sighting.snapshot.heat);
         values["solid_volume_unseen"] = all.volume;
         values["heat_unseen"] = all.heat;
         values["front_unseen"] = moved_by(all.volume, sighting.front.latent_heat);
@@ -83,6 +86,15 @@ namespace meltfront::verification
       {
         double volume = 0, heat = 0; ///< in the measure of the scene
       };
+
+      /** What the heat that a budget lacks, or has too much, would melt. */
+      double missing(const cases::HeatBudget &heat) const
+      {
+        const cases::Material &material = run.scene.material;
+        const double volume = std::abs(heat.imbalance())
+                              / (material.solid.density * material.latent_heat);
+        return heat.conservative && heat.defect() > round_off ? volume : 0;
+      }
 
       /** By how much a volume moves the front out of where it is (m). */
       double moved_by(double volume, double front) const

@@ -1,5 +1,8 @@
 #include <cases/tests/support/scenes.h>
 
+#include <cmath>
+#include <numbers>
+
 namespace meltfront::test_support
 {
   using namespace cases;
@@ -83,6 +86,29 @@ namespace meltfront::test_support
   {
     return {"if(x < at, below, above)",
             [=](const Position &p, double) { return p[0] < at ? below : above; }};
+  }
+
+  double speed_of_contact(double solid, double liquid)
+  {
+    const auto missing = [&](double speed)
+    {
+      const double bell = std::exp(-speed * speed) / std::sqrt(std::numbers::pi);
+      return speed + solid * bell / std::erfc(-speed) + liquid * bell / std::erfc(speed);
+    };
+    double lower = -2, upper = 2;
+    for(int i = 0; i < 60; ++i)
+      (missing((lower + upper) / 2) < 0 ? lower : upper) = (lower + upper) / 2;
+    return lower;
+  }
+
+  Scene bodies_in_contact(double at, double height, double solid, double liquid,
+                          double end)
+  {
+    Scene scene = box(unit_material(), 2, {0, 0, 0}, {1, height, 0}, 0, end);
+    scene.initial.temperature = step_along_x(at, solid, liquid);
+    scene.initial.front
+        = Field{"x - at", [at](const Position &p, double) { return p[0] - at; }};
+    return scene;
   }
 
   Scene slab(const Material &material, double length, double temperature, double start,

@@ -33,6 +33,15 @@ namespace meltfront::test_support
   /** A field that jumps along x, as its expression says. */
   cases::Field step_along_x(double at, double below, double above);
 
+  /** How the front moves where solid and liquid of two temperatures touch, both without
+   * end, their properties one and melting at 0: the number in x = 2 number sqrt(t)
+   * (Carslaw and Jaeger 1959, chapter XI). */
+  double speed_of_contact(double solid, double liquid);
+
+  /** Solid below x = at and liquid above, in an insulated box one long. */
+  cases::Scene bodies_in_contact(double at, double height, double solid, double liquid,
+                                 double end);
+
   /** An insulated slab 0 <= x <= length at a uniform temperature. */
   cases::Scene slab(const cases::Material &material, double length, double temperature,
                     double start, double end);

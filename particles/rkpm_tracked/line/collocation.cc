@@ -189,6 +189,7 @@ namespace meltfront::particles::rkpm_tracked
     if(problem.balanced())
     {
       find_faces(interval, terms);
+      find_shares_of_faces(interval, terms);
       measure_cells();
     }
     for(std::size_t p = 0; p < points; ++p)

@@ -81,6 +81,13 @@ namespace meltfront::particles::rkpm_tracked
      * temperatures hold, whatever these are. */
     void measure_cells_of(const LineInterval &interval);
 
+    /** What flows through any cut of the phase that was solved for, of a moving phase,
+     * over its diffusivity: in the measure of the scene, u A/a. */
+    double flow() const
+    {
+      return displaced_flow;
+    }
+
     /** What the nodes of the interval stand for that was solved for or measured; those
      * that are interpolated for nothing.
      * @param cells of all nodes; those of the interval are written */
@@ -147,6 +154,8 @@ namespace meltfront::particles::rkpm_tracked
                 const LineInterval &interval, const StepTerms &terms) const;
     void measure_cells();
     const LineStencil &balance(std::size_t point);
+    void find_shares_of_faces(const LineInterval &interval, const StepTerms &terms);
+    double excess_at_face(std::size_t face, std::span<const double> values) const;
     double face_slope(std::size_t face, std::span<const double> values) const;
     double balanced_front_slope(std::size_t side, bool solid,
                                 std::span<const double> values) const;
@@ -180,6 +189,10 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<LineStencil> rows;  ///< of the cloud's points
     std::vector<LineStencil> faces; ///< half-way to the next point, where balanced
     std::vector<double> volumes;    ///< of the points' cells, where balanced
+    double displaced_flow = 0;      ///< see flow()
+    /** Where a phase moves, what the point below a face counts for in the temperature of
+     * what flows through it. */
+    std::vector<double> share_below;
     std::vector<std::vector<double>> coefficients;
     std::vector<double> right_side;
     BandMatrix matrix;

@@ -59,11 +59,11 @@ namespace meltfront::particles::rkpm_tracked
     Form form = Form::balances;
     bool metastable = false; ///< phases beyond the melting temperature are meant
 
-    /** Whether rows are balances of cells, which lose no heat, rather than collocation:
-     * where nothing moves. */
+    /** Whether rows are balances of cells, which lose no heat, rather than collocation.
+     */
     bool balanced() const
     {
-      return form == Form::balances && material.solid.density == material.liquid.density;
+      return form == Form::balances;
     }
 
     /** Distance of nodes about a place (m): from what it is beside a wall it grows with

@@ -115,10 +115,14 @@ namespace meltfront::particles::rkpm_tracked
     if(collocation.is_held_film(interval))
     {
       const double taken_up = (gain[0] + gain[1] + kept) / diffusivity;
+      const double at_wall
+          = interval.upper_front ? state.temperature.front() : state.temperature.back();
+      const double carried
+          = collocation.flow() == 0 ? 0 : collocation.flow() * (at_wall - melting);
       if(interval.upper_front)
-        slopes[0] = (upper * slopes[1] - taken_up) / lower;
+        slopes[0] = (upper * slopes[1] - taken_up + carried) / lower;
       else
-        slopes[1] = (lower * slopes[0] + taken_up) / upper;
+        slopes[1] = (lower * slopes[0] + taken_up + carried) / upper;
       return;
     }
     if(interval.lower_front)

@@ -23,6 +23,28 @@ namespace meltfront::particles::rkpm_tracked
     /** Of the heat that flows to the front, the part from which on ripples are spoken
      * of. */
     constexpr double noticeable_drive = 0.1;
+
+    /** Particles of curves that are farther from all new curves, in spacings, are of none
+     * of these. */
+    constexpr double gone = 0.25;
+
+    /** Rate at which bodies shrank whose curves are no more (m^2/s). */
+    double shrinking_rate(const PlaneFront &before, const FrontIndex &now, double spacing)
+    {
+      double rate = 0;
+      for(std::size_t c = 0; c < before.curves(); ++c)
+        for(std::size_t p = before.offsets[c]; p < before.offsets[c + 1]; ++p)
+        {
+          const PlanePoint &place = before.position[p];
+          if(before.active[p]
+             && std::abs(now.signed_distance(place, spacing)) > gone * spacing)
+            rate += std::abs(before.speed[p])
+                    * ((before.position[before.next(c, p)] - place).norm()
+                       + (before.position[before.previous(c, p)] - place).norm())
+                    / 2;
+        }
+      return rate;
+    }
   } // namespace
 
   TopologySettings PlaneRun::topology_settings() const
@@ -46,6 +68,8 @@ namespace meltfront::particles::rkpm_tracked
       return;
     const PlaneMeasure before = measure(scene, nodes, heat, state);
     const double due = before.sensible + before.latent + lost_heat(state);
+    const double rate = shrinking_rate(
+        state.front, FrontIndex(front, solid_beyond, nodes.spacing), nodes.spacing);
     state.front = std::move(front);
     heat.settings.solid_beyond = solid_beyond;
     heat.mark_active(state.front);
@@ -72,12 +96,23 @@ namespace meltfront::particles::rkpm_tracked
       events.emplace_back(state.time, change.what);
     }
     const double area = after.solid_area - before.solid_area;
+    if(std::ranges::any_of(changes, &TopologyEvent::vanished))
+      vanished.push_back({state.time, std::abs(area), rate});
     events.back().second
         += fmt::format("; {:.3g} m^2 {} by that, of {:.3g} J/m latent heat {:.3g} J/m "
                        "are missing in the nodes about it",
                        std::abs(area), area > 0 ? "froze" : "melted", energy, missing);
     older.reset();
     restarted = true;
+  }
+
+  /** Of the bodies that went at once, what may still be there (m^2). */
+  double PlaneRun::vanished_area() const
+  {
+    double area = 0;
+    for(const VanishedBodies &bodies : vanished)
+      area += std::max(0., bodies.area - bodies.rate * (state.time - bodies.time));
+    return area;
   }
 
   /** Once: whether ripples of the front grow. One of wave number k does where, n into the

@@ -4,6 +4,7 @@
 #include <cases/error.h>
 #include <cases/exact_solution.h>
 #include <cases/expression_words.h>
+#include <cases/mean_with_jumps.h>
 #include <particles/rkpm_tracked/plane/enthalpy_particles.h>
 #include <particles/sph/sph.h>
 
@@ -37,24 +38,6 @@ namespace meltfront::particles::rkpm_tracked
      * of temperatures the least that is one. */
     constexpr double beside_node = 1.5, negligible_jump = 1e-3;
 
-    /** What is left of the difference between two places where most of it is, on halves
-     * of the way between them. */
-    template <typename Temperature>
-    double jump_between(const Temperature &temperature, PlanePoint from, PlanePoint to)
-    {
-      constexpr int halvings = 24;
-      double first = temperature(from), last = temperature(to);
-      for(int i = 0; i < halvings; ++i)
-      {
-        const PlanePoint middle = (from + to) / 2;
-        const double at = temperature(middle);
-        const bool later = std::abs(last - at) > std::abs(at - first);
-        (later ? from : to) = middle;
-        (later ? first : last) = at;
-      }
-      return std::abs(last - first);
-    }
-
     class Watch : public cases::Observer
     {
     public:
@@ -70,8 +53,18 @@ namespace meltfront::particles::rkpm_tracked
 
       void observe(const cases::Snapshot &snapshot) override
       {
-        visit(snapshot);
+        try
+        {
+          visit(snapshot);
+        }
+        catch(const cases::Refusal &)
+        {
+          refuses = true;
+          throw;
+        }
       }
+
+      bool refuses = false; ///< a state that `sph` made, rather than `sph` the scene
 
     private:
       const ParticleStart::Visit &visit;
@@ -138,25 +131,26 @@ namespace meltfront::particles::rkpm_tracked
   {
     if(!may_start_with_jumps(scene))
       return false;
-    const auto temperature = [&](const PlanePoint &place)
-    { return scene.initial.temperature(position_of(place), scene.start_time); };
+    const auto temperature = [&](const cases::Position &place)
+    { return scene.initial.temperature(place, scene.start_time); };
     std::vector<double> values;
     for(const PlanePoint &place : nodes.position)
-      values.push_back(temperature(place));
+      values.push_back(temperature(position_of(place)));
     const auto [lowest, highest] = std::ranges::minmax(values);
     const double least = negligible_jump * (highest - lowest);
     bool found = false;
     for(std::size_t i = 0; i < nodes.size() && !found; ++i)
-      nodes.bins.visit(nodes.position[i], beside_node * nodes.spacing,
-                       [&](std::uint32_t other, double)
-                       {
-                         found = found
-                                 || (other > i
-                                     && std::abs(values[other] - values[i]) > least
-                                     && jump_between(temperature, nodes.position[i],
-                                                     nodes.position[other])
-                                            > least);
-                       });
+      nodes.bins.visit(
+          nodes.position[i], beside_node * nodes.spacing,
+          [&](std::uint32_t other, double)
+          {
+            found
+                = found
+                  || (other > i && std::abs(values[other] - values[i]) > least
+                      && cases::jump_between(temperature, position_of(nodes.position[i]),
+                                             position_of(nodes.position[other]))
+                             > least);
+          });
     return found;
   }
 
@@ -253,6 +247,8 @@ namespace meltfront::particles::rkpm_tracked
     }
     catch(const cases::Refusal &refusal)
     {
+      if(watch.refuses)
+        throw;
       throw cases::Refusal(fmt::format("{} starts from sph where one phase fills the "
                                        "domain or its temperature jumps, and that "
                                        "refuses: {}",

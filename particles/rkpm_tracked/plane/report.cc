@@ -103,6 +103,7 @@ namespace meltfront::particles::rkpm_tracked
     snapshot.temperature = measured.temperature;
     snapshot.solid_fraction = measured.solid_fraction;
     snapshot.obeys_maximum_principle = false;
+    snapshot.vanished_volume = vanished_area();
     snapshot.heat
         = {measured.sensible, measured.latent, state.wall_heat + state.flux_heat,
            heat.sinks.energy(state.time) + state.released_heat, initial_heat};

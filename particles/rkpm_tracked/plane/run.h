@@ -21,6 +21,14 @@ namespace meltfront::particles::rkpm_tracked
 {
   class EnthalpyParticles;
 
+  /** Bodies that went at once because they were too small. */
+  struct VanishedBodies
+  {
+    double time = 0;
+    double area = 0; ///< m^2
+    double rate = 0; ///< at which it shrank (m^2/s)
+  };
+
   /** A run of `rkpm-tracked` in the plane: start, time steps, events, snapshots. */
   class PlaneRun : public cases::Run
   {
@@ -63,6 +71,7 @@ namespace meltfront::particles::rkpm_tracked
     TopologySettings topology_settings() const;
     void warn_of_ripples();
     void settle_nodes();
+    double vanished_area() const;
     double beyond_melting(const PlaneState &of, std::size_t node) const;
     void check_walls(const PlaneState &checked, double scale) const;
     void check_release(const PlaneState &checked, double scale) const;
@@ -113,7 +122,8 @@ namespace meltfront::particles::rkpm_tracked
     double largest_multiplier = 0;
     double withstood = 0; ///< beyond the melting temperature, by phases at the start (K)
     double decreed_heat = 0; ///< latent, of areas that changed phase by decree (J/m)
-    double mismatch = 0;     ///< largest of level set and particles, in spacings
+    std::vector<VanishedBodies> vanished;
+    double mismatch = 0; ///< largest of level set and particles, in spacings
     std::vector<std::pair<double, std::string>> events; ///< not yet told
 
     // For snapshots:

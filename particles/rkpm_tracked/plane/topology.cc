@@ -9,7 +9,6 @@
 #include <functional>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 namespace meltfront::particles::rkpm_tracked
@@ -130,12 +129,8 @@ namespace meltfront::particles::rkpm_tracked
         const bool outside
             = beyond
               && curve_radius(front, c) < std::sqrt(nodes.area / std::numbers::pi) / 2;
-        const double speed = std::accumulate(front.speed.begin() + first,
-                                             front.speed.begin() + last, 0.);
-        const bool shrinks = signed_area(front, c) * speed > 0;
-        const bool small = curve_radius(front, c)
-                           < (shrinks ? settings.vanishing_radius : settings.least_radius)
-                                 * settings.spacing;
+        const bool small
+            = curve_radius(front, c) < settings.least_radius * settings.spacing;
         if(!small && !outside)
           continue;
         if(outside && !small)
@@ -237,16 +232,8 @@ namespace meltfront::particles::rkpm_tracked
           = [&](const PlanePoint &point) { return marked.value(point); };
       if(crosses_walls(front))
       {
-        const auto disk = [&](double radius)
-        { return std::numbers::pi * std::pow(radius * settings.spacing, 2); };
-        const SmallBodies small(nodes, value, disk(settings.vanishing_radius));
-        const PlaneBins bins(front.position, settings.spacing);
-        const auto vanishes = [&](const Body &body)
-        {
-          const double speed = front.speed[bins.nearest(body.centre)];
-          return body.area < disk(settings.least_radius)
-                 || (body.solid ? speed > 0 : speed < 0);
-        };
+        const double radius = settings.least_radius * settings.spacing;
+        const SmallBodies small(nodes, value, std::numbers::pi * radius * radius);
         for(const bool solid : {false, true})
           if(small.all(solid))
           {
@@ -257,15 +244,13 @@ namespace meltfront::particles::rkpm_tracked
             return events;
           }
         for(const Body &body : small.bodies())
-          if(vanishes(body))
-            events.push_back(vanished(body.solid, body.centre));
+          events.push_back(vanished(body.solid, body.centre));
         if(!events.empty())
         {
           const auto without = [&](const PlanePoint &point)
           {
             const Body *body = small.at(point);
-            return body && vanishes(*body) ? (body->solid ? 1 : -1) * settings.spacing
-                                           : value(point);
+            return body ? (body->solid ? 1 : -1) * settings.spacing : value(point);
           };
           lay_anew(front, marked, without, solid_beyond, settings);
           return events;

@@ -22,10 +22,7 @@ namespace meltfront::particles::rkpm_tracked
     double spacing = 0;         ///< of the nodes (m)
     double front_spacing = 0;   ///< of the front's particles (m)
     double least_radius = 0.35; ///< of a curve, in spacings: below it goes
-    /** The same of a body that shrinks: it covers three nodes, fewer than which determine
-     * no linear profile. */
-    double vanishing_radius = 1;
-    bool join = true; ///< whether curves may meet
+    bool join = true;           ///< whether curves may meet
   };
 
   /** Square root of a curve's area over pi (m). */

@@ -47,6 +47,7 @@ namespace meltfront::reference_fem::cut::conservative
     void settle_temperatures();
     double fastest_diffusivity() const;
     bool layer_appears_at_once(const cases::FrontStart &found) const;
+    bool starts_with_jumps() const;
     void
     damp_jump_at_start(const std::function<double(const cases::Position &)> &temperature);
     void damp_jump_after_step(double began);

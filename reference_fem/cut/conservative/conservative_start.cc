@@ -47,24 +47,37 @@ namespace meltfront::reference_fem::cut::conservative
         if(options.start == StartFrom::scene)
           throw;
       }
-      if(found && (options.start == StartFrom::scene || !layer_appears_at_once(*found)))
-      {
-        start_from(*found);
-        return;
-      }
+    }
+    const bool layers = found && layer_appears_at_once(*found),
+               jumps = found && !layers && starts_with_jumps();
+    if(found
+       && (options.start == StartFrom::scene
+           || (options.start == StartFrom::automatic && !layers && !jumps)))
+    {
+      start_from(*found);
+      return;
+    }
+    before.emplace(scene, effects, resolution, mesh,
+                   EnthalpyStartOptions{options.start_depth, options.start_refinement});
+    unknowns = static_cast<long>(mesh.nodes.size());
+    if(jumps)
+    {
+      before->until_smooth();
+      start_in_words
+          = fmt::format("fem-enthalpy with {} cells along the side until {:.6g} s, what "
+                        "jumps at the start smooth over {:g} cells",
+                        before->cells, before->time, options.start_depth);
+      return;
     }
     Values at_start;
     if(found)
       for(const Point &node : mesh.nodes)
         at_start.push_back(found->level_set(position(node)));
-    before.emplace(scene, effects, resolution, mesh,
-                   EnthalpyStartOptions{options.start_depth, options.start_refinement},
-                   std::move(at_start));
+    before->until_deep(std::move(at_start));
     start_in_words = fmt::format(
         "fem-enthalpy with {} cells along the side until {:.6g} s, the new phase {:.2g} "
         "to {:.2g} cells deep",
         before->cells, before->time, before->least_depth, before->most_depth);
-    unknowns = static_cast<long>(mesh.nodes.size());
   }
 
   /** The enthalpy method's steps up to the time at which it hands over. */

@@ -194,19 +194,40 @@ namespace meltfront::reference_fem::cut::conservative
   EnthalpyStart::EnthalpyStart(const cases::Scene &scene, const cases::EffectSet &effects,
                                const cases::Resolution &resolution,
                                const TriangleMesh &mesh,
-                               const EnthalpyStartOptions &options, Values at_start)
+                               const EnthalpyStartOptions &options)
     : scene(scene)
     , effects(effects)
     , resolution(resolution)
     , mesh(mesh)
     , options(options)
-    , at_start(std::move(at_start))
   {
     cells = options.refinement * resolution.n;
     // It meshes disks with powers of two only.
     if(scene.domain.shape == cases::DomainShape::ball)
       for(cells = 4; cells < options.refinement * resolution.n;)
         cells *= 2;
+  }
+
+  void EnthalpyStart::until_smooth()
+  {
+    const double width = options.depth * mesh.spacing;
+    const double duration = width * width
+                            / (4
+                               * std::min(scene.material.solid.diffusivity(),
+                                          scene.material.liquid.diffusivity()));
+    if(!(duration < scene.end_time - scene.start_time))
+      throw cases::Refusal(fmt::format(
+          "fem-cut does not resolve what jumps at the start: it takes {:.3g} s to be "
+          "smooth over {:g} cells, longer than the run: take more cells, a later end, or "
+          "fem-enthalpy",
+          duration, options.depth));
+    time = scene.start_time + duration;
+    steps = steps_of_growth;
+  }
+
+  void EnthalpyStart::until_deep(Values level_set)
+  {
+    at_start = std::move(level_set);
     const double whole = scene.end_time - scene.start_time;
     const double fastest = std::max(scene.material.solid.diffusivity(),
                                     scene.material.liquid.diffusivity());

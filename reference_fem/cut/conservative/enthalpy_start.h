@@ -12,7 +12,7 @@ namespace meltfront::reference_fem::cut::conservative
   /** How far and how finely `fem-enthalpy` goes before it hands a scene over. */
   struct EnthalpyStartOptions
   {
-    double depth = 3;   ///< of the new phase wherever it is (cells)
+    double depth = 3;   ///< of the new phase wherever it is, or of what jumps (cells)
     int refinement = 2; ///< its cells in one of the sharp mesh, along a side
   };
 
@@ -56,28 +56,36 @@ namespace meltfront::reference_fem::cut::conservative
   /**
    * The part of a run before its fronts are resolved, made by `fem-enthalpy` in the same
    * domain: from the scene's start until what has changed its phase is so many cells deep
-   * wherever it is, or three times as deep somewhere.
+   * wherever it is, or three times as deep somewhere; or until temperatures that jump at
+   * the start are smooth over so many cells.
    */
   class EnthalpyStart
   {
   public:
+    /** @param scene, effects, resolution, mesh outlive this */
+    EnthalpyStart(const cases::Scene &scene, const cases::EffectSet &effects,
+                  const cases::Resolution &resolution, const TriangleMesh &mesh,
+                  const EnthalpyStartOptions &options);
+
     /**
-     * Finds out when that is, by runs of `fem-enthalpy` whose ends are four times as late
-     * each time.
+     * Find out when a new phase is so deep, by runs of `fem-enthalpy` whose ends are four
+     * times as late each time.
      * @param at_start the level set by node, where there are both phases at the start;
      * else empty
      * @throws cases::Refusal where no front gets so deep before the scene's end
      */
-    EnthalpyStart(const cases::Scene &scene, const cases::EffectSet &effects,
-                  const cases::Resolution &resolution, const TriangleMesh &mesh,
-                  const EnthalpyStartOptions &options, Values at_start);
+    void until_deep(Values at_start);
+
+    /** Until 2 sqrt(alpha t) of the phase with the smaller diffusivity is so many cells.
+     * @throws cases::Refusal where that is later than the scene's end */
+    void until_smooth();
 
     /** Run up to that time, calling visit() for every state, the last one included.
      * @return what it cost */
     cases::Cost run(const std::function<void(const cases::Snapshot &)> &visit) const;
 
     double time = 0;                        ///< of the handing over (s)
-    double least_depth = 0, most_depth = 0; ///< cells, then, as the last search saw it
+    double least_depth = 0, most_depth = 0; ///< cells, then, as until_deep() saw it
     int cells = 0;                          ///< along the side
     long search_work = 0;                   ///< matrix entries that the search touched
 
@@ -92,7 +100,7 @@ namespace meltfront::reference_fem::cut::conservative
     const cases::Resolution &resolution;
     const TriangleMesh &mesh;
     const EnthalpyStartOptions options;
-    const Values at_start;
+    Values at_start;
     long steps = 0;
   };
 } // namespace meltfront::reference_fem::cut::conservative

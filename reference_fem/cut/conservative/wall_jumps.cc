@@ -1,6 +1,8 @@
 #include <reference_fem/cut/conservative/conservative_run.h>
 
 #include <cases/exact/front_start.h>
+#include <cases/expression_words.h>
+#include <cases/mean_with_jumps.h>
 #include <cases/overshoot.h>
 #include <cases/time_integral.h>
 #include <cases/wall_law.h>
@@ -47,6 +49,39 @@ namespace meltfront::reference_fem::cut::conservative
     }
     return farthest > cases::allowed_overshoot(cut::overshoot, mesh.spacing, scene.domain)
                           * largest;
+  }
+
+  /** Whether temperatures jump at the start, between nodes of a triangle. */
+  bool ConservativeRun::starts_with_jumps() const
+  {
+    if(scene.initial.exact || cases::metastable_initial_phase(scene)
+       || !cases::may_jump_with(scene.initial.temperature.expression, "xyz"))
+      return false;
+    const auto temperature = [&](const cases::Position &place)
+    { return scene.initial.temperature(place, scene.start_time); };
+    Values values;
+    for(const Point &node : mesh.nodes)
+      values.push_back(temperature(position(node)));
+    const auto [lowest, highest] = std::ranges::minmax(values);
+    const double least = least_jump * (highest - lowest);
+    return std::ranges::any_of(mesh.triangles,
+                               [&](const Triangle &triangle)
+                               {
+                                 if(triangle.part.empty())
+                                   return false;
+                                 for(std::size_t side = 0; side < 3; ++side)
+                                 {
+                                   const unsigned int from = triangle.nodes[side],
+                                                      to = triangle.nodes[(side + 1) % 3];
+                                   if(std::abs(values[to] - values[from]) > least
+                                      && cases::jump_between(temperature,
+                                                             position(mesh.nodes[from]),
+                                                             position(mesh.nodes[to]))
+                                             > least)
+                                     return true;
+                                 }
+                                 return false;
+                               });
   }
 
   /** Damp the coming steps where walls that hold temperatures hold other ones than those

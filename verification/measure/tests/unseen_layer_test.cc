@@ -87,6 +87,22 @@ TEST(UnseenLayer, IsNoneWhereTheSiteFreezesOrLiesOnTheWallOrAFrontIsTracked)
   EXPECT_EQ(unseen(c, on_wall, 0).at("solid_volume_unseen"), 0);
 }
 
+TEST(UnseenLayer, HoldsWhatMayBeLeftOfBodiesThatWereTakenOut)
+{
+  cases::Case c;
+  c.scene = tests::scene_of(cases::DomainShape::slab, 1, cases::Symmetry::planar);
+  for(const cases::DomainShape shape :
+      {cases::DomainShape::slab, cases::DomainShape::outline})
+  {
+    c.scene.domain.shape = shape;
+    tests::State state = liquid(cases::Symmetry::planar, 1);
+    const std::vector<double> front{0.4};
+    state.snapshot.front[0] = front;
+    state.snapshot.vanished_volume = 0.003;
+    EXPECT_EQ(unseen(c, state, 0).at("solid_volume_unseen"), 0.003);
+  }
+}
+
 TEST(UnseenLayer, IsNoneAtAWallOfThePhaseThatIsThereOrBesideUndercooledLiquid)
 {
   const cases::Case warm = slab_with(cases::BoundaryKind::fixed_temperature, 2),

@@ -86,6 +86,7 @@ namespace meltfront::verification
     {
       archive &snapshot.step &snapshot.time &snapshot.dimension;
       archive &snapshot.obeys_maximum_principle &snapshot.heat &snapshot.mass;
+      archive &snapshot.vanished_volume;
       for(cases::SubstanceBudget &solute : snapshot.solute)
         archive &solute;
     }

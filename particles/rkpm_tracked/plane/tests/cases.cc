@@ -95,6 +95,7 @@ namespace meltfront::particles::rkpm_tracked
     frame.latent = snapshot.heat.latent;
     frame.sensible = snapshot.heat.stored;
     frame.through_walls = snapshot.heat.boundary;
+    frame.vanished = snapshot.vanished_volume;
     for(std::size_t i = 0; i < snapshot.weights.size(); ++i)
       frame.solid_area += snapshot.weights[i] * snapshot.solid_fraction[i];
     const auto [coldest, hottest] = std::ranges::minmax(snapshot.temperature);

@@ -39,7 +39,7 @@ namespace meltfront::particles::rkpm_tracked
     {
       double time, solid_area, defect, coldest, hottest, mean_radius, roundness;
       std::size_t front_points;
-      double latent, sensible, through_walls;
+      double latent, sensible, through_walls, vanished;
     };
 
     bool wants(long, double) override

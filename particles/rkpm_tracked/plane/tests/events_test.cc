@@ -42,6 +42,20 @@ namespace
         [](const auto &p) { return warmth(around(p) - 0.5); }, 0.3);
     const PlaneRecord record = run_plane(scene, 20);
     expect_all_molten(record);
+    // The last of it goes at once, and may be there until it had melted as it did before.
+    const double disk = std::numbers::pi * std::pow(0.35 * 2 / 20, 2);
+    const auto gone
+        = std::ranges::find(record.frames, 0., &PlaneRecord::Frame::solid_area);
+    ASSERT_NE(gone, record.frames.end());
+    double largest = 0;
+    for(auto frame = record.frames.begin(); frame != record.frames.end(); ++frame)
+      if(frame < gone)
+        EXPECT_EQ(frame->vanished, 0);
+      else
+        largest = std::max(largest, frame->vanished);
+    EXPECT_LE(largest, disk);
+    EXPECT_GT(largest, 0);
+    EXPECT_EQ(record.frames.back().vanished, 0);
     ASSERT_EQ(record.notes.size(), 1u);
     EXPECT_NE(record.notes[0].find("vanished"), std::string::npos);
   }

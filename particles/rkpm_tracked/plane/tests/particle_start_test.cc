@@ -94,34 +94,14 @@ namespace
     }
   }
 
-  /** How a front moves where solid and liquid of two temperatures touch, both without end
-   * and with properties one: lambda of x = 2 lambda sqrt(t) (Carslaw and Jaeger 1959,
-   * chapter XI). */
-  double speed_of_contact(double solid, double liquid)
-  {
-    const auto missing = [&](double lambda)
-    {
-      const double bell = std::exp(-lambda * lambda) / std::sqrt(std::numbers::pi);
-      return lambda + solid * bell / std::erfc(-lambda)
-             + liquid * bell / std::erfc(lambda);
-    };
-    double lower = -2, upper = 2;
-    for(int i = 0; i < 60; ++i)
-      (missing((lower + upper) / 2) < 0 ? lower : upper) = (lower + upper) / 2;
-    return lower;
-  }
-
   TEST(ParticleStart, BodiesThatTouchMeltOrFreezeAsTheyDoWithoutEnd)
   {
     constexpr double end = 0.006, at = 0.417;
     for(const auto &[solid, liquid] : {std::pair(-0.9, 0.3), std::pair(-0.2, 0.8)})
       for(const int n : {28, 40, 56})
       {
-        cases::Scene scene = liquid_at(liquid, end);
-        scene.initial.temperature = step_along_x(at, solid, liquid);
-        scene.initial.front = cases::Field{
-            "x - 0.417", [](const cases::Position &p, double) { return p[0] - at; }};
-        const PlaneRecord record = run_plane(scene, n);
+        const PlaneRecord record
+            = run_plane(bodies_in_contact(at, height, solid, liquid, end), n);
         EXPECT_NEAR(HandedOver(record).time, 9. / (4 * n * n), 1e-12);
         const double way = 2 * speed_of_contact(solid, liquid) * std::sqrt(end);
         // Measured: 2.2 % at n = 28, from there on less by more than n.
