@@ -1,5 +1,7 @@
 #include <particles/rkpm_tracked/line/events.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -28,6 +30,23 @@ namespace meltfront::particles::rkpm_tracked
         result = {p, phase.upper - phase.lower};
     }
     return result;
+  }
+
+  std::pair<std::optional<std::size_t>, std::string>
+  enclosed_phase(const LineProblem &problem, const LineState &state)
+  {
+    for(std::size_t p = 0; p < state.n_intervals() && !state.fronts.empty(); ++p)
+    {
+      if(problem.displacement(state.solid(p)) == 0)
+        continue;
+      const LineInterval phase = interval(problem, state, p);
+      if(phase.lower_front && phase.upper_front)
+        return {p, fmt::format("between two fronts, {:.4g} and {:.4g} m", phase.lower,
+                               phase.upper)};
+      if(problem.axis && p == 0)
+        return {p, "at the centre"};
+    }
+    return {};
   }
 
   Vanished remove_interval(const LineProblem &problem, LineState &state,

@@ -5,6 +5,8 @@
 #include <particles/rkpm_tracked/line/sites.h>
 
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace meltfront::particles::rkpm_tracked
 {
@@ -22,6 +24,12 @@ namespace meltfront::particles::rkpm_tracked
    */
   std::pair<std::size_t, double> thinnest_interval(const LineProblem &problem,
                                                    const LineState &state);
+
+  /** Where the densities differ: a phase that gives way to a front, or follows it, and
+   * lies at no wall through which it could, by its interval and where in words; none if
+   * all have one. */
+  std::pair<std::optional<std::size_t>, std::string>
+  enclosed_phase(const LineProblem &problem, const LineState &state);
 
   /**
    * Take an interval out: at a wall with its front, between two fronts with both, so that

@@ -60,9 +60,10 @@ namespace meltfront::particles::rkpm_tracked
       const bool solid = state.solid(side == 0 ? 0 : state.n_intervals() - 1);
       if(!state.fronts.empty() && problem.displacement(solid) != 0)
       {
-        double inward = problem.displacement(solid) * state.speed[0];
+        const std::size_t own = side == 0 ? 0 : state.fronts.size() - 1;
+        double inward = problem.displacement(solid) * state.speed[own];
         for(int i = 0; i < problem.curvature_terms(); ++i)
-          inward *= state.fronts[0] / x;
+          inward *= state.fronts[own] / x;
         const cases::PhaseProperties &phase = problem.phase(solid);
         const double wall
             = side == 0 ? state.temperature.front() : state.temperature.back();

@@ -170,10 +170,11 @@ namespace meltfront::particles::rkpm_tracked
       const LineInterval phase = interval(problem, state, p);
       find_history(p, phase);
       StepTerms terms{state.time, weights[0], rate_history, 0, 0};
-      if(n_fronts > 0)
+      if(n_fronts > 0 && problem.displacement(phase.solid) != 0)
       {
-        terms.displaced_speed = problem.displacement(phase.solid) * trial.rate[0];
-        terms.displacing_front = state.fronts[0];
+        const std::size_t own = phase.upper_front ? p : p - 1;
+        terms.displaced_speed = problem.displacement(phase.solid) * trial.rate[own];
+        terms.displacing_front = state.fronts[own];
       }
       if(!problem.metastable && problem.displacement(phase.solid) == 0)
         terms.approach = {phase.lower_front ? std::max(trial.rate[p - 1], 0.) : 0.,

@@ -269,10 +269,6 @@ namespace meltfront::particles::rkpm_tracked
     }
     state.fronts = find_fronts(scene, lower, upper, problem.spacing);
     state.solid_first = solid_at(scene, lower);
-    if(state.fronts.size() > 1
-       && scene.material.solid.density != scene.material.liquid.density)
-      throw cases::Refusal("rkpm-tracked follows one front where the densities differ, "
-                           "not several");
     return state;
   }
 

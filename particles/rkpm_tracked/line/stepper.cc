@@ -80,13 +80,12 @@ namespace meltfront::particles::rkpm_tracked
 
   void LineStepper::restart(LineState state)
   {
-    if(problem.axis && !state.fronts.empty() && problem.displacement(state.solid(0)) != 0)
+    if(const auto [enclosed, where] = enclosed_phase(problem, state); enclosed)
       throw cases::Refusal(fmt::format(
-          "{}: the {}, which moves where the densities differ, lies at the centre at t = "
-          "{:.6g} and could only go through it; the phase there has to be at rest "
-          "(option "
+          "{}: the {}, which moves where the densities differ, lies {} at t = {:.6g} and "
+          "has no wall to give way through; the phase there has to be at rest (option "
           "displaced)",
-          method_name, name_of(state.solid(0)), state.time));
+          method_name, name_of(state.solid(*enclosed)), where, state.time));
     begun = state.time;
     solver.restart(std::move(state));
     next_step = rules.first_step;
@@ -138,12 +137,6 @@ namespace meltfront::particles::rkpm_tracked
   void LineStepper::insert(std::size_t side)
   {
     LineState changed = state();
-    if(!changed.fronts.empty()
-       && problem.material.solid.density != problem.material.liquid.density)
-      throw cases::Refusal(
-          fmt::format("{} follows one front where the densities differ; at t = {:.6g} a "
-                      "second one starts at the {} wall",
-                      method_name, changed.time, side == 0 ? "lower" : "upper"));
     const double thickness = insert_layer(problem, changed, side);
     // A thin layer keeps a wall that exchanges heat near the melting temperature.
     if(!problem.walls[side].fixed())

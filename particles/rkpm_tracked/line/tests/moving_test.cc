@@ -94,6 +94,61 @@ namespace meltfront::particles::rkpm_tracked
       EXPECT_GT(std::abs(solid[0] - 0.5), 0.01);
     }
 
+    // Solid between two layers of liquid, which give way through a wall each: half of it
+    // is a slab with one front.
+    TEST(MovingPhases, GiveWayAtBothWallsAsAtOne)
+    {
+      const auto melting = [](double length, const cases::Boundary &left)
+      {
+        cases::Scene scene = moving_scene(cases::Symmetry::planar, true);
+        scene.domain.upper[0] = length;
+        scene.end_time = 0.15;
+        scene.initial.front = {};
+        scene.initial.temperature = cases::Field::uniform(-0.2);
+        set_boundary(scene, Side::x_min, left);
+        set_boundary(scene, Side::x_max, walls_beside(false)[2]);
+        return scene;
+      };
+      const std::vector<int> n{20, 40, 80};
+      std::vector<double> differences;
+      for(const int cells : n)
+      {
+        const Course half = run(melting(0.5, {}), cells),
+                     whole = run(melting(1, walls_beside(false)[2]), 2 * cells);
+        EXPECT_LE(half.worst_budget_defect(), 1e-4);
+        EXPECT_LE(whole.worst_budget_defect(), 1e-4);
+        EXPECT_LT(half.solid.back(), 0.4);
+        EXPECT_GT(half.solid.back(), 0.1);
+        differences.push_back(std::abs(whole.solid.back() - 2 * half.solid.back()));
+      }
+      EXPECT_LE(differences.front(), 1e-3);
+      EXPECT_GE(test_support::fitted_order(n, differences), 1.5);
+    }
+
+    TEST(MovingPhases, ThatAreEnclosedAreRefused)
+    {
+      cases::Scene scene = moving_scene(cases::Symmetry::planar, true);
+      scene.initial.front = {};
+      scene.initial.temperature = cases::Field::uniform(0.1);
+      for(const Side side : {Side::x_min, Side::x_max})
+        set_boundary(scene, side, fixed_wall(-1));
+      try
+      {
+        run(scene, 20);
+        FAIL() << "followed";
+      }
+      catch(const cases::Refusal &refusal)
+      {
+        EXPECT_NE(std::string(refusal.what())
+                      .find("the liquid, which moves where the "
+                            "densities differ, lies between two "
+                            "fronts"),
+                  std::string::npos)
+            << refusal.what();
+      }
+      EXPECT_LE(run(scene, 20, {{"displaced", "solid"}}).worst_budget_defect(), 1e-4);
+    }
+
     // Liquid of a conductivity a thousand times smaller beside a disk that melts: its
     // layer is thinner than any cell here. By collocation the disk was 3 % too large at
     // every n, with up to half of its heat missing.
