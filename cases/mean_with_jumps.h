@@ -65,13 +65,20 @@ namespace meltfront::cases
         from[last], to[last], parts, halvings);
   }
 
+  /** Where a function jumps, and by how much. */
+  struct Jump
+  {
+    double height = 0; ///< its magnitude
+    Position place{};
+  };
+
   /** What is left of the difference of a function between two places where most of it is,
    * on halves of the way from one to the other: of a jump its height, of what is
    * continuous next to nothing. @param value of a Position */
   template <typename Function>
-  double jump_between(const Function &value, Position from, Position to)
+  Jump jump_between(const Function &value, Position from, Position to)
   {
-    constexpr int halvings = 24;
+    constexpr int halvings = 48;
     double first = value(from), last = value(to);
     for(int halving = 0; halving < halvings; ++halving)
     {
@@ -83,7 +90,7 @@ namespace meltfront::cases
       (later ? from : to) = middle;
       (later ? first : last) = at;
     }
-    return std::abs(last - first);
+    return {std::abs(last - first), to};
   }
 } // namespace meltfront::cases
 

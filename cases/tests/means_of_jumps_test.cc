@@ -64,11 +64,13 @@ namespace
       return [of_ramp](const Position &p)
       { return (p[0] + 0.4 * p[1] < 0.617 ? -0.9 : 0.6) + of_ramp * p[0]; };
     };
-    EXPECT_NEAR(jump_between(value(0.3), {0.4, 0.1, 0}, {0.7, 0.3, 0}), 1.5, 1e-6);
-    EXPECT_NEAR(jump_between(value(0.3), {0.1, 0.1, 0}, {0.4, 0.3, 0}), 0, 1e-6);
+    const Jump jump = jump_between(value(0.3), {0.4, 0.1, 0}, {0.7, 0.3, 0});
+    EXPECT_NEAR(jump.height, 1.5, 1e-9);
+    EXPECT_NEAR(jump.place[0] + 0.4 * jump.place[1], 0.617, 1e-12);
+    EXPECT_NEAR(jump_between(value(0.3), {0.1, 0.1, 0}, {0.4, 0.3, 0}).height, 0, 1e-9);
     const auto steep
         = [](const Position &p) { return std::clamp(1e3 * (p[0] - 0.5), 0., 1.); };
-    EXPECT_NEAR(jump_between(steep, {0.4, 0, 0}, {0.7, 0, 0}), 0, 1e-3);
+    EXPECT_NEAR(jump_between(steep, {0.4, 0, 0}, {0.7, 0, 0}).height, 0, 1e-3);
   }
 
   // A jump of half a kelvin is one, whatever the zero of the scale is.

@@ -72,12 +72,18 @@ namespace meltfront::reference_fem
       double average(Symmetry measure, double lower, double upper) const
       {
         if(jumps)
+        {
+          // Over the volume, so that what is uniform stays as it is.
+          const double power = measure == Symmetry::spherical     ? 3
+                               : measure == Symmetry::cylindrical ? 2
+                                                                  : 1;
           return cases::mean_with_jumps(
-                     [&](double x) {
-                       return cases::surface(measure, x) * (*this)({x, 0, 0});
-                     },
-                     lower, upper, parts_of_line, halvings_of_line)
-                 * (upper - lower) / cases::volume_between(measure, lower, upper);
+              [&](double volume) {
+                return (*this)({std::pow(volume, 1 / power), 0, 0});
+              },
+              std::pow(lower, power), std::pow(upper, power), parts_of_line,
+              halvings_of_line);
+        }
         const double split = front_between(lower, upper);
         return (integral(measure, lower, split) + integral(measure, split, upper))
                / cases::volume_between(measure, lower, upper);

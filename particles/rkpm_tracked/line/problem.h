@@ -47,7 +47,10 @@ namespace meltfront::particles::rkpm_tracked
     std::vector<double> nodes; ///< ascending, the first and last on the walls (m)
     double spacing = 0;        ///< distance of nodes, where no wall makes it finer (m)
     std::array<double, 2> wall_spacing{}; ///< beside walls that make it finer, else 0 (m)
-    double spacing_growth = 0;            ///< with the distance from these walls
+    std::vector<double> jumps;            ///< of the temperature at the start (m)
+    double jump_spacing = 0;              ///< distance of nodes beside them (m)
+    double spacing_growth
+        = 0; ///< with the distance from walls and jumps that make it finer
     std::array<LineWall, 2> walls;
     bool axis = false; ///< the lower end is an axis or a centre, no wall
     std::function<double(double x, double time)> volumetric_source; ///< W/m^3, or empty
@@ -66,8 +69,8 @@ namespace meltfront::particles::rkpm_tracked
       return form == Form::balances;
     }
 
-    /** Distance of nodes about a place (m): from what it is beside a wall it grows with
-     * the distance from the wall. */
+    /** Distance of nodes about a place (m): from what it is beside a wall, or where the
+     * temperature jumps at the start, it grows with the distance. */
     double spacing_at(double x) const
     {
       double result = spacing;
@@ -78,6 +81,8 @@ namespace meltfront::particles::rkpm_tracked
               wall_spacing[side]
                   + spacing_growth
                         * std::abs(x - (side == 0 ? nodes.front() : nodes.back())));
+      for(const double jump : jumps)
+        result = std::min(result, jump_spacing + spacing_growth * std::abs(x - jump));
       return result;
     }
 

@@ -1,9 +1,12 @@
 #include <cases/error.h>
+#include <cases/expression_words.h>
 #include <cases/initial_level.h>
+#include <cases/mean_with_jumps.h>
 #include <cases/step_ends.h>
 #include <cases/time_integral.h>
 #include <cases/wall_law.h>
 #include <particles/core/arrangement.h>
+#include <particles/rkpm_tracked/line/collocation.h>
 #include <particles/rkpm_tracked/line/similarity_start.h>
 #include <particles/rkpm_tracked/line/start.h>
 
@@ -107,33 +110,96 @@ namespace meltfront::particles::rkpm_tracked
       }
     };
 
-    /** Lay the nodes of a problem, finer beside walls that want it. */
-    void lay_nodes(LineProblem &problem, double lower, double upper, double spacing,
-                   double jitter_over_spacing, std::uint64_t seed)
+    /** Nodes from one place to another, finer beside those where a spacing is given. */
+    std::vector<double> lay_piece(double lower, double upper, double spacing,
+                                  const std::array<double, 2> &at_ends, double growth,
+                                  double jitter_over_spacing, std::uint64_t seed)
     {
-      const auto &at_wall = problem.wall_spacing;
-      const GradedCells cells{spacing, std::max(at_wall[0], at_wall[1]),
-                              problem.spacing_growth};
+      const GradedCells cells{spacing, std::max(at_ends[0], at_ends[1]), growth};
       const double length = upper - lower;
       if(!(cells.at_wall > 0))
-      {
-        problem.nodes = arrange_line(lower, upper, spacing, jitter_over_spacing, seed);
-        problem.spacing = length / static_cast<double>(problem.nodes.size() - 1);
-        return;
-      }
-      const bool both = at_wall[0] > 0 && at_wall[1] > 0;
+        return arrange_line(lower, upper, spacing, jitter_over_spacing, seed);
+      const bool both = at_ends[0] > 0 && at_ends[1] > 0;
       const double wanted = both ? 2 * cells.to(length / 2) : cells.to(length);
       // In a coordinate in which all cells are of length one.
-      problem.nodes = arrange_line(0, wanted, 1, jitter_over_spacing, seed);
-      for(double &node : problem.nodes)
+      std::vector<double> nodes = arrange_line(0, wanted, 1, jitter_over_spacing, seed);
+      for(double &node : nodes)
       {
-        const bool from_lower = both ? node < wanted / 2 : at_wall[0] > 0;
+        const bool from_lower = both ? node < wanted / 2 : at_ends[0] > 0;
         node = from_lower ? lower + cells.distance(node)
                           : upper - cells.distance(wanted - node);
       }
-      problem.nodes.front() = lower;
-      problem.nodes.back() = upper;
-      problem.spacing = spacing;
+      nodes.front() = lower;
+      nodes.back() = upper;
+      return nodes;
+    }
+
+    /** Lay the nodes of a problem, finer beside walls that want it and where the
+     * temperature jumps, on which they stand. */
+    void lay_nodes(LineProblem &problem, double lower, double upper, double spacing,
+                   double jitter_over_spacing, std::uint64_t seed)
+    {
+      std::vector<double> ends = problem.jumps;
+      ends.push_back(upper);
+      double from = lower, before = problem.wall_spacing[0];
+      for(const double to : ends)
+      {
+        const double after = to == upper ? problem.wall_spacing[1] : problem.jump_spacing;
+        const std::vector<double> piece
+            = lay_piece(from, to, spacing, {before, after}, problem.spacing_growth,
+                        jitter_over_spacing, seed);
+        problem.nodes.insert(problem.nodes.end(),
+                             piece.begin() + (problem.nodes.empty() ? 0 : 1),
+                             piece.end());
+        from = to;
+        before = after;
+      }
+      const bool uniform
+          = ends.size() == 1
+            && !(std::max(problem.wall_spacing[0], problem.wall_spacing[1]) > 0);
+      problem.spacing
+          = uniform ? (upper - lower) / static_cast<double>(problem.nodes.size() - 1)
+                    : spacing;
+    }
+
+    /** Of the range of temperatures the least that is a jump. */
+    constexpr double negligible_jump = 1e-3;
+
+    double temperature_at_start(const cases::Scene &scene, double x)
+    {
+      return scene.initial.temperature(position_on_line(x), scene.start_time);
+    }
+
+    /** Where temperatures jump at the start, as far as their expression may (m). */
+    std::vector<double> find_jumps(const cases::Scene &scene, double lower, double upper,
+                                   double spacing)
+    {
+      std::vector<double> jumps;
+      if(scene.initial.exact || cases::metastable_initial_phase(scene)
+         || !cases::may_jump_with(scene.initial.temperature.expression, "xyz"))
+        return jumps;
+      const auto probes
+          = static_cast<long>((upper - lower) / spacing * probes_per_spacing);
+      std::vector<double> place, value;
+      for(long i = 0; i <= probes; ++i)
+      {
+        place.push_back(lower + (upper - lower) * i / probes);
+        value.push_back(temperature_at_start(scene, place.back()));
+      }
+      const auto [lowest, highest] = std::ranges::minmax(value);
+      const double least = negligible_jump * (highest - lowest);
+      for(std::size_t i = 1; i < place.size(); ++i)
+      {
+        if(!(std::abs(value[i] - value[i - 1]) > least))
+          continue;
+        const cases::Jump jump = cases::jump_between(
+            [&](const cases::Position &at)
+            { return scene.initial.temperature(at, scene.start_time); },
+            position_on_line(place[i - 1]), position_on_line(place[i]));
+        if(jump.height > least && jump.place[0] > lower && jump.place[0] < upper)
+          jumps.push_back(jump.place[0]);
+      }
+      return jumps;
     }
 
     bool solid_at(const cases::Scene &scene, double x)
@@ -186,6 +252,27 @@ namespace meltfront::particles::rkpm_tracked
       return result;
     }
 
+    /** A node where the temperature jumps has the mean of both sides; on a front, which
+     * is to stand where they touch, that of the front. */
+    void settle_jumps(const cases::Scene &scene, const LineProblem &problem,
+                      LineState &state)
+    {
+      const double beside = coincidence * problem.spacing;
+      for(const double jump : problem.jumps)
+      {
+        const auto node = std::ranges::find(problem.nodes, jump) - problem.nodes.begin();
+        double value = (temperature_at_start(scene, jump - beside)
+                        + temperature_at_start(scene, jump + beside))
+                       / 2;
+        for(double &front : state.fronts)
+          if(std::abs(front - jump) <= beside)
+          {
+            front = jump;
+            value = problem.material.melting_temperature;
+          }
+        state.temperature[static_cast<std::size_t>(node)] = value;
+      }
+    }
   } // namespace
 
   cases::Position position_on_line(double x)
@@ -224,6 +311,11 @@ namespace meltfront::particles::rkpm_tracked
         problem.wall_spacing[side] = parameters.wall_spacing * spacing;
     problem.spacing_growth
         = std::min(most_growth, spacing / (graded_share * domain.side()));
+    if(problem.balanced() && parameters.wall_spacing < 1)
+    {
+      problem.jumps = find_jumps(scene, lower, upper, spacing);
+      problem.jump_spacing = parameters.wall_spacing * spacing;
+    }
     lay_nodes(problem, lower, upper, spacing, parameters.jitter, seed);
     problem.breakpoints = cases::breakpoints_of(scene);
     // Steps that are equal in the root of time are up to twice as long as their mean.
@@ -255,8 +347,7 @@ namespace meltfront::particles::rkpm_tracked
     LineState state;
     state.time = scene.start_time;
     for(const double x : problem.nodes)
-      state.temperature.push_back(
-          scene.initial.temperature(position_on_line(x), scene.start_time));
+      state.temperature.push_back(temperature_at_start(scene, x));
     if(const auto &exact = scene.initial.exact)
     {
       const double front = exact->front(scene.start_time);
@@ -269,6 +360,7 @@ namespace meltfront::particles::rkpm_tracked
     }
     state.fronts = find_fronts(scene, lower, upper, problem.spacing);
     state.solid_first = solid_at(scene, lower);
+    settle_jumps(scene, problem, state);
     return state;
   }
 

@@ -89,8 +89,11 @@ namespace meltfront::particles::rkpm_tracked
     begun = state.time;
     solver.restart(std::move(state));
     next_step = rules.first_step;
-    for(const std::size_t side : {0, 1})
-      if(const double spacing = problem.wall_spacing[side]; spacing > 0)
+    const double at_jumps
+        = kept == 0 && !problem.jumps.empty() ? problem.jump_spacing : 0;
+    for(const double spacing :
+        {problem.wall_spacing[0], problem.wall_spacing[1], at_jumps})
+      if(spacing > 0)
         next_step
             = std::min(next_step, wall_step * spacing * spacing
                                       / std::max(problem.phase(true).diffusivity(),

@@ -149,6 +149,7 @@ namespace meltfront::particles::rkpm_tracked
                   || (other > i && std::abs(values[other] - values[i]) > least
                       && cases::jump_between(temperature, position_of(nodes.position[i]),
                                              position_of(nodes.position[other]))
+                                 .height
                              > least);
           });
     return found;

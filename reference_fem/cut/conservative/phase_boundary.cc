@@ -204,7 +204,8 @@ namespace meltfront::reference_fem::cut::conservative
         hold(context, wall.triangle, point, weight, wall.normal, offset + melting - given,
              0, result);
       else
-        add_exchange(context, boundary, wall.triangle, point, weight, given, offset);
+        add_exchange(context, boundary, wall.triangle, point, wall.share * weight, given,
+                     offset);
     };
     meters.walls[static_cast<std::size_t>(boundary.kind)].measure(
         [&]

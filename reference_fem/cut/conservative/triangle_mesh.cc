@@ -128,6 +128,8 @@ namespace meltfront::reference_fem::cut::conservative
         break;
       of_polygon += (exact - enclosed) / (2 * std::numbers::pi * radius);
     }
+    const std::size_t first = walls.size();
+    double length = 0;
     for(unsigned int t = 0; t < triangles.size(); ++t)
     {
       Triangle &triangle = triangles[t];
@@ -135,10 +137,14 @@ namespace meltfront::reference_fem::cut::conservative
       const Split halves = split(before[t].part, function);
       if(!halves.positive.empty())
         triangle.whole = false;
-      if(halves.crossed)
-        walls.push_back({t, halves.line, function.gradient / function.gradient.norm(),
-                         outer ? cases::Side::outer : cases::Side::inner});
+      if(!halves.crossed)
+        continue;
+      walls.push_back({t, halves.line, function.gradient / function.gradient.norm(),
+                       outer ? cases::Side::outer : cases::Side::inner});
+      length += halves.line.length();
     }
+    for(std::size_t wall = first; wall < walls.size(); ++wall)
+      walls[wall].share = 2 * std::numbers::pi * radius / length;
   }
 
   void TriangleMesh::add_box_walls(const cases::Domain &domain)

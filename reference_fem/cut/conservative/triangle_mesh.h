@@ -44,6 +44,7 @@ namespace meltfront::reference_fem::cut::conservative
     Segment segment;
     Gradient normal; ///< out of the domain
     cases::Side side;
+    double share = 1; ///< of a rim's length in that of its polygon
   };
 
   /**

@@ -77,6 +77,7 @@ namespace meltfront::reference_fem::cut::conservative
                                       && cases::jump_between(temperature,
                                                              position(mesh.nodes[from]),
                                                              position(mesh.nodes[to]))
+                                                 .height
                                              > least)
                                      return true;
                                  }

@@ -90,7 +90,7 @@ namespace meltfront::reference_fem::tests
         }
     }
 
-    // What jumps at the start is all there, in lines, in boxes, and in pipes.
+    // What jumps at the start is all there, in lines, in boxes, in pipes and in balls.
     TEST(Pulse, JumpsAtTheStartBringTheirHeat)
     {
       for(const double at : {0.25, 0.5, 0.513, 0.537})
@@ -108,6 +108,9 @@ namespace meltfront::reference_fem::tests
                       2.5e-3);
           EXPECT_NEAR(heat_of(ball(material, 2, 1, 0, 1e-3)),
                       -3 * std::numbers::pi * at * at, 1e-3);
+          // The mean over a volume about the centre is that of a uniform body there.
+          EXPECT_NEAR(heat_of(ball(material, 3, 1, 0, 1e-3)),
+                      -4 * std::numbers::pi * at * at * at, 1e-3);
         }
     }
 

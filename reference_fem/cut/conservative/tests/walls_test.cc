@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace meltfront::reference_fem::tests
@@ -65,6 +66,25 @@ namespace meltfront::reference_fem::tests
       EXPECT_NEAR(sharp.solid.back(), enthalpy.solid.back(), share_of_domain * 1.2)
           << "n = " << n;
       EXPECT_GT(std::abs(enthalpy.solid.back() - enthalpy.solid.front()), 0.02 * 1.2);
+    }
+
+    // A rim's polygon, which has the domain's area, is longer than the rim.
+    TEST(Walls, RimsGiveWhatTheyAreGiven)
+    {
+      Scene scene = ball(material_between_walls(), 2, 0.5, 0, 0.02);
+      scene.domain.shape = DomainShape::shell;
+      scene.domain.inner_radius = 0.2;
+      scene.initial.temperature = {
+          "ring", [](const Position &p, double) { return 0.35 - std::hypot(p[0], p[1]); },
+          false};
+      set_boundary(scene, Side::inner,
+                   {.kind = BoundaryKind::flux, .value = Field::uniform(1.5)});
+      set_boundary(scene, Side::outer,
+                   {.kind = BoundaryKind::flux, .value = Field::uniform(-0.7)});
+      const double given = 2 * std::numbers::pi * (0.2 * 1.5 - 0.5 * 0.7) * 0.02;
+      for(const int n : {16, 24})
+        EXPECT_NEAR(run_cut(scene, n, {{"scheme", "conservative"}}).heat.boundary, given,
+                    1e-12);
     }
 
     TEST(Walls, AHeldWallThatBothPhasesLieAtJumps)
