@@ -258,4 +258,10 @@ namespace meltfront::cases
     };
     return result;
   }
+
+  bool may_jump_at_start(const Scene &scene)
+  {
+    return !scene.initial.exact && !metastable_initial_phase(scene)
+           && may_jump_with(scene.initial.temperature.expression, "xyz");
+  }
 } // namespace meltfront::cases

@@ -28,6 +28,16 @@ namespace meltfront::cases
    * that takes it at one place of each cell: where it jumps in space the mean over the
    * cube of this width about a place, of a rectangular domain over what is within. */
   Field mean_release(const Scene &scene, double width);
+
+  /** Of the range of temperatures at the start the least difference that counts as a
+   * jump.
+   */
+  inline constexpr double negligible_jump = 1e-3;
+
+  /** Whether temperatures may jump in space at the start, as those of bodies that touch
+   * do, as far as their expression tells (may_jump_with()); not of an exact solution, nor
+   * where a phase is undercooled or superheated, which no method smooths. */
+  bool may_jump_at_start(const Scene &scene);
 } // namespace meltfront::cases
 
 #endif

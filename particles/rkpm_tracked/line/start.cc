@@ -1,7 +1,7 @@
 #include <cases/error.h>
-#include <cases/expression_words.h>
 #include <cases/initial_level.h>
 #include <cases/mean_with_jumps.h>
+#include <cases/means_of_jumps.h>
 #include <cases/step_ends.h>
 #include <cases/time_integral.h>
 #include <cases/wall_law.h>
@@ -162,9 +162,6 @@ namespace meltfront::particles::rkpm_tracked
                     : spacing;
     }
 
-    /** Of the range of temperatures the least that is a jump. */
-    constexpr double negligible_jump = 1e-3;
-
     double temperature_at_start(const cases::Scene &scene, double x)
     {
       return scene.initial.temperature(position_on_line(x), scene.start_time);
@@ -175,8 +172,7 @@ namespace meltfront::particles::rkpm_tracked
                                    double spacing)
     {
       std::vector<double> jumps;
-      if(scene.initial.exact || cases::metastable_initial_phase(scene)
-         || !cases::may_jump_with(scene.initial.temperature.expression, "xyz"))
+      if(!cases::may_jump_at_start(scene))
         return jumps;
       const auto probes
           = static_cast<long>((upper - lower) / spacing * probes_per_spacing);
@@ -187,7 +183,7 @@ namespace meltfront::particles::rkpm_tracked
         value.push_back(temperature_at_start(scene, place.back()));
       }
       const auto [lowest, highest] = std::ranges::minmax(value);
-      const double least = negligible_jump * (highest - lowest);
+      const double least = cases::negligible_jump * (highest - lowest);
       for(std::size_t i = 1; i < place.size(); ++i)
       {
         if(!(std::abs(value[i] - value[i - 1]) > least))

@@ -3,8 +3,8 @@
 #include <cases/capabilities.h>
 #include <cases/error.h>
 #include <cases/exact_solution.h>
-#include <cases/expression_words.h>
 #include <cases/mean_with_jumps.h>
+#include <cases/means_of_jumps.h>
 #include <particles/rkpm_tracked/plane/enthalpy_particles.h>
 #include <particles/sph/sph.h>
 
@@ -34,9 +34,8 @@ namespace meltfront::particles::rkpm_tracked
      * the rim of a body and not its depth; and by how many spacings deeper. */
     constexpr double beside = 1.5, deeper = 0.5;
 
-    /** How near nodes are between which a jump is looked for (spacings), and of the range
-     * of temperatures the least that is one. */
-    constexpr double beside_node = 1.5, negligible_jump = 1e-3;
+    /** How near nodes are between which a jump is looked for (spacings). */
+    constexpr double beside_node = 1.5;
 
     class Watch : public cases::Observer
     {
@@ -122,9 +121,8 @@ namespace meltfront::particles::rkpm_tracked
 
   bool may_start_with_jumps(const cases::Scene &scene)
   {
-    return !scene.initial.exact && scene.sources.empty()
-           && !cases::metastable_initial_phase(scene) && !starts_from_one_phase(scene)
-           && cases::may_jump_with(scene.initial.temperature.expression, "xyz");
+    return scene.sources.empty() && cases::may_jump_at_start(scene)
+           && !starts_from_one_phase(scene);
   }
 
   bool starts_with_jumps(const cases::Scene &scene, const PlaneNodes &nodes)
@@ -137,7 +135,7 @@ namespace meltfront::particles::rkpm_tracked
     for(const PlanePoint &place : nodes.position)
       values.push_back(temperature(position_of(place)));
     const auto [lowest, highest] = std::ranges::minmax(values);
-    const double least = negligible_jump * (highest - lowest);
+    const double least = cases::negligible_jump * (highest - lowest);
     bool found = false;
     for(std::size_t i = 0; i < nodes.size() && !found; ++i)
       nodes.bins.visit(

@@ -1,9 +1,14 @@
 #ifndef meltfront_particles_rkpm_tracked_tests_tracked_run_h
 #define meltfront_particles_rkpm_tracked_tests_tracked_run_h
 
+#include <cases/error.h>
 #include <cases/tests/support/course.h>
 #include <cases/tests/support/scenes.h>
 #include <particles/rkpm_tracked/rkpm_tracked.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
 
 namespace meltfront::particles::rkpm_tracked
 {
@@ -14,6 +19,20 @@ namespace meltfront::particles::rkpm_tracked
   inline Course run(const cases::Scene &scene, int n, const OptionTexts &options = {})
   {
     return course_of(*make_rkpm_tracked(), scene, n, options);
+  }
+
+  inline void expect_refusal(const cases::Scene &scene, int n, const std::string &reason)
+  {
+    try
+    {
+      run(scene, n);
+      ADD_FAILURE() << "followed, not refused: " << reason;
+    }
+    catch(const cases::Refusal &refusal)
+    {
+      EXPECT_NE(std::string(refusal.what()).find(reason), std::string::npos)
+          << refusal.what();
+    }
   }
 
   inline cases::Scene slab(const cases::Material &material, double start, double end)

@@ -1,8 +1,8 @@
 #include <reference_fem/cut/conservative/conservative_run.h>
 
 #include <cases/exact/front_start.h>
-#include <cases/expression_words.h>
 #include <cases/mean_with_jumps.h>
+#include <cases/means_of_jumps.h>
 #include <cases/overshoot.h>
 #include <cases/time_integral.h>
 #include <cases/wall_law.h>
@@ -54,8 +54,7 @@ namespace meltfront::reference_fem::cut::conservative
   /** Whether temperatures jump at the start, between nodes of a triangle. */
   bool ConservativeRun::starts_with_jumps() const
   {
-    if(scene.initial.exact || cases::metastable_initial_phase(scene)
-       || !cases::may_jump_with(scene.initial.temperature.expression, "xyz"))
+    if(!cases::may_jump_at_start(scene))
       return false;
     const auto temperature = [&](const cases::Position &place)
     { return scene.initial.temperature(place, scene.start_time); };
@@ -63,7 +62,7 @@ namespace meltfront::reference_fem::cut::conservative
     for(const Point &node : mesh.nodes)
       values.push_back(temperature(position(node)));
     const auto [lowest, highest] = std::ranges::minmax(values);
-    const double least = least_jump * (highest - lowest);
+    const double least = cases::negligible_jump * (highest - lowest);
     return std::ranges::any_of(mesh.triangles,
                                [&](const Triangle &triangle)
                                {

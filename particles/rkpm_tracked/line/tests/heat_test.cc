@@ -158,16 +158,7 @@ namespace meltfront::particles::rkpm_tracked
                                    { return p[0] > 0.49 && p[0] < 0.515 ? 0.01 : -0.1; }};
       for(const Side side : {Side::x_min, Side::x_max})
         set_boundary(scene, side, fixed_wall(-0.1));
-      try
-      {
-        run(scene, 42);
-        FAIL() << "followed";
-      }
-      catch(const cases::Refusal &refusal)
-      {
-        EXPECT_NE(std::string(refusal.what()).find("spacings thick: take n"),
-                  std::string::npos);
-      }
+      expect_refusal(scene, 42, "spacings thick: take n");
       EXPECT_NEAR(run(scene, 84).solid.back(), 1, 1e-9);
     }
 
