@@ -35,9 +35,10 @@ namespace meltfront::reference_fem
     {
       finder.emplace(shape.triangulation, *rules.mapping);
     }
-    std::vector<double> node_averages(
-        const std::function<double(const cases::Position &)> &function,
-        const std::function<bool(const cases::Position &)> &solid) const override;
+    std::vector<double>
+    node_averages(const std::function<double(const cases::Position &)> &function,
+                  const std::function<bool(const cases::Position &)> &solid,
+                  bool jumps) const override;
 
   private:
     using Cell = typename dealii::DoFHandler<dim>::active_cell_iterator;

@@ -2,7 +2,9 @@
 #define meltfront_reference_fem_enthalpy_deal_mesh_templates_h
 
 #include <cases/error.h>
+#include <reference_fem/enthalpy/cell_geometry.h>
 #include <reference_fem/enthalpy/deal_mesh.h>
+#include <reference_fem/enthalpy/integrals_about_corners.h>
 
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_tools.h>
@@ -116,28 +118,30 @@ namespace meltfront::reference_fem
   template <int dim>
   std::vector<double> DealMesh<dim>::node_averages(
       const std::function<double(const cases::Position &)> &function,
-      const std::function<bool(const cases::Position &)> &solid) const
+      const std::function<bool(const cases::Position &)> &solid, bool jumps) const
   {
     const auto flags = dealii::update_JxW_values | dealii::update_quadrature_points;
-    dealii::FEValues<dim> in_phase(*rules.mapping, *rules.element, rules.smooth, flags),
-        at_front(*rules.mapping, *rules.element, rules.jumps, flags);
-    const std::vector<unsigned int> nearest_in_phase
+    dealii::FEValues<dim> smooth(*rules.mapping, *rules.element, rules.smooth, flags),
+        many(*rules.mapping, *rules.element, rules.jumps, flags);
+    const std::vector<unsigned int> nearest_of_smooth
         = rules.nearest_corners(rules.smooth),
-        nearest_at_front = rules.nearest_corners(rules.jumps);
+        nearest_of_many = rules.nearest_corners(rules.jumps);
     // The phases of the cells around a node: a front that cuts off a cell's corner is
     // seen in the cells beside it.
     constexpr char is_solid = 1, is_liquid = 2;
     std::vector<char> phases(n_nodes, 0);
     for(const auto &cell : dof_handler.active_cell_iterators())
     {
-      in_phase.reinit(cell);
+      smooth.reinit(cell);
       char found = 0;
-      for(const unsigned int q : in_phase.quadrature_point_indices())
-        found
-            |= solid(position<dim>(in_phase.quadrature_point(q))) ? is_solid : is_liquid;
+      for(const unsigned int q : smooth.quadrature_point_indices())
+        found |= solid(position<dim>(smooth.quadrature_point(q))) ? is_solid : is_liquid;
       for(const unsigned int site : sites(cell))
         phases[node_of_site[site]] |= found;
     }
+    std::optional<CellGeometry<dim>> geometry;
+    if(!rules.simplices)
+      geometry.emplace(*rules.mapping, *rules.element);
     std::vector<double> sum(n_nodes), measure_of(n_nodes);
     for(const auto &cell : dof_handler.active_cell_iterators())
     {
@@ -145,17 +149,37 @@ namespace meltfront::reference_fem
       char found = 0;
       for(const unsigned int site : corners)
         found |= phases[node_of_site[site]];
-      const bool mixed = found == (is_solid | is_liquid);
-      dealii::FEValues<dim> &values = mixed ? at_front : in_phase;
+      const bool may_jump = jumps || found == (is_solid | is_liquid);
+      const bool by_parts = may_jump && !rules.simplices;
+      const auto &nearest
+          = may_jump && rules.simplices ? nearest_of_many : nearest_of_smooth;
+      dealii::FEValues<dim> &values = may_jump && rules.simplices ? many : smooth;
       values.reinit(cell);
+      const double usual = by_parts ? function(position<dim>(cell->center())) : 0;
       for(const unsigned int q : values.quadrature_point_indices())
       {
-        const unsigned int nearest = (mixed ? nearest_at_front : nearest_in_phase)[q];
-        const unsigned int i = node_of_site[corners[nearest]];
+        const unsigned int i = node_of_site[corners[nearest[q]]];
         const double measure = values.JxW(q) * weight(values.quadrature_point(q));
-        sum[i] += measure * function(position<dim>(values.quadrature_point(q)));
+        sum[i]
+            += measure
+               * (by_parts ? usual : function(position<dim>(values.quadrature_point(q))));
         measure_of[i] += measure;
       }
+      if(!by_parts)
+        continue;
+      geometry->reinit(cell);
+      const auto excess_at = [&](const cases::Position &in_unit)
+      {
+        dealii::Point<dim> unit;
+        for(unsigned int d = 0; d < dim; ++d)
+          unit[d] = in_unit[d];
+        const auto place = (*geometry)(unit);
+        return place.volume * weight(place.point)
+               * (function(position<dim>(place.point)) - usual);
+      };
+      const std::vector<double> excess = integrals_about_corners(excess_at, dim);
+      for(unsigned int a = 0; a < corners.size(); ++a)
+        sum[node_of_site[corners[a]]] += excess[a];
     }
     for(unsigned int i = 0; i < n_nodes; ++i)
       sum[i] /= measure_of[i];

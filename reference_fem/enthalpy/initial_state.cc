@@ -17,10 +17,8 @@ namespace meltfront::reference_fem
     using cases::Position;
     using cases::Symmetry;
 
-    /** Parts and halvings of them in search of what jumps: along a line, and in each
-     * direction of a box. */
-    constexpr int parts_of_line = 4, halvings_of_line = 12, parts_in_box = 2,
-                  halvings_in_box = 6;
+    /** Parts and halvings of them in search of what jumps along a line. */
+    constexpr int parts_of_line = 4, halvings_of_line = 12;
 
     /** What the averages are made of: the front, where there is one, decides on the
      * phase, not the sign of a temperature that may be the melting point's. */
@@ -184,31 +182,6 @@ namespace meltfront::reference_fem
       return level;
     }
 
-    /** Average over the part of a box nearest to a node, where the cells about it are as
-     * large as the smallest; else nothing. */
-    std::optional<double> average_over_part(const cases::Scene &scene, const Start &start,
-                                            const Discretisation &discretisation,
-                                            std::size_t node)
-    {
-      const cases::Domain &domain = scene.domain;
-      const Position &middle = discretisation.positions[node];
-      Position from = middle, to = middle;
-      double volume = 1;
-      for(std::size_t d = 0; d < static_cast<std::size_t>(domain.dimension); ++d)
-      {
-        const double side = domain.upper[d] - domain.lower[d];
-        const double half
-            = side / std::max(1., std::round(side / discretisation.spacing)) / 2;
-        from[d] = std::max(middle[d] - half, domain.lower[d]);
-        to[d] = std::min(middle[d] + half, domain.upper[d]);
-        volume *= to[d] - from[d];
-      }
-      if(std::abs(volume - discretisation.volume[node]) > 1e-6 * volume)
-        return {};
-      return cases::mean_over_box(start, middle, from, to, domain.dimension, parts_in_box,
-                                  halvings_in_box);
-    }
-
     std::vector<double> averages(const cases::Scene &scene, const Start &start,
                                  const Mesh &mesh, const Discretisation &discretisation)
     {
@@ -216,15 +189,8 @@ namespace meltfront::reference_fem
       const Symmetry measure = discretisation.measure;
       const double half = discretisation.spacing / 2;
       if(measure == Symmetry::none && scene.domain.shape != cases::DomainShape::slab)
-      {
-        std::vector<double> result = mesh.node_averages(start, [&](const Position &p)
-                                                        { return start.solid(p); });
-        if(start.may_jump() && scene.domain.rectangular())
-          for(std::size_t i = 0; i < n; ++i)
-            result[i]
-                = average_over_part(scene, start, discretisation, i).value_or(result[i]);
-        return result;
-      }
+        return mesh.node_averages(
+            start, [&](const Position &p) { return start.solid(p); }, start.may_jump());
       std::vector<double> result(n);
       double lower = scene.domain.inner_radius;
       double volume = cases::volume_between(measure, 0, lower);

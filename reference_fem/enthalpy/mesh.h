@@ -87,15 +87,17 @@ namespace meltfront::reference_fem
     }
 
     /**
-     * Averages of a function over the part of each cell nearest to a node: by a midpoint
-     * rule of 8 points per cell and direction in cells that hold both phases or are
-     * beside such, by Gauss' rule of 4 elsewhere. A pocket of the other phase between
-     * those points is not seen.
+     * Averages of a function over the part of each cell nearest to a node: in cells that
+     * hold both phases or are beside such up to what jumps (in boxes and simplices by a
+     * midpoint rule of 8 points per cell and direction), by Gauss' rule of 4 elsewhere.
+     * A pocket of the other phase between those points is not seen.
      * @param solid the phase at a point
+     * @param jumps whether the function may jump elsewhere than between the phases
      */
     virtual std::vector<double>
     node_averages(const std::function<double(const cases::Position &)> &function,
-                  const std::function<bool(const cases::Position &)> &solid) const = 0;
+                  const std::function<bool(const cases::Position &)> &solid,
+                  bool jumps) const = 0;
   };
 
   /** The dimensions in which a scene can be meshed, the lowest first. */

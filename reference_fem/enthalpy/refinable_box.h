@@ -27,9 +27,10 @@ namespace meltfront::reference_fem
     void expect_many_points() override
     {
     }
-    std::vector<double> node_averages(
-        const std::function<double(const cases::Position &)> &function,
-        const std::function<bool(const cases::Position &)> &solid) const override;
+    std::vector<double>
+    node_averages(const std::function<double(const cases::Position &)> &function,
+                  const std::function<bool(const cases::Position &)> &solid,
+                  bool jumps) const override;
 
     std::vector<int> halvings_left() const override;
     std::vector<double> jumps(const std::vector<double> &values) const override;
@@ -67,6 +68,13 @@ namespace meltfront::reference_fem
     void conduct_between(RowBuilder &rows, unsigned int a, unsigned int b,
                          double conductance) const;
     void find_walls(Discretisation &result) const;
+    struct PlaceInCell
+    {
+      cases::Position position{};
+      double volume = 1; ///< per volume of the unit cell
+    };
+    PlaceInCell place_in(const Cell &cell, const cases::Position &unit) const;
+
     template <typename Visit>
     void visit_points(const Cell &cell, const dealii::Quadrature<dim> &points,
                       const Visit &visit) const;

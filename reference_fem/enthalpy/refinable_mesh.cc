@@ -2,6 +2,7 @@
 
 #include <cases/error.h>
 #include <reference_fem/enthalpy/box_tree.h>
+#include <reference_fem/enthalpy/integrals_about_corners.h>
 
 #include <deal.II/grid/grid_generator.h>
 
@@ -116,6 +117,22 @@ namespace meltfront::reference_fem
     return result;
   }
 
+  template <int dim>
+  typename RefinableBox<dim>::PlaceInCell
+  RefinableBox<dim>::place_in(const Cell &cell, const cases::Position &unit) const
+  {
+    const auto &least = cell->vertex(0), &greatest = cell->vertex(n_corners - 1);
+    PlaceInCell result;
+    for(int d = 0; d < dim; ++d)
+    {
+      result.position[d] = least[d] + unit[d] * (greatest[d] - least[d]);
+      result.volume *= greatest[d] - least[d];
+    }
+    if(scene.domain.shape == cases::DomainShape::axisymmetric)
+      result.volume *= 2 * std::numbers::pi * result.position[0];
+    return result;
+  }
+
   /** Visit points of a cell, with their measures and the corners nearest to them. */
   template <int dim>
   template <typename Visit>
@@ -123,40 +140,32 @@ namespace meltfront::reference_fem
                                        const dealii::Quadrature<dim> &points,
                                        const Visit &visit) const
   {
-    const auto &least = cell->vertex(0), &greatest = cell->vertex(n_corners - 1);
-    double volume = 1;
-    for(int d = 0; d < dim; ++d)
-      volume *= greatest[d] - least[d];
     for(unsigned int q = 0; q < points.size(); ++q)
     {
-      cases::Position position{};
+      cases::Position unit{};
       unsigned int nearest = 0;
       for(int d = 0; d < dim; ++d)
       {
-        const double x = points.point(q)[d];
-        position[d] = least[d] + x * (greatest[d] - least[d]);
-        nearest |= (x > 0.5 ? 1u : 0u) << d;
+        unit[d] = points.point(q)[d];
+        nearest |= (unit[d] > 0.5 ? 1u : 0u) << d;
       }
-      double measure = points.weight(q) * volume;
-      if(scene.domain.shape == cases::DomainShape::axisymmetric)
-        measure *= 2 * std::numbers::pi * position[0];
-      visit(position, measure, nearest);
+      const PlaceInCell place = place_in(cell, unit);
+      visit(place.position, points.weight(q) * place.volume, nearest);
     }
   }
 
   template <int dim>
   std::vector<double> RefinableBox<dim>::node_averages(
       const std::function<double(const cases::Position &)> &function,
-      const std::function<bool(const cases::Position &)> &solid) const
+      const std::function<bool(const cases::Position &)> &solid, bool jumps) const
   {
-    const dealii::QIterated<dim> few(dealii::QGauss<1>(2), 2),
-        many(dealii::QMidpoint<1>(), 8);
+    const dealii::QIterated<dim> rule(dealii::QGauss<1>(2), 2);
     constexpr char is_solid = 1, is_liquid = 2, both = 3;
     std::vector<char> phases(masters.size());
     for(const auto &cell : local.triangulation.active_cell_iterators())
     {
       char found = 0;
-      visit_points(cell, few,
+      visit_points(cell, rule,
                    [&](const cases::Position &p, double, unsigned int)
                    { found |= solid(p) ? is_solid : is_liquid; });
       for(unsigned int a = 0; a < n_corners; ++a)
@@ -168,10 +177,13 @@ namespace meltfront::reference_fem
       char found = 0;
       for(unsigned int a = 0; a < n_corners; ++a)
         found |= phases[cell->vertex_index(a)];
-      visit_points(cell, found == both ? many : few,
+      const bool may_jump = jumps || found == both;
+      const double usual
+          = may_jump ? function(place_in(cell, {0.5, 0.5, 0.5}).position) : 0;
+      visit_points(cell, rule,
                    [&](const cases::Position &p, double measure, unsigned int nearest)
                    {
-                     const double value = function(p);
+                     const double value = may_jump ? usual : function(p);
                      visit_nodes(cell->vertex_index(nearest), measure,
                                  [&](unsigned int node, double part)
                                  {
@@ -179,6 +191,17 @@ namespace meltfront::reference_fem
                                    measure_of[node] += part;
                                  });
                    });
+      if(!may_jump)
+        continue;
+      const auto excess_at = [&](const cases::Position &unit)
+      {
+        const PlaceInCell place = place_in(cell, unit);
+        return place.volume * (function(place.position) - usual);
+      };
+      const std::vector<double> excess = integrals_about_corners(excess_at, dim);
+      for(unsigned int a = 0; a < n_corners; ++a)
+        visit_nodes(cell->vertex_index(a), excess[a],
+                    [&](unsigned int node, double part) { sum[node] += part; });
     }
     for(unsigned int i = 0; i < n_nodes; ++i)
       sum[i] /= measure_of[i];

@@ -1,5 +1,6 @@
 #include <reference_fem/enthalpy/distributed/box_hierarchy.h>
 #include <reference_fem/enthalpy/distributed/node_shares.h>
+#include <reference_fem/enthalpy/integrals_about_corners.h>
 
 #include <cases/error.h>
 
@@ -69,7 +70,8 @@ namespace meltfront::reference_fem
       }
       std::vector<double>
       node_averages(const std::function<double(const Position &)> &function,
-                    const std::function<bool(const Position &)> &solid) const override;
+                    const std::function<bool(const Position &)> &solid,
+                    bool jumps) const override;
 
     private:
       using Corners = std::array<unsigned int, 8>;
@@ -209,12 +211,11 @@ namespace meltfront::reference_fem
 
     std::vector<double>
     BoxOfRank::node_averages(const std::function<double(const Position &)> &function,
-                             const std::function<bool(const Position &)> &solid) const
+                             const std::function<bool(const Position &)> &solid,
+                             bool jumps) const
     {
-      const std::vector<CellPoint> few
+      const std::vector<CellPoint> rule
           = cell_points(dealii::QIterated<1>(dealii::QGauss<1>(2), 2), lattice.dimension);
-      const std::vector<CellPoint> many = cell_points(
-          dealii::QIterated<1>(dealii::QMidpoint<1>(), 8), lattice.dimension);
       constexpr unsigned int is_solid = 1, is_liquid = 2;
       std::vector<double> phases(level.n_with_ghosts());
       const auto found_at
@@ -223,7 +224,7 @@ namespace meltfront::reference_fem
           [&](const Place &cell, const Corners &corners)
           {
             unsigned int found = 0;
-            for(const CellPoint &point : few)
+            for(const CellPoint &point : rule)
               found |= solid(point_in(cell, point.unit)) ? is_solid : is_liquid;
             for(unsigned int a = 0; a < lattice.n_corners(); ++a)
               phases[corners[a]] = found_at(corners[a]) | found;
@@ -238,15 +239,40 @@ namespace meltfront::reference_fem
             unsigned int found = 0;
             for(unsigned int a = 0; a < lattice.n_corners(); ++a)
               found |= found_at(corners[a]);
-            for(const CellPoint &point : found == (is_solid | is_liquid) ? many : few)
+            const bool may_jump = jumps || found == (is_solid | is_liquid);
+            const auto weight_at = [&](const Position &place)
+            { return lattice.about_axis ? place[0] : 1.; };
+            const double usual = may_jump ? function(point_in(cell, {0.5, 0.5, 0.5})) : 0;
+            for(const CellPoint &point : rule)
               if(const unsigned int i = corners[point.nearest]; i < n_own)
               {
                 const Position place = point_in(cell, point.unit);
-                const double weight
-                    = lattice.about_axis ? point.weight * place[0] : point.weight;
-                sum[i] += weight * function(place);
+                const double weight = point.weight * weight_at(place);
+                sum[i] += weight * (may_jump ? usual : function(place));
                 measure[i] += weight;
               }
+            if(!may_jump)
+              return;
+            // Lines of points run as in a mesh of one process, where the lattice may have
+            // another order of coordinates.
+            const auto excess_at = [&](const Position &in_order)
+            {
+              Position unit{};
+              for(int d = 0; d < lattice.dimension; ++d)
+                unit[d] = in_order[lattice.coordinate(d)];
+              const Position place = point_in(cell, unit);
+              return weight_at(place) * (function(place) - usual);
+            };
+            const std::vector<double> excess
+                = integrals_about_corners(excess_at, lattice.dimension);
+            for(unsigned int a = 0; a < lattice.n_corners(); ++a)
+            {
+              unsigned int in_order = 0;
+              for(int d = 0; d < lattice.dimension; ++d)
+                in_order |= (a >> d & 1) << lattice.coordinate(d);
+              if(const unsigned int i = corners[a]; i < n_own)
+                sum[i] += excess[in_order];
+            }
           });
       for(unsigned int i = 0; i < n_own; ++i)
         sum[i] /= measure[i];

@@ -18,6 +18,7 @@ namespace meltfront::reference_fem
   namespace
   {
     using namespace tests;
+    using cases::Position;
     using cases::Side;
 
     TEST(EnthalpyGraph, ResolvesTheInclusionOnBothSidesAndOnTheJump)
@@ -208,13 +209,36 @@ namespace meltfront::reference_fem
       EXPECT_TRUE(block.conduction.is_monotone());
     }
 
+    TEST(Mesh, AveragesAtNodesHoldWhatJumpsAroundAWholeRing)
+    {
+      // Around a ring an error of a cell's rule adds up; the ones of many rings, all
+      // within one cell, do not even out.
+      const double radius = 0.7, pi = std::numbers::pi;
+      const auto mesh = make_mesh(ball(water(), 2, radius, 1, 1), 2, 16);
+      const Discretisation full = mesh->discretise();
+      double worst = 0;
+      for(const bool phases : {false, true})
+        for(double ring = 0.40; ring < 0.46; ring += 0.007)
+        {
+          const auto inside
+              = [ring](const Position &p) { return std::hypot(p[0], p[1]) < ring; };
+          const std::vector<double> averages = mesh->node_averages(
+              [&](const Position &p) { return inside(p) ? 3. : 1.; },
+              [&](const Position &p) { return phases && inside(p); }, !phases);
+          const double held = std::inner_product(averages.begin(), averages.end(),
+                                                 full.volume.begin(), 0.);
+          const double within = (held - pi * radius * radius) / 2;
+          worst = std::max(worst, std::abs(std::sqrt(within / pi) - ring));
+        }
+      EXPECT_LT(worst, 0.01 * full.spacing);
+    }
+
     TEST(Mesh, SharesOfASourceReproduceItsPosition)
     {
       const cases::Scene scene = box(water(), 2, {-1, 0, 0}, {1, 1, 0}, 1, 1);
       const auto mesh = make_mesh(scene, 2, 8);
       const Discretisation plain = mesh->discretise();
-      for(const cases::Position point :
-          {cases::Position{0.113, 0.771, 0}, {0, 0.5, 0}, {1, 1, 0}})
+      for(const Position point : {Position{0.113, 0.771, 0}, {0, 0.5, 0}, {1, 1, 0}})
       {
         double sum = 0, x = 0, y = 0;
         for(const auto &[node, share] : mesh->shares(point))

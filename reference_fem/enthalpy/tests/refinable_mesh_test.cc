@@ -287,8 +287,16 @@ namespace meltfront::reference_fem
       EXPECT_THROW(mesh->shares({1.1, 0.2, 0}), cases::InputError);
       const std::vector<double> averages
           = mesh->node_averages([](const Position &p) { return 1 + p[0] * p[1]; },
-                                [](const Position &p) { return p[0] < 0.5; });
+                                [](const Position &p) { return p[0] < 0.5; }, false);
       EXPECT_NEAR(held(now, averages), 0.75 + 0.5 * 0.75 * 0.75 / 2, 1e-12);
+      const auto step = [](const Position &p) { return p[0] < 0.437; };
+      for(const bool phases : {false, true})
+      {
+        const std::vector<double> jumping = mesh->node_averages(
+            [&](const Position &p) { return step(p) ? 3. : 1.; },
+            [&](const Position &p) { return phases && step(p); }, !phases);
+        EXPECT_NEAR(held(now, jumping), 0.75 + 2 * 0.437 * 0.75, 2 * 0.75 * 1e-3);
+      }
     }
   } // namespace
 } // namespace meltfront::reference_fem
