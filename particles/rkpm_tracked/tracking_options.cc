@@ -114,11 +114,12 @@ namespace meltfront::particles::rkpm_tracked
                 "Temperatures before the start, for the first steps: those of the exact "
                 "solution where the scene starts from one, or none (short first steps).",
                 {{"exact", true}, {"none", false}});
-    options.add("start_depth", start_depth,
-                "In the plane: spacings of nodes that a new phase is deep wherever it is "
-                "when sph, from which the run starts where one phase fills the domain, "
-                "hands over.",
-                2, 100);
+    options.add(
+        "start_depth", start_depth,
+        "In the plane: spacings of nodes that a new phase is deep wherever it is, "
+        "or what jumps at the start is smooth over, when sph, from which the run "
+        "starts there, hands over; from a quarter of the run on half as many.",
+        4, 100);
     options.add(
         "start_refinement", start_refinement,
         "In the plane: particles of that run in a spacing of nodes, along a side.", 1,

@@ -105,7 +105,7 @@ namespace meltfront::particles::rkpm_tracked
     Start start = Start::automatic;
     bool exact_history = true; ///< before the start, where the start is exact
     Displaced displaced = Displaced::liquid;
-    double start_depth = 3;   ///< of a new phase when sph hands over in the plane (nodes)
+    double start_depth = 6;   ///< of a new phase when sph hands over in the plane (nodes)
     int start_refinement = 2; ///< its particles in a spacing of the nodes, along a side
     int relax = 0;            ///< steps between relaxations of the inner nodes; 0: none
     RelaxRule relax_rule = RelaxRule::springs;

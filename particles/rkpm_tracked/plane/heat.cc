@@ -136,13 +136,15 @@ namespace meltfront::particles::rkpm_tracked
                                                   : NodePhase::liquid;
     }
     wall_areas.resize(nodes.walls.size());
+    beside_films.resize(nodes.walls.size());
     for(std::size_t w = 0; w < nodes.walls.size(); ++w)
     {
-      const std::uint32_t node = nodes.walls[w].node;
+      const WallNode &wall = nodes.walls[w];
       const double distance
-          = std::abs(index->signed_distance(nodes.position[node], nodes.spacing));
-      wall_areas[w]
-          = nodes.weight[node] * std::clamp(2 * distance / nodes.spacing - 1, 0., 1.);
+          = std::abs(index->signed_distance(nodes.position[wall.node], nodes.spacing));
+      wall_areas[w] = nodes.weight[wall.node]
+                      * std::clamp(2 * distance / nodes.spacing - 1, 0., 1.);
+      beside_films[w] = film_width(front, wall, distance) <= nodes.spacing / 2;
     }
     before.resize(front.size());
     after.resize(front.size());
@@ -157,6 +159,21 @@ namespace meltfront::particles::rkpm_tracked
       }
     for(StencilMaker &maker : makers)
       maker.set_front(front, *index, state.phase);
+  }
+
+  /** How far the front is from a wall along the wall's normal, by the straight line
+   * through its particle nearest to a node (m): of one that meets the wall at a right
+   * angle no end. What is left in a corner has no width but its distance. */
+  double PlaneHeat::film_width(const PlaneFront &front, const WallNode &wall,
+                               double distance) const
+  {
+    const long nearest = front_bins.nearest(nodes.position[wall.node]);
+    if(wall.n_pieces > 1 || !(distance < nodes.spacing) || nearest < 0)
+      return distance;
+    constexpr double least_cosine = 1e-3;
+    return distance
+           / std::max(least_cosine,
+                      std::abs(wall.pieces[0].normal.dot(front.normal[nearest])));
   }
 
   void PlaneHeat::make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,

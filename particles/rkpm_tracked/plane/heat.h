@@ -185,6 +185,8 @@ namespace meltfront::particles::rkpm_tracked
 
     const cases::PhaseProperties &properties(NodePhase phase) const;
     void make_rows(const PlaneState &state);
+    double film_width(const PlaneFront &front, const WallNode &wall,
+                      double distance) const;
     void make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,
                   std::size_t node);
     void make_front_stencils(const PlaneState &state);
@@ -235,6 +237,7 @@ namespace meltfront::particles::rkpm_tracked
     /** Areas that the balances of wall nodes are of (m^2): those of the nodes, none where
      * the front is nearer than half a spacing; a film's fits say nothing of second
      * derivatives across it. */
+    std::vector<char> beside_films; ///< of wall nodes
     std::vector<double> wall_areas;
     std::vector<double> wall_guesses;       ///< about which radiation is linearised (K)
     std::vector<std::size_t> before, after; ///< neighbours along the curves

@@ -27,6 +27,9 @@ namespace meltfront::particles::rkpm_tracked
      * it. */
     constexpr int stages_of_search = 3, stages_of_run = 8;
 
+    /** From this share of the run on, half of the depth is deep enough. */
+    constexpr double soon = 0.25;
+
     /** Times the depth that is asked for everywhere: so deep somewhere is deep enough. */
     constexpr double deep_somewhere = 3;
 
@@ -72,6 +75,11 @@ namespace meltfront::particles::rkpm_tracked
     struct Depths
     {
       double least = 0, most = 0; ///< of the places where it is deepest around (m)
+
+      bool reach(double asked) const
+      {
+        return least >= asked || most >= deep_somewhere * asked;
+      }
     };
 
     /** How deep a phase is; nothing where there is none. */
@@ -161,7 +169,7 @@ namespace meltfront::particles::rkpm_tracked
     , effects(effects)
     , resolution(resolution)
     , nodes(nodes)
-    , depth(parameters.start_depth * nodes.spacing)
+    , wished(parameters.start_depth * nodes.spacing)
   {
     particles = along_side(parameters.start_refinement);
     const double whole = scene.end_time - scene.start_time,
@@ -170,13 +178,17 @@ namespace meltfront::particles::rkpm_tracked
                  fastest = std::max(solid, liquid);
     if(!starts_from_one_phase(scene))
     {
-      const double duration = depth * depth / (4 * std::min(solid, liquid));
-      if(!(duration < whole))
+      const double slower = std::min(solid, liquid),
+                   at_least = wished * wished / (16 * slower);
+      if(!(at_least < whole))
         throw cases::Refusal(fmt::format(
             "{} does not resolve what jumps at the start: it takes {:.3g} s to be smooth "
             "over {:g} nodes, longer than the run: take more nodes, a later end, or sph",
-            method_name, duration, parameters.start_depth));
+            method_name, at_least, parameters.start_depth / 2));
+      const double duration
+          = std::clamp(soon * whole, at_least, wished * wished / (4 * slower));
       time = scene.start_time + duration;
+      least_depth = most_depth = 2 * std::sqrt(slower * duration) / nodes.spacing;
       return;
     }
     bool found = false;
@@ -190,7 +202,7 @@ namespace meltfront::particles::rkpm_tracked
             "phase is nowhere {:g} nodes deep before the end, or there is none: take "
             "more "
             "nodes, a later end, or sph",
-            method_name, parameters.start_depth));
+            method_name, parameters.start_depth / 2));
     }
   }
 
@@ -205,6 +217,8 @@ namespace meltfront::particles::rkpm_tracked
   {
     bool found = false, solid = false;
     double next_look = 0;
+    const double from_now_half
+        = scene.start_time + soon * (scene.end_time - scene.start_time);
     const Visit look = [&](const cases::Snapshot &snapshot)
     {
       if(snapshot.time == scene.start_time)
@@ -213,10 +227,14 @@ namespace meltfront::particles::rkpm_tracked
          || snapshot.time == scene.end_time)
         return;
       next_look = snapshot.time + (end - scene.start_time) / looks;
-      const auto depths
-          = depths_of(solid, EnthalpyParticles(scene, nodes, snapshot), nodes, depth);
-      found
-          = depths && (depths->least >= depth || depths->most >= deep_somewhere * depth);
+      const EnthalpyParticles state(scene, nodes, snapshot);
+      auto depths = depths_of(solid, state, nodes, wished);
+      found = depths && depths->reach(wished);
+      if(depths && !found && snapshot.time >= from_now_half)
+      {
+        depths = depths_of(solid, state, nodes, wished / 2);
+        found = depths && depths->reach(wished / 2);
+      }
       if(found)
       {
         time = snapshot.time;

@@ -26,7 +26,8 @@ namespace meltfront::particles::rkpm_tracked
    * The part of a run before its front is resolved, made by `sph` in the same domain:
    * from the scene's start until the phase that is new is so many nodes deep wherever it
    * is, or three times as deep somewhere; or until what jumps at the start is smooth over
-   * so many nodes, 2 sqrt(alpha t) of the phase with the smaller diffusivity.
+   * so many nodes, 2 sqrt(alpha t) of the phase with the smaller diffusivity. Where that
+   * takes longer than a quarter of the run, half as many are enough from then on.
    */
   class ParticleStart
   {
@@ -49,7 +50,8 @@ namespace meltfront::particles::rkpm_tracked
     cases::Cost run(const Visit &visit) const;
 
     double time = 0; ///< of the handing over (s)
-    /** Of a new phase (spacings), then, as the last search saw it; else 0. */
+    /** Of a new phase, then, as the last search saw it, or of what is smooth (spacings).
+     */
     double least_depth = 0, most_depth = 0;
     int particles = 0;    ///< along the side
     long search_work = 0; ///< interactions that the search touched
@@ -63,7 +65,7 @@ namespace meltfront::particles::rkpm_tracked
     const cases::EffectSet &effects;
     const cases::Resolution &resolution;
     const PlaneNodes &nodes;
-    const double depth; ///< asked for (m)
+    const double wished; ///< depth (m)
   };
 } // namespace meltfront::particles::rkpm_tracked
 

@@ -53,8 +53,8 @@ namespace meltfront::particles::rkpm_tracked
       return start_from_front();
     before.emplace(scene, effects, resolution, nodes, parameters);
     start_in_words = fmt::format("sph with {} particles along the side until {:.6g} s, "
-                                 "what jumps at the start smooth over {:g} spacings",
-                                 before->particles, before->time, parameters.start_depth);
+                                 "what jumps at the start smooth over {:.2g} spacings",
+                                 before->particles, before->time, before->least_depth);
   }
 
   void PlaneRun::start_from_front()

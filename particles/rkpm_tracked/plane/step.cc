@@ -128,7 +128,7 @@ namespace meltfront::particles::rkpm_tracked
         = std::all_of(wall.pieces.begin(), wall.pieces.begin() + wall.n_pieces,
                       [](const WallPiece &piece)
                       { return piece.boundary->kind == cases::BoundaryKind::insulated; });
-    if(area == 0 && insulated)
+    if(beside_films[nodes.wall_of_node[wall.node]] && insulated)
     {
       // Across a film at an insulated wall the temperature is that of the front but for
       // the square of the film's width; a fit to the film's few points may tell anything.

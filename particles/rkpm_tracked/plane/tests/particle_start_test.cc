@@ -102,7 +102,9 @@ namespace
       {
         const PlaneRecord record
             = run_plane(bodies_in_contact(at, height, solid, liquid, end), n);
-        EXPECT_NEAR(HandedOver(record).time, 9. / (4 * n * n), 1e-12);
+        // Smooth over six spacings, or from a quarter of the run on over three.
+        EXPECT_NEAR(HandedOver(record).time,
+                    std::clamp(end / 4, 9. / (4 * n * n), 36. / (4 * n * n)), 1e-12);
         const double way = 2 * speed_of_contact(solid, liquid) * std::sqrt(end);
         // Measured: 2.2 % at n = 28, from there on less by more than n.
         EXPECT_NEAR(record.frames.back().solid_area / height, at + way,
@@ -111,24 +113,25 @@ namespace
       }
   }
 
-  // The state is one of similarity: what is handed over three nodes deep is off by the
+  // The state is one of similarity: what is handed over four nodes deep is off by the
   // same share of its depth and heat at any n, so by one order of the spacing in all.
   TEST(ParticleStart, FreezesFromAWallLikeNeumann)
   {
     const cases::PlanarNeumann exact({}, cold, warm);
-    const std::vector<int> levels{20, 28, 40, 56};
+    const std::vector<int> levels{40, 48, 56, 68};
     std::vector<double> ends, starts, heats;
     for(const int n : levels)
     {
-      const PlaneRecord record = run_plane(cold_wall(0.05), n);
+      const PlaneRecord record = run_plane(cold_wall(0.05), n, {{"start_depth", "4"}});
       const HandedOver start(record);
       const double depth = exact.front(start.time);
       ends.push_back(
           std::abs(record.frames.back().solid_area / height - exact.front(0.05)));
       starts.push_back(std::abs(start.solid / height - depth));
       heats.push_back(std::abs(start.heat) / height);
-      EXPECT_GE(depth, 2.9 / n);
-      EXPECT_LE(depth, 3.5 / n);
+      EXPECT_GE(depth, 3.9 / n);
+      // The search, with as many particles as nodes, sees it to one or two of them.
+      EXPECT_LE(depth, 6. / n);
       // sph's solid at that time, and the heat that cells cut by the front are measured
       // otherwise by than particles.
       EXPECT_LE(starts.back(), 0.01 * depth) << n;
@@ -216,8 +219,13 @@ namespace
       set_boundary(scene, side, fixed_wall(1));
     const PlaneRecord record = run_plane(scene, 20);
     EXPECT_EQ(record.frames.back().solid_area, 0);
+    // What is smaller than a node's area is laid anew by a share of itself.
+    constexpr double cell = 1. / 400;
     for(std::size_t i = 1; i < record.frames.size(); ++i)
-      EXPECT_LE(record.frames[i].solid_area, record.frames[i - 1].solid_area + 1e-12);
+    {
+      const double before = record.frames[i - 1].solid_area;
+      EXPECT_LE(record.frames[i].solid_area, before + (before < cell ? 0.01 * cell : 0));
+    }
   }
 
   TEST(ParticleStart, RefusesWhatItCannotFollow)
@@ -233,7 +241,7 @@ namespace
          false});
     expect_refusal(later, 28, "the wall freezes liquid at");
     later = cold_wall(0.08);
-    set_boundary(later, Side::x_max, flux_wall(-2));
+    set_boundary(later, Side::x_max, flux_wall(-1.2));
     expect_refusal(later, 28, "the wall freezes liquid at");
     // Beside one that is there at the start.
     cases::Scene beside = insulated_box(

@@ -118,28 +118,53 @@ namespace
     }
   }
 
-  TEST(PlaneRun, FrontPassesFarAlongInsulatedWalls)
+  /** A strip between insulated walls through which a front goes from one depth to
+   * another.
+   * @param sign 1 where solid melts, -1 where liquid freezes */
+  cases::Scene strip(const cases::PlanarNeumann &exact, int sign, double height,
+                     double from, double to)
   {
-    // 12 spacings, three times as far as the solid's curve goes round beyond
-    // the walls.
-    const cases::Material material;
-    const cases::PlanarNeumann exact(material, 1, -0.2);
     const auto time_of
         = [&](double front) { return std::pow(front / (2 * exact.lambda()), 2); };
-    cases::Scene scene = box(material, 2, {0, 0, 0}, {1, 0.2, 0}, 0, time_of(0.8));
-    scene.start_time = time_of(0.2);
-    const double start = scene.start_time;
-    scene.initial.front = field_of([](const auto &p) { return 0.2 - p[0]; });
-    scene.initial.temperature
-        = field_of([&](const auto &p) { return exact.temperature(p[0], start); });
+    cases::Scene scene
+        = box(cases::Material(), 2, {0, 0, 0}, {1, height, 0}, 0, time_of(to));
+    const double start = time_of(from);
+    scene.start_time = start;
+    scene.initial.front
+        = field_of([from, sign](const auto &p) { return sign * (from - p[0]); });
+    scene.initial.temperature = field_of([&exact, start](const auto &p)
+                                         { return exact.temperature(p[0], start); });
     for(const auto &[side, place] :
         {std::pair{cases::Side::x_min, 0.}, std::pair{cases::Side::x_max, 1.}})
       set_boundary(scene, side,
                    varying_wall([&exact, place](double time)
                                 { return exact.temperature(place, time); }));
-    const PlaneRecord record = run_plane(scene, 20);
+    return scene;
+  }
+
+  TEST(PlaneRun, FrontPassesFarAlongInsulatedWalls)
+  {
+    // 12 spacings, three times as far as the solid's curve goes round beyond
+    // the walls.
+    const cases::PlanarNeumann exact(cases::Material(), 1, -0.2);
+    const PlaneRecord record = run_plane(strip(exact, 1, 0.2, 0.2, 0.8), 20);
     EXPECT_NEAR(record.frames.back().solid_area, 0.2 * 0.2, 5e-3 * 0.2);
     EXPECT_GE(record.frames.back().coldest, -0.2);
+  }
+
+  TEST(PlaneRun, InsulatedWallsDoNotHoldAFrontBack)
+  {
+    const cases::PlanarNeumann exact(cases::Material(), -0.8, 0.2);
+    constexpr double height = 0.25, depth = 0.22;
+    const std::vector<int> levels{20, 28, 40, 56};
+    std::vector<double> errors;
+    for(const int n : levels)
+    {
+      const PlaneRecord record = run_plane(strip(exact, -1, height, 0.1, depth), n);
+      errors.push_back(std::abs(record.frames.back().solid_area / height - depth));
+    }
+    EXPECT_GE(test_support::fitted_order(levels, errors), 1.5);
+    EXPECT_LE(errors.back(), 3e-3 * depth);
   }
 
   TEST(PlaneRun, FrontTurnsBack)
