@@ -49,7 +49,7 @@ namespace meltfront::reference_fem::cut
     double seed_cells = 3;
     StartFrom start = StartFrom::automatic;
     double start_depth = 3;
-    int start_refinement = 2;
+    int start_refinement = 4;
     Stabilisation stabilisation;
   };
 
