@@ -53,6 +53,7 @@ namespace meltfront::reference_fem::fitted
                             temperature);
       problem = std::make_shared<FittedProblem>(mesh, physics);
       initial_state = problem->state(scene.start_time, fronts.coordinates, temperature);
+      straighten_jumps(*problem, scene.start_time, initial_state);
     }
     const std::string reason_invalid = problem->reason_invalid(initial_state);
     if(!reason_invalid.empty())

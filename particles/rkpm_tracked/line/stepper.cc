@@ -21,6 +21,8 @@ namespace meltfront::particles::rkpm_tracked
      * left no less than this share. */
     constexpr double layer_decline = 0.25;
     constexpr double most_decline = 0.5;
+    /** Radius of the least body about an axis (spacings). */
+    constexpr double least_body = 1e-3;
     /** Events are found to this share of the temperature's span. */
     constexpr double event_tolerance = 1e-5;
     constexpr double least_excess = 1e-9;
@@ -261,6 +263,15 @@ namespace meltfront::particles::rkpm_tracked
            || too_fast(1, upper - before.fronts.back(), upper - now.fronts.back());
   }
 
+  /** Whether what is left of a body about the axis is so small that its heat is round-off
+   * of that of the others, and its speed with it. None grows from there. */
+  bool LineStepper::gone_at_centre() const
+  {
+    return problem.axis && !state().fronts.empty()
+           && state().fronts.front() - problem.nodes.front()
+                  < least_body * problem.spacing;
+  }
+
   bool LineStepper::a_front_turned(const std::deque<LineState> &before) const
   {
     const LineState &now = state();
@@ -339,6 +350,11 @@ namespace meltfront::particles::rkpm_tracked
       if(events > most_events)
         throw cases::NumericalError(method_name, kept, state().time, "number of events",
                                     "exceeds every bound");
+      if(gone_at_centre())
+      {
+        remove(0);
+        continue;
+      }
       const double end = choose_end(target);
       const double time_step = end - state().time;
       if(!(time_step > 0))

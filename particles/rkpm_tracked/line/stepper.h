@@ -111,6 +111,7 @@ namespace meltfront::particles::rkpm_tracked
     void shorten(StepOutcome outcome, double time_step);
     double growth_of_layer(double thickness) const;
     bool vanishes_too_fast(const LineState &before) const;
+    bool gone_at_centre() const;
     bool a_front_turned(const std::deque<LineState> &before) const;
     /** The step once more, of first order: where a layer beside it is not resolved a
      * front halts before each node, and formulas that look back run past that place. */

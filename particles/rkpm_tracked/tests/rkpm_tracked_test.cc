@@ -338,6 +338,32 @@ namespace meltfront::particles::rkpm_tracked
         EXPECT_NEAR(run(scene, n).front_points[0].at(0), finest, 8. / (n * n)) << n;
     }
 
+    TEST(RkpmTracked, BodiesVanishAtTheCentreAtAnyResolution)
+    {
+      // The last of a ball is smaller than round-off of the heat of all.
+      for(const int dimension : {2, 3})
+        for(const bool melts : {true, false})
+        {
+          cases::Scene scene = test_support::ball({}, dimension, 1, 0, 0.2);
+          scene.material.latent_heat = 0.8;
+          const double sign = melts ? 1 : -1;
+          const auto level = [](const cases::Position &p)
+          { return std::hypot(p[0], p[1], p[2]) - 0.25; };
+          scene.initial.temperature
+              = {"", [=](const cases::Position &p, double) { return sign * level(p); }};
+          scene.initial.front = cases::Field{"", [=](const cases::Position &p, double)
+                                             { return sign * level(p); }};
+          set_boundary(scene, Side::outer, fixed_wall(sign * 1.2));
+          const double all = dimension == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
+          for(const int n : {20, 33, 40, 60, 80, 120, 160, 320})
+          {
+            const Course course = run(scene, n);
+            EXPECT_NEAR(course.solid.back(), melts ? 0 : all, 1e-12 * all) << n;
+            EXPECT_LE(course.worst_budget_defect(), 1e-4) << n;
+          }
+        }
+    }
+
     TEST(RkpmTracked, WhatGivesWayMustNotLieAtTheCentre)
     {
       cases::Scene core = slab(bar_material(), 0, 0.01);

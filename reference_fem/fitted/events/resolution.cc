@@ -77,6 +77,33 @@ namespace meltfront::reference_fem::fitted
     return result;
   }
 
+  void straighten_jumps(const FittedProblem &problem, const double time,
+                        dealii::Vector<double> &u)
+  {
+    const RayMesh &mesh = problem.mesh();
+    const auto degree = static_cast<unsigned int>(mesh.surface.degree);
+    if(degree < telling_degree)
+      return;
+    std::vector<double> modes = highest_modes(problem, time, u);
+    if(problem.physics().power)
+      modes.front() = 0; // as in resolving_mesh()
+    for(unsigned int layer = 0; layer < mesh.layers.size(); ++layer)
+      for(unsigned int ray = 0;
+          modes[layer] > resolved_mode && ray < mesh.surface.n_rays(); ++ray)
+      {
+        const auto theta = [&](unsigned int b) {
+          return problem.theta(mesh.layers[layer].interval, ray, layer * degree + b, time,
+                               u);
+        };
+        const auto place = [&](unsigned int b)
+        { return problem.coordinate(ray, layer * degree + b, u); };
+        const double from = theta(0), to = theta(degree);
+        for(unsigned int b = 1; b < degree; ++b)
+          u[mesh.node(ray, layer * degree + b)]
+              = from + (to - from) * (place(b) - place(0)) / (place(degree) - place(0));
+      }
+  }
+
   RayMesh
   resolving_mesh(const RayMesh &given, const Physics &physics, const double time,
                  const std::vector<double> &fronts,
@@ -101,10 +128,10 @@ namespace meltfront::reference_fem::fitted
         mesh = RayMesh(mesh.surface, mesh.inner, mesh.outer, halved_where(mesh, modes));
         continue;
       }
-      if(*worst > mode_of_jump)
+      if(*worst > mode_of_jump && mesh.surface.n_rays() > 1)
         throw cases::Refusal(fmt::format(
-            "fem-fitted resolves temperatures that are continuous at the start, beside "
-            "fronts up to the melting temperature; at t = {:.6g} they jump at r = {:.6g}",
+            "fem-fitted resolves temperatures that jump at the start along a line only; "
+            "at t = {:.6g} they jump at r = {:.6g}",
             time,
             problem.coordinate(
                 0, static_cast<unsigned int>(worst - modes.begin()) * mesh.surface.degree,

@@ -1,3 +1,4 @@
+#include <reference_fem/fitted/events/resolution.h>
 #include <reference_fem/fitted/events/transitions.h>
 
 #include <cases/error.h>
@@ -63,21 +64,21 @@ namespace meltfront::reference_fem::fitted
   {
     const cases::Scene &scene = setting.scene;
     const RayScene &rays = setting.rays;
-    const RayMesh mesh(rays.surface, rays.inner, rays.outer,
-                       graded_shares(rays.cells, 1, true));
     Physics physics
         = physics_between(setting, initial_fronts(scene, rays).solid_inside, 0);
     physics.clock = {};
     // A sink makes a front at once: this is the state before it is switched on.
     physics.power = {};
+    const auto temperature = [&](const cases::Position &p)
+    { return scene.initial.temperature(p, scene.start_time); };
+    const RayMesh mesh = resolving_mesh(
+        RayMesh(rays.surface, rays.inner, rays.outer, graded_shares(rays.cells, 1, true)),
+        physics, scene.start_time, {}, temperature);
     RunSegment result;
     result.problem = std::make_shared<FittedProblem>(mesh, physics);
     result.time = scene.start_time;
-    result.state
-        = result.problem->state(scene.start_time, {},
-                                [&](const cases::Position &p) {
-                                  return scene.initial.temperature(p, scene.start_time);
-                                });
+    result.state = result.problem->state(scene.start_time, {}, temperature);
+    straighten_jumps(*result.problem, scene.start_time, result.state);
     result.steps = {{scene.end_time, (scene.end_time - scene.start_time)
                                          / std::max(1, setting.options.steps)}};
     return result;

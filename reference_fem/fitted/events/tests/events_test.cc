@@ -150,6 +150,47 @@ namespace meltfront::reference_fem::fitted
       }
     }
 
+    /** A slab 0 < x < 1 in contact with itself at another temperature. */
+    cases::Scene slab_in_contact(double at, double below, double above, double end)
+    {
+      cases::Scene scene = slab(unit_material(), 1, 0, 0, end);
+      scene.initial.temperature = step_along_x(at, below, above);
+      return scene;
+    }
+
+    TEST(Jump, BetweenBodiesThatTouchMovesTheFrontAsBetweenHalfSpaces)
+    {
+      constexpr double end = 0.006, at = 0.417;
+      for(const auto &[solid, liquid] : {std::pair(-0.9, 0.3), std::pair(-0.2, 0.8)})
+        for(const int n : {8, 16, 32})
+        {
+          cases::Scene scene = slab_in_contact(at, solid, liquid, end);
+          scene.initial.front = cases::Field{
+              "x - at", [](const cases::Position &p, double) { return p[0] - at; }};
+          const Course record = run(scene, n);
+          const double way = 2 * speed_of_contact(solid, liquid) * std::sqrt(end);
+          EXPECT_NEAR(record.solid.back(), at + way, 2e-4 * std::abs(way)) << n;
+          EXPECT_LE(record.worst_budget_defect(), 1e-12);
+        }
+    }
+
+    TEST(Jump, WithinAPhaseSpreadsAsBetweenHalfSpaces)
+    {
+      constexpr double end = 0.004, at = 0.537, cold = 0.1, warm = 0.8;
+      for(const int n : {8, 16, 32})
+      {
+        const Course record = run(slab_in_contact(at, cold, warm, end), n);
+        for(std::size_t i = 0; i < record.temperature.size(); ++i)
+          EXPECT_NEAR(
+              record.temperature[i],
+              (cold + warm) / 2
+                  + (warm - cold) / 2
+                        * std::erf((record.positions[0][i] - at) / (2 * std::sqrt(end))),
+              2e-4);
+        EXPECT_LE(record.worst_budget_defect(), 1e-12);
+      }
+    }
+
     cases::Scene cooled_bar(const double end)
     {
       cases::Scene scene = slab(unit_material(), 1, 0, 0, end);
