@@ -1,6 +1,7 @@
 #ifndef meltfront_reference_fem_enthalpy_deal_mesh_h
 #define meltfront_reference_fem_enthalpy_deal_mesh_h
 
+#include <reference_fem/enthalpy/cell_geometry.h>
 #include <reference_fem/enthalpy/cell_rules.h>
 #include <reference_fem/enthalpy/mesh.h>
 #include <reference_fem/enthalpy/shaped_triangulation.h>
@@ -56,6 +57,13 @@ namespace meltfront::reference_fem
 
     std::vector<unsigned int> sites(const Cell &cell) const;
     std::vector<unsigned int> neighbours_at_most() const;
+    std::vector<char>
+    cells_about_fronts(dealii::FEValues<dim> &values,
+                       const std::function<bool(const cases::Position &)> &solid) const;
+    std::vector<double>
+    excess_about_corners(const CellGeometry<dim> &geometry,
+                         const std::function<double(const cases::Position &)> &function,
+                         double usual) const;
     void integrate_cells(Discretisation &result) const;
 
     /** Conductivity of a cell over that outside of the inclusion. */

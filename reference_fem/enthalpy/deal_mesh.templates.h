@@ -2,7 +2,6 @@
 #define meltfront_reference_fem_enthalpy_deal_mesh_templates_h
 
 #include <cases/error.h>
-#include <reference_fem/enthalpy/cell_geometry.h>
 #include <reference_fem/enthalpy/deal_mesh.h>
 #include <reference_fem/enthalpy/integrals_about_corners.h>
 
@@ -115,6 +114,54 @@ namespace meltfront::reference_fem
     return result;
   }
 
+  /** Whether cells, by their active index, hold both phases or are beside such: a front
+   * that cuts off a cell's corner is seen in the cells beside it. */
+  template <int dim>
+  std::vector<char> DealMesh<dim>::cells_about_fronts(
+      dealii::FEValues<dim> &values,
+      const std::function<bool(const cases::Position &)> &solid) const
+  {
+    constexpr char is_solid = 1, is_liquid = 2, both = is_solid | is_liquid;
+    std::vector<char> phases(n_nodes, 0);
+    for(const auto &cell : dof_handler.active_cell_iterators())
+    {
+      values.reinit(cell);
+      char found = 0;
+      for(const unsigned int q : values.quadrature_point_indices())
+        found |= solid(position<dim>(values.quadrature_point(q))) ? is_solid : is_liquid;
+      for(const unsigned int site : sites(cell))
+        phases[node_of_site[site]] |= found;
+    }
+    std::vector<char> result;
+    for(const auto &cell : dof_handler.active_cell_iterators())
+    {
+      char found = 0;
+      for(const unsigned int site : sites(cell))
+        found |= phases[node_of_site[site]];
+      result.push_back(found == both);
+    }
+    return result;
+  }
+
+  /** Integrals of what a function is more than `usual` over the parts of a cell nearest
+   * to its corners. */
+  template <int dim>
+  std::vector<double> DealMesh<dim>::excess_about_corners(
+      const CellGeometry<dim> &geometry,
+      const std::function<double(const cases::Position &)> &function, double usual) const
+  {
+    const auto excess_at = [&](const cases::Position &in_unit)
+    {
+      dealii::Point<dim> unit;
+      for(unsigned int d = 0; d < dim; ++d)
+        unit[d] = in_unit[d];
+      const auto place = geometry(unit);
+      return place.volume * weight(place.point)
+             * (function(position<dim>(place.point)) - usual);
+    };
+    return integrals_about_corners(excess_at, dim);
+  }
+
   template <int dim>
   std::vector<double> DealMesh<dim>::node_averages(
       const std::function<double(const cases::Position &)> &function,
@@ -126,19 +173,7 @@ namespace meltfront::reference_fem
     const std::vector<unsigned int> nearest_of_smooth
         = rules.nearest_corners(rules.smooth),
         nearest_of_many = rules.nearest_corners(rules.jumps);
-    // The phases of the cells around a node: a front that cuts off a cell's corner is
-    // seen in the cells beside it.
-    constexpr char is_solid = 1, is_liquid = 2;
-    std::vector<char> phases(n_nodes, 0);
-    for(const auto &cell : dof_handler.active_cell_iterators())
-    {
-      smooth.reinit(cell);
-      char found = 0;
-      for(const unsigned int q : smooth.quadrature_point_indices())
-        found |= solid(position<dim>(smooth.quadrature_point(q))) ? is_solid : is_liquid;
-      for(const unsigned int site : sites(cell))
-        phases[node_of_site[site]] |= found;
-    }
+    const std::vector<char> about_fronts = cells_about_fronts(smooth, solid);
     std::optional<CellGeometry<dim>> geometry;
     if(!rules.simplices)
       geometry.emplace(*rules.mapping, *rules.element);
@@ -146,19 +181,15 @@ namespace meltfront::reference_fem
     for(const auto &cell : dof_handler.active_cell_iterators())
     {
       const auto corners = sites(cell);
-      char found = 0;
-      for(const unsigned int site : corners)
-        found |= phases[node_of_site[site]];
-      const bool may_jump = jumps || found == (is_solid | is_liquid);
-      const bool by_parts = may_jump && !rules.simplices;
-      const auto &nearest
-          = may_jump && rules.simplices ? nearest_of_many : nearest_of_smooth;
-      dealii::FEValues<dim> &values = may_jump && rules.simplices ? many : smooth;
+      const bool may_jump = jumps || about_fronts[cell->active_cell_index()];
+      const bool by_parts = may_jump && geometry, by_many = may_jump && !geometry;
+      dealii::FEValues<dim> &values = by_many ? many : smooth;
       values.reinit(cell);
       const double usual = by_parts ? function(position<dim>(cell->center())) : 0;
       for(const unsigned int q : values.quadrature_point_indices())
       {
-        const unsigned int i = node_of_site[corners[nearest[q]]];
+        const unsigned int nearest = (by_many ? nearest_of_many : nearest_of_smooth)[q];
+        const unsigned int i = node_of_site[corners[nearest]];
         const double measure = values.JxW(q) * weight(values.quadrature_point(q));
         sum[i]
             += measure
@@ -168,16 +199,7 @@ namespace meltfront::reference_fem
       if(!by_parts)
         continue;
       geometry->reinit(cell);
-      const auto excess_at = [&](const cases::Position &in_unit)
-      {
-        dealii::Point<dim> unit;
-        for(unsigned int d = 0; d < dim; ++d)
-          unit[d] = in_unit[d];
-        const auto place = (*geometry)(unit);
-        return place.volume * weight(place.point)
-               * (function(position<dim>(place.point)) - usual);
-      };
-      const std::vector<double> excess = integrals_about_corners(excess_at, dim);
+      const std::vector<double> excess = excess_about_corners(*geometry, function, usual);
       for(unsigned int a = 0; a < corners.size(); ++a)
         sum[node_of_site[corners[a]]] += excess[a];
     }
