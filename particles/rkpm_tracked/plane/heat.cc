@@ -144,7 +144,7 @@ namespace meltfront::particles::rkpm_tracked
           = std::abs(index->signed_distance(nodes.position[wall.node], nodes.spacing));
       wall_areas[w] = nodes.weight[wall.node]
                       * std::clamp(2 * distance / nodes.spacing - 1, 0., 1.);
-      beside_films[w] = film_width(front, wall, distance) <= nodes.spacing / 2;
+      beside_films[w] = distance <= nodes.spacing / 2 && runs_along(front, wall);
     }
     before.resize(front.size());
     after.resize(front.size());
@@ -161,19 +161,14 @@ namespace meltfront::particles::rkpm_tracked
       maker.set_front(front, *index, state.phase);
   }
 
-  /** How far the front is from a wall along the wall's normal, by the straight line
-   * through its particle nearest to a node (m): of one that meets the wall at a right
-   * angle no end. What is left in a corner has no width but its distance. */
-  double PlaneHeat::film_width(const PlaneFront &front, const WallNode &wall,
-                               double distance) const
+  /** Whether the front runs along a wall at a node rather than meets it there, by its
+   * particle nearest to the node. What is left in a corner it runs along. */
+  bool PlaneHeat::runs_along(const PlaneFront &front, const WallNode &wall) const
   {
+    constexpr double steepest = 0.5; // cosine between the normals: 60 degrees
     const long nearest = front_bins.nearest(nodes.position[wall.node]);
-    if(wall.n_pieces > 1 || !(distance < nodes.spacing) || nearest < 0)
-      return distance;
-    constexpr double least_cosine = 1e-3;
-    return distance
-           / std::max(least_cosine,
-                      std::abs(wall.pieces[0].normal.dot(front.normal[nearest])));
+    return wall.n_pieces > 1 || nearest < 0
+           || std::abs(wall.pieces[0].normal.dot(front.normal[nearest])) >= steepest;
   }
 
   void PlaneHeat::make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,

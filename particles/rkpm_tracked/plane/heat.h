@@ -185,8 +185,7 @@ namespace meltfront::particles::rkpm_tracked
 
     const cases::PhaseProperties &properties(NodePhase phase) const;
     void make_rows(const PlaneState &state);
-    double film_width(const PlaneFront &front, const WallNode &wall,
-                      double distance) const;
+    bool runs_along(const PlaneFront &front, const WallNode &wall) const;
     void make_row(StencilMaker &maker, PlaneStencil &stencil, NodePhase phase,
                   std::size_t node);
     void make_front_stencils(const PlaneState &state);
