@@ -264,10 +264,11 @@ namespace meltfront::particles::rkpm_tracked
   }
 
   /** Whether what is left of a body about the axis is so small that its heat is round-off
-   * of that of the others, and its speed with it. None grows from there. */
+   * of that of the others, and its speed with it. None grows from there but into a phase
+   * that is undercooled or superheated. */
   bool LineStepper::gone_at_centre() const
   {
-    return problem.axis && !state().fronts.empty()
+    return problem.axis && !problem.metastable && !state().fronts.empty()
            && state().fronts.front() - problem.nodes.front()
                   < least_body * problem.spacing;
   }
